@@ -1,7 +1,11 @@
-// castRaySet() of a library that was built without Embree.
+// ray_yardstick.h of a library that was built without Embree.
 #include "middleware/scene/ray_yardstick.h"
 
 namespace foretouch {
+
+bool canCastRays() {
+  return false;
+}
 
 Result<int> castRaySet(const Scene& /*scene*/,
                        const std::array<RaySegment, kRaysPerSet>& /*rays*/) {

@@ -6,6 +6,10 @@
 
 namespace foretouch {
 
+bool canCastRays() {
+  return true;
+}
+
 Result<int> castRaySet(const Scene& scene, const std::array<RaySegment, kRaysPerSet>& rays) {
   FORETOUCH_TRY(const auto triangles, scene.parts().embreeTriangles());
   int hits = 0;

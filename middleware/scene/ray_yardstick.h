@@ -18,6 +18,9 @@ struct RaySegment {
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();  ///< W, metres.
 };
 
+/// Not where this library was built without Embree.
+[[nodiscard]] bool canCastRays();
+
 /// Casts the set with rtcOccluded1, one ray at a time, and counts the rays that hit something.
 /// The first call builds the scene's ray structures; do not time that one. Errors: DeviceFailed,
 /// also where this library was built without Embree.

@@ -24,6 +24,10 @@ same_answers() { diff -q <(untimed "$1") <(untimed "$2"); }
 untimed() { sed 's/"latency_us":\([0-9.e+-]*\|{[^}]*}\)//' "$1"; }
 replay_of() { echo replay --scene "$1/room.obj" --avatar "$1/dancer.avatar.json" --motion "$1/dancer.bvh" \
   --output "$2/contacts.jsonl" --report "$2/report.html"; }
+in_root() {  # the program of the archive, in its root
+  unshare --mount --pid --fork bash -c 'mount -t proc proc "$1/proc" && exec chroot "$@"' - "$scratch/root" \
+    /opt/foretouch/bin/foretouch "$@"
+}
 seconds_since() { awk -v a="$1" -v b="$(date +%s.%N)" 'BEGIN { printf "%.1f", b - a }'; }
 
 if [ "$(id -u)" -eq 0 ]; then
@@ -34,11 +38,14 @@ if [ "$(id -u)" -eq 0 ]; then
   mknod -m 666 "$scratch/root/dev/null" c 1 3
   unpacked=$(date +%s.%N)
   # shellcheck disable=SC2046
-  unshare --mount --pid --fork bash -c 'mount -t proc proc "$1/proc" && shift && exec chroot "$@"' - "$scratch/root" \
-    "$scratch/root" /opt/foretouch/bin/foretouch $(replay_of $examples /data) >"$scratch/replay.txt"
+  in_root $(replay_of $examples /data) >"$scratch/replay.txt"
   is_answer "$scratch/root/data"
   say "from unpacked to the report in $(seconds_since "$unpacked") s, unpacking in $(awk -v a="$began" -v b="$unpacked" 'BEGIN { printf "%.1f", b - a }') s"
   cp "$scratch/root/data/contacts.jsonl" "$scratch/contacts.jsonl"
+  say "README's first line: the demonstration"
+  in_root demo --output /data/demo.jsonl >"$scratch/demo.txt"
+  grep -q 'The dancer touches the room' "$scratch/demo.txt"
+  grep -q '</html>' "$scratch/root/data/demo.html"
   say "the archive once more over itself, which changes nothing"
   (cd "$scratch/root/opt" && find . -type f -exec sha256sum {} + | sort >"$scratch/before")
   mv "$scratch/root/opt/foretouch" "$scratch/root/opt/$(basename "$archive" .tar.xz)"

@@ -9,6 +9,7 @@
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
+#include "middleware/scene/ray_yardstick.h"
 #include "tools/audit/audits.h"
 #include "tools/commands/open_page.h"
 #include "tools/commands/replay_command.h"
@@ -119,7 +120,7 @@ ExitCode runDemo(const AskedDemo& asked) {
   job.outputPath = asked.output;
   job.report.path = asked.report.empty() ? defaultReport(asked.output) : asked.report;
   job.options.compareRigid = true;
-  job.options.rays = true;
+  job.options.rays = canCastRays();
   const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(job.report.path);
   const auto done = runReplay(job, [&](const ReplaySummary& summary) {
     const std::string text = inWords(summary) + "page:    " + job.report.path +
