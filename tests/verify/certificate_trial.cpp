@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "assets/avatar/avatar_file.h"
+#include "assets/certificate/certificate_writer.h"
 #include "middleware/query/query.h"
 #include "tests/support/random_geometry.h"
-#include "tools/certificate/certificate_writer.h"
 #include "verify/certificate.h"
 #include "verify/motion.h"
 #include "verify/proof.h"
@@ -209,7 +209,7 @@ bool tell(int kind, const Edge& edge, Statement& statement, Random& random) {
 /// The texts of the edge, read by the verifier's own readers. Empty, or what they say.
 std::string readStatement(const Edge& edge, const std::string& steps, const std::string& proof,
                           Statement& statement) {
-  std::string what = verify::readScene(tools::sceneAsObj(edge.scene), statement.triangles).what;
+  std::string what = verify::readScene(sceneAsObj(edge.scene), statement.triangles).what;
   what += verify::readAvatar(formatAvatar(edge.avatar), statement.links).what;
   what += verify::readSteps("foretouch-steps 1\n" + steps, statement.links.size(), statement.steps)
               .what;
@@ -271,14 +271,14 @@ std::string runCertificateTrial(std::uint64_t seed, int lies, CertificateTally& 
   ++tally.clear;
 
   start = Clock::now();
-  tools::CertificateWriter writer(edge.avatar, edge.scene);
+  CertificateWriter writer(edge.avatar, edge.scene);
   const std::string proof = writer.step(7, edge.motion, links);
   tally.writeS += secondsSince(start);
   tally.bytes += static_cast<std::int64_t>(proof.size());
   tally.unproven += writer.counts().unproven > 0 ? 1 : 0;
   if (writer.counts().unproven > 0) return "no proof was found";
   Statement statement;
-  std::string what = readStatement(edge, tools::stepText(7, from, to), proof, statement);
+  std::string what = readStatement(edge, stepText(7, from, to), proof, statement);
   if (!what.empty()) return "the verifier cannot read it: " + what;
   verify::Tally found;
   start = Clock::now();

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "assets/certificate/certificate_writer.h"
 #include "tests/support/holds.h"
 #include "tests/support/random_motion.h"
 #include "tests/verify/certificate_trial.h"
-#include "tools/certificate/certificate_writer.h"
 #include "verify/certificate.h"
 #include "verify/interval.h"
 #include "verify/motion.h"
@@ -79,7 +79,7 @@ ReadMotion readMotion(const RandomMotion& m) {
     link.parent = m.skeleton.parent(j) == kNoParent ? -1 : m.skeleton.parent(j);
     read.links.push_back(link);
   }
-  EXPECT_EQ(verify::readSteps("foretouch-steps 1\n" + tools::stepText(0, m.from, m.to),
+  EXPECT_EQ(verify::readSteps("foretouch-steps 1\n" + stepText(0, m.from, m.to),
                               read.links.size(), read.steps)
                 .what,
             "");

@@ -10,10 +10,10 @@
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
+#include "assets/certificate/certificate_writer.h"
 #include "assets/json_writer.h"
 #include "assets/text_file.h"
 #include "middleware/query/query.h"
-#include "tools/certificate/certificate_writer.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"

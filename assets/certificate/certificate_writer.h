@@ -1,4 +1,4 @@
-// tools/certificate/certificate_writer.h: planes and spans that show that a link touches nothing
+// assets/certificate/certificate_writer.h: planes and spans that show that a link touches nothing
 // (docs/certificates.md). Slow, and apart from the kernel: it takes the kernel's answer and looks
 // for a proof of it that foretouch-verify, which shares no code with either, can check.
 #pragma once
@@ -15,7 +15,7 @@
 #include "articulated/pose.h"
 #include "middleware/scene/scene.h"
 
-namespace foretouch::tools {
+namespace foretouch {
 
 struct CertificateCounts {
   std::int64_t links = 0, capsules = 0, spans = 0, planes = 0;
@@ -62,4 +62,4 @@ class CertificateWriter {
 /// A step's two poses as foretouch-steps has them.
 [[nodiscard]] std::string stepText(std::int64_t number, const Pose& from, const Pose& to);
 
-}  // namespace foretouch::tools
+}  // namespace foretouch

@@ -1,4 +1,4 @@
-#include "tools/certificate/certificate_writer.h"
+#include "assets/certificate/certificate_writer.h"
 
 #include <algorithm>
 #include <array>
@@ -9,12 +9,13 @@
 
 #include <Eigen/Geometry>
 
+#include "assets/decimal.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
 #include "lss/lss.h"
 #include "lss/segment_triangle.h"
 
-namespace foretouch::tools {
+namespace foretouch {
 namespace {
 
 /// What both sides of a plane keep from it (m), against the rounding of either program: 1e-16 of a
@@ -31,7 +32,7 @@ constexpr std::size_t kMostPlanes = 8;
 double inFewDigits(double number) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, number, std::chars_format::general, 7);
-  std::from_chars(text, end.ptr, number);
+  internal::readDecimal(text, end.ptr, number);
   return number;
 }
 
@@ -260,4 +261,4 @@ std::string stepText(std::int64_t number, const Pose& from, const Pose& to) {
   return text;
 }
 
-}  // namespace foretouch::tools
+}  // namespace foretouch
