@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "assets/decimal.h"
 #include "assets/json_writer.h"
@@ -31,8 +31,8 @@ constexpr std::size_t kMostPlanes = 8;
 /// Short, and the very number that is written.
 double inFewDigits(double number) {
   char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, number, std::chars_format::general, 7);
-  internal::readDecimal(text, end.ptr, number);
+  const auto end = fmt::format_to_n(text, sizeof text, "{:.7g}", number);
+  internal::readDecimal(text, end.out, number);
   return number;
 }
 

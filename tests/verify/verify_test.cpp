@@ -79,8 +79,8 @@ ReadMotion readMotion(const RandomMotion& m) {
     link.parent = m.skeleton.parent(j) == kNoParent ? -1 : m.skeleton.parent(j);
     read.links.push_back(link);
   }
-  EXPECT_EQ(verify::readSteps("foretouch-steps 1\n" + stepText(0, m.from, m.to),
-                              read.links.size(), read.steps)
+  EXPECT_EQ(verify::readSteps("foretouch-steps 1\n" + stepText(0, m.from, m.to), read.links.size(),
+                              read.steps)
                 .what,
             "");
   return read;
