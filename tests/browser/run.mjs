@@ -1,6 +1,6 @@
 // The pages as a person sees them, in Chromium, made by the built program.
-//   node tests/browser/run.mjs [--program FORETOUCH] [--viewer FOLDER] [--only report,world,motion,live]
-//       [--transforms VIEW_TRANSFORMS] [--examples FOLDER] [--data FOLDER] [--shots FOLDER]
+//   node tests/browser/run.mjs [--program FORETOUCH] [--viewer FOLDER] [--only report,world,motion,live,page]
+//       [--transforms VIEW_TRANSFORMS] [--examples FOLDER] [--data FOLDER] [--shots FOLDER] [--page FILE]
 // Runs in a network namespace of its own where the system allows one. Exit code 77: nothing can run here.
 
 import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
@@ -11,7 +11,7 @@ import { ranInNamespace } from "./namespace.mjs";
 import { Skipped, missingFor, settingFrom } from "./setting.mjs";
 
 const allSkipped = 77;
-const suites = ["report", "world", "motion", "live"];
+const suites = ["report", "world", "motion", "live", "page"];
 
 const setting = settingFrom(process.argv.slice(2));
 const missing = missingFor(setting);

@@ -15,7 +15,7 @@ export function settingFrom(words) {
   const text = { type: "string" };
   const { values } = parseArgs({
     args: words,
-    options: { program: text, transforms: text, viewer: text, examples: text, data: text, shots: text, only: text },
+    options: { program: text, transforms: text, viewer: text, examples: text, data: text, shots: text, only: text, page: text },
   });
   const program = resolve(values.program ?? join(source, "build/release/bin/foretouch"));
   const bin = dirname(program);
@@ -27,6 +27,7 @@ export function settingFrom(words) {
     examples: resolve(values.examples ?? join(bin, "../share/foretouch/examples")),
     data: resolve(values.data ?? process.env.FORETOUCH_DATA ?? join(source, "../shared/data")),
     shots: resolve(values.shots ?? join(bin, "../browser")),
+    page: resolve(values.page ?? join(source, "build/page/foretouch.html")),
     only: values.only?.split(",") ?? null,
     chromium: process.env.CHROMIUM ?? "/usr/bin/chromium",
   };

@@ -2,7 +2,7 @@
 # fails where it was not built from the sources beside it. cmake -DSOURCE_DIR=... -P this
 set(viewer ${SOURCE_DIR}/viewer)
 file(GLOB_RECURSE paths RELATIVE ${viewer} ${viewer}/src/*)
-list(APPEND paths index.html package-lock.json package.json tsconfig.json vite.config.ts)
+list(APPEND paths index.html package-lock.json package.json single_page.ts tsconfig.json vite.config.ts)
 list(SORT paths)
 
 # As viewer/vite.config.ts computes it: of the lines "HASH  PATH", in order of the paths.
