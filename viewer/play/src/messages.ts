@@ -1,7 +1,7 @@
 // What the page asks of its worker, where the library is, and what comes back. One answer per
 // question, in order.
 
-import type { Contact, Link, Pose, SolidTick, SweptSurface } from "../../../bindings/wasm/foretouch.js";
+import type { Contact, Link, Point, Pose, SolidTick, SweptSurface } from "../../../bindings/wasm/foretouch.js";
 
 export interface Body {
   readonly name: string;
@@ -41,7 +41,7 @@ export interface Questions {
   proof: { ask: { links: readonly number[]; time: number }; answer: ProofPlane[] };
   follow: { ask: { tracked: Pose; seconds: number; isTracked?: boolean[] }; answer: { tick: SolidTick; microseconds: number } };
   /** Two bodies at once: the hands of WebXR. */
-  hands: { ask: { hands: ({ tracked: Pose; isTracked: boolean[] } | null)[]; seconds: number }; answer: { ticks: (SolidTick | null)[]; microseconds: number } };
+  hands: { ask: { hands: ({ tracked: Pose; isTracked: boolean[] } | null)[]; seconds: number }; answer: { ticks: (SolidTick | null)[]; /** Where each wrist went, piece by piece in straight lines. */ ways: Point[][]; microseconds: number } };
   makeHands: { ask: { links: (readonly Link[])[] }; answer: Body[] };
   reset: { ask: Record<string, never>; answer: Record<string, never> };
 }

@@ -25,7 +25,7 @@ export interface Mark {
   readonly length: number;
 }
 
-const planeSide = 0.16, markRadius = 0.007;
+const planeSide = 0.16, markRadius = 0.007, headShare = 0.25;
 
 /** What the viewer's drawing knows of a scene; its objects are runs of triangles. */
 function drawnScene({ name, positions, indices, objects, objectNames }: NamedScene): Scene {
@@ -137,7 +137,7 @@ export class PlayView {
       ball.renderOrder = 8;
       this.marks.add(ball);
       if (length <= 0 || Math.hypot(...normal) === 0) continue;
-      const arrow = new THREE.ArrowHelper(new THREE.Vector3(...normal), new THREE.Vector3(...point), length, this.palette.touching, 0.35 * length, 0.2 * length);
+      const arrow = new THREE.ArrowHelper(new THREE.Vector3(...normal), new THREE.Vector3(...point), length, this.palette.touching, headShare * length, headShare * length / 2);
       this.marks.add(arrow);
     }
     this.stage.draw();

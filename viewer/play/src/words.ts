@@ -67,5 +67,6 @@ function stepCard(play: Play, { contacts, clearLinks, planes, seesProof }: Said)
   const lines = [...contacts].sort((a, b) => a.toi - b.toi).slice(0, 8).map((one) => contactLine(play, one));
   const proof = !seesProof ? "" : planes.length > 0 ? ` The ${planes.length} planes part some of them from what is near, at this instant.` : " At this instant boxes are enough to part those looked at from what is near.";
   const clear = element("p", { text: `${clearLinks} links touch nothing: proven, at every instant between the poses.${proof}` });
-  return lines.length === 0 ? card("Step", clear) : card("Step", definitionTable(lines), clear);
+  const parts = [...(lines.length > 0 ? [definitionTable(lines)] : []), ...(clearLinks > 0 ? [clear] : [])];
+  return card("Step", ...parts);
 }

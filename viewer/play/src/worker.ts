@@ -1,6 +1,6 @@
 // The library, in a thread of its own: the page stays smooth whatever is asked.
 
-import type { Avatar, Clip, Link, Query, Scene, Solid } from "../../../bindings/wasm/foretouch.js";
+import type { Avatar, Clip, Link, Point, Pose, Query, Scene, Solid } from "../../../bindings/wasm/foretouch.js";
 import { Foretouch } from "../../../bindings/wasm/foretouch.js";
 import { planesAt } from "./certificate.js";
 import type { Answer, Ask, Body, Name, Question, Reply } from "./messages.js";
@@ -58,6 +58,10 @@ function take(name: string, body: Avatar, ofClip: Clip | null, lifts: boolean): 
   return bodyOf(name, body);
 }
 
+function rootOf({ translations }: Pose): Point {
+  return [translations[0], translations[1], translations[2]];
+}
+
 function timed<T>(call: () => T): { value: T; microseconds: number } {
   const begin = performance.now(), value = call();
   return { value, microseconds: 1e3 * (performance.now() - begin) };
@@ -103,7 +107,8 @@ const answers: { [N in Name]: (given: Ask<N>) => Answer<N> | Promise<Answer<N>> 
   hands: ({ hands: given, seconds }) => {
     const { value, microseconds } = timed(() =>
       given.map((one, index) => (one === null ? null : needed(hands[index].solid, "scene").follow(one.tracked, seconds, one.isTracked))));
-    return { ticks: value, microseconds };
+    const ways = value.map((tick, index) => Array.from({ length: tick?.wayCount ?? 0 }, (_, piece) => rootOf(needed(hands[index].solid, "scene").way(piece).pose)));
+    return { ticks: value, ways, microseconds };
   },
   reset: () => {
     solid?.reset();

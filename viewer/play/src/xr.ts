@@ -1,7 +1,7 @@
 // "Reach in": a WebXR session whose two tracked hands are solid in the room. What is shown are the
 // library's hands; where the tracker says that they are is a ghost.
 
-import type { Pose, SolidTick } from "../../../bindings/wasm/foretouch.js";
+import type { Point, Pose, SolidTick } from "../../../bindings/wasm/foretouch.js";
 import type { Engine } from "./engine.js";
 import { Refused } from "./engine.js";
 import type { PlayView } from "./play_view.js";
@@ -12,12 +12,17 @@ const sides = ["left", "right"] as const;
 /** Where a browser does not say how thick a joint is, metres. */
 const usualRadius = 0.008;
 const longestTick = 0.1;
+/** Of what a session has shown, pieces and answers. */
+const mostKept = 10000;
 
 /** What a session has shown so far. */
 export interface Reached {
   readonly frames: number;
   readonly ticks: readonly (SolidTick | null)[];
   readonly tracked: readonly (Pose | null)[];
+  /** Where each shown wrist went, in straight lines: the last of it. */
+  readonly ways: readonly (readonly Point[])[];
+  readonly areCertified: boolean;
   readonly microseconds: readonly number[];
 }
 
@@ -26,7 +31,7 @@ export async function hasVr(): Promise<boolean> {
 }
 
 export class Reach {
-  reached: Reached = { frames: 0, ticks: [null, null], tracked: [null, null], microseconds: [] };
+  reached: Reached = { frames: 0, ticks: [null, null], tracked: [null, null], ways: [[], []], areCertified: true, microseconds: [] };
   private isAsking = false;
   private areHandsMade = false;
   private lastTime = 0;
@@ -95,7 +100,7 @@ export class Reach {
     }
     const poses = joints.map(poseOfHand);
     const hands = poses.map((pose, side) => ({ tracked: pose, isTracked: handJoints.map(() => tracked[side] !== null) }));
-    const { ticks, microseconds } = await this.engine.ask("hands", { hands, seconds });
+    const { ticks, ways, microseconds } = await this.engine.ask("hands", { hands, seconds });
     ticks.forEach((tick, side) => {
       if (tick === null) return;
       const figure = this.view.hands[side];
@@ -103,6 +108,14 @@ export class Reach {
       figure.ghost("tracked", tick.state === "equal" ? null : poses[side]);
       this.view.paintHand(side, new Set(tick.contacts.map(({ link }) => link)));
     });
-    this.reached = { ...this.reached, ticks, tracked: poses, microseconds: [...this.reached.microseconds.slice(-9999), microseconds] };
+    const { reached } = this;
+    this.reached = {
+      ...reached,
+      ticks,
+      tracked: poses,
+      ways: ways.map((way, side) => [...reached.ways[side].slice(-mostKept), ...way]),
+      areCertified: reached.areCertified && ticks.every((tick) => tick?.isCertified ?? true),
+      microseconds: [...reached.microseconds.slice(-mostKept), microseconds],
+    };
   }
 }
