@@ -26,6 +26,7 @@ const page = singlePage({
   packages: ["three", "uplot"],
   folder: "node_modules",
   fileName: "viewer.html",
+  isPacked: false,
   scripts: "",
   policies: "connect-src 'self'",
   head: `<meta name="foretouch-sources" content="${stamp()}">`,

@@ -30,7 +30,7 @@ export class Browsing {
     const address = pathToFileURL(path).href;
     const visit = await this.visit({ ...options, isOwn: (url) => url === address });
     await visit.page.goto(address);
-    await visit.page.evaluate(() => window.foretouch.ready);
+    await ready(visit.page);
     await settled(visit.page);
     return visit;
   }
@@ -73,6 +73,12 @@ class Visit {
     await this.context.close();
     this.expectNoComplaint();
   }
+}
+
+/** Until the page's script is there (a packed one unpacks itself first), and has shown what it has. */
+export async function ready(page) {
+  await page.waitForFunction(() => window.foretouch !== undefined, null, { timeout: patience });
+  await page.evaluate(() => window.foretouch.ready);
 }
 
 /** Until no more frames are drawn: nothing moves on the page. */

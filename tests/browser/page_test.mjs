@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { Browsing, noWebGL, patience, settled } from "./browsing.mjs";
+import { Browsing, noWebGL, patience, ready, settled } from "./browsing.mjs";
 import { coloursOf, countAround, isAvatarColour, isContactColour, pixelsOf } from "./pixels.mjs";
 import { resultsIn, run } from "./programs.mjs";
 import { Skipped } from "./setting.mjs";
@@ -184,7 +184,7 @@ class OpenedPage {
       window.headset = device;
     });
     await page.goto(`file://${this.setting.page}`);
-    await page.evaluate(() => window.foretouch.ready);
+    await ready(page);
     await page.waitForSelector("#enter:not([hidden])");
     await page.evaluate(() => {
       window.headset.position.set(0, 1.6, 0.3);
@@ -226,7 +226,7 @@ class OpenedPage {
     try {
       const visit = await browsing.visit({ isOwn: (url) => url.startsWith("file:") });
       await visit.page.goto(`file://${this.setting.page}`);
-      await visit.page.evaluate(() => window.foretouch.ready);
+      await ready(visit.page);
       assert.match(await visit.page.textContent("#view"), /no WebGL/);
       await visit.page.evaluate(() => window.foretouch.setMode("step"));
       await this.#lead(visit.page, [-1.1, 1.15, -0.4]);

@@ -20,6 +20,7 @@ const page = singlePage({
   packages: ["three"],
   folder: fileURLToPath(new URL("../node_modules", import.meta.url)),
   fileName: "foretouch.html",
+  isPacked: true,
   scripts: " 'wasm-unsafe-eval' blob:",
   policies: "worker-src blob: data:; connect-src blob: data:",
   head: "",
