@@ -262,6 +262,38 @@ SoakMemory memoryOf(const std::vector<Sample>& samples, double warmUpS, double e
   return memory;
 }
 
+std::int64_t countNamed(const StatusMessage& status, const std::string& name) {
+  for (const StatusMessage::Count& count : status.counts) {
+    if (count.reason == name) return count.count;
+  }
+  return 0;
+}
+
+/// What came of the moving world. Returns the poses that were sent and are not in it.
+std::int64_t addWorldRows(const MovingRequest& moving, const LoadOutcome& outcome,
+                          BenchTable& table) {
+  const auto row = [&](const char* name, double value) {
+    table.rows.push_back({std::string(name), value});
+  };
+  const std::int64_t poses = outcome.sent + outcome.propMessages * moving.props;
+  const std::int64_t lost = poses - countNamed(outcome.status, "world-taken");
+  std::vector<double> advances(outcome.world.advanceUs.begin(), outcome.world.advanceUs.end());
+  std::sort(advances.begin(), advances.end());
+  row("world: poses of avatars and balls", static_cast<double>(poses));
+  row("world: of these, not in it", static_cast<double>(lost));
+  row("world: silences", static_cast<double>(countNamed(outcome.status, "world-silences")));
+  row("world: failures", static_cast<double>(countNamed(outcome.status, "world-failures")));
+  row("world: windows", static_cast<double>(outcome.world.advances));
+  row("world: messages missed here", static_cast<double>(outcome.world.missed));
+  row("world: timelines", static_cast<double>(outcome.world.timelines));
+  row("world: events", static_cast<double>(outcome.world.events));
+  row("world: events marked", static_cast<double>(outcome.world.marked));
+  row("world: receipt to events p50 us", valueAtRank(advances, 0.5));
+  row("world: receipt to events p99 us", valueAtRank(advances, 0.99));
+  row("world: receipt to events max us", advances.empty() ? 0.0 : advances.back());
+  return lost;
+}
+
 }  // namespace
 
 Result<SoakOutcome> soakStream(const SoakRequest& request) {
@@ -271,12 +303,17 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   load.senders = sendersOf(request.crowds);
   load.durationS = 60.0 * request.minutes;
   load.garbageShare = request.garbageShare;
+  load.moving = request.moving;
   const BenchFolder folder;
   const TroubleRequest trouble{inputs.files, load.url, static_cast<int>(load.senders.size()) + 1,
                                request.diskPath.empty() ? folder.path() : request.diskPath,
                                !request.diskPath.empty()};
   auto arguments = serviceArguments(inputs.files, load.senders.size() + (request.isCalm ? 0 : 1),
                                     request.workers, std::string());
+  if (request.moving.props > 0) {
+    FORETOUCH_TRY(const auto world, writeLoadWorld(folder, inputs.files, load.senders.size()));
+    arguments = {"--world", world, "--workers", std::to_string(request.workers)};
+  }
   if (!request.isCalm) {
     const auto more = SoakTrouble::arguments(trouble.logFolder);
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -340,6 +377,7 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   row("senders killed and restarted", static_cast<double>(befell.restarts));
   row("times that the log's disk was full", static_cast<double>(befell.timesFull));
   row("viewers let go", static_cast<double>(befell.viewersLetGo));
+  if (request.moving.props > 0) soak.lost += addWorldRows(request.moving, outcome, table);
   row("round trip p50 us", valueAtRank(trips, 0.5));
   row("round trip p99.9 us", valueAtRank(trips, 0.999));
   row("round trip max us", trips.empty() ? 0.0 : trips.back());
@@ -350,6 +388,7 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   soak.report.date = dateNow();
   soak.report.machine = machineFacts();
   soak.report.workload = streamFacts(inputs, request.workers);
+  if (request.moving.props > 0) soak.report.workload.front() = {"scene", "a hall, 10 triangles"};
   soak.report.tables.push_back(std::move(table));
   const std::string passing = watch.passingFiles();
   if (!passing.empty()) soak.report.notes = {"Open at the moment with most: also " + passing + "."};

@@ -56,6 +56,7 @@ struct SoakRequest {
   double warmUpShare = 0.25;   ///< Of the time: before watching memory.
   double garbageShare = 0.01;  ///< Datagrams of garbage per pose.
   int workers = 1;
+  MovingRequest moving;  ///< With balls the service has a world; calm alone.
   bool isCalm = false;   ///< Without what bench/soak_trouble.h does.
   std::string diskPath;  ///< A folder on a small disk of its own, for the service's log: it is
                          ///< filled and emptied. Empty: the log goes to a folder that is not.
@@ -64,7 +65,7 @@ struct SoakRequest {
 
 struct SoakOutcome {
   BenchReport report;
-  std::int64_t lost = 0;
+  std::int64_t lost = 0;        ///< Poses that were not answered, or are not in the world.
   double slopeMbPerHour = 0.0;  ///< Of resident memory after warm-up, by least squares.
   double grownMb = 0.0;         ///< From the first to the last sample after warm-up.
   bool filesGrown = false;  ///< Never so few open in the last half after warm-up as in the first.

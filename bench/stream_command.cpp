@@ -18,7 +18,7 @@
 namespace foretouch::tools {
 namespace {
 
-constexpr int kMaxAvatars = 1000, kMaxWorkers = 64;
+constexpr int kMaxAvatars = 1000, kMaxWorkers = 64, kMaxProps = 1000;
 constexpr double kMaxRateHz = 100'000.0;
 /// Allowed growth of a service. Below the second one, growth is single pages and a few steps of the
 /// heap, of 128 KiB each, which give a steep slope over minutes; a sanitizer's own books take more.
@@ -26,7 +26,7 @@ constexpr double kMostMbPerHour = 1.0, kNoGrowthMb = internal::kUnderSanitizer ?
 
 struct StreamTexts {
   std::string crowds, seconds = "10", workers = "1", place = "0,0,0,0", json, csv;
-  std::string minutes = "2", garbage = "0.01", disk;
+  std::string minutes = "2", garbage = "0.01", disk, props = "0", propsRate = "60";
   bool isCalm = false;
 };
 
@@ -59,8 +59,16 @@ ExitCode runSoak(const StreamTexts& texts) {
   }
   settle.into(request.workers, parseCount("--workers", texts.workers, kMaxWorkers));
   settle.into(request.place, parsePlacement("--place", texts.place));
+  if (texts.props != "0") {
+    settle.into(request.moving.props, parseCount("--props", texts.props, kMaxProps));
+    settle.into(request.moving.rateHz, parsePositive("--props-rate", texts.propsRate));
+  }
   if (settle.error()) return failed(*settle.error());
   request.isCalm = texts.isCalm;
+  if (request.moving.props > 0 && !request.isCalm) {
+    return failed(Error::in("--props", ErrorCode::OutOfRange,
+                            "expected --calm beside it: the senders of trouble know no world"));
+  }
   request.diskPath = texts.disk;
   request.command = ownCommandLine();
   FORETOUCH_CHECK_OR(failed, enterPrivateNetwork());
@@ -143,6 +151,14 @@ void addBenchStreamCommands(CLI::App& bench, ExitCode& exit) {
                    "Folder on a small disk of its own (a tmpfs) for the service's log: the bench "
                    "fills it and empties it")
       ->type_name("FOLDER");
+  soakCommand
+      ->add_option("--props", soak->props,
+                   "Balls that move among the avatars, in a moving world; wants --calm")
+      ->type_name("N")
+      ->capture_default_str();
+  soakCommand->add_option("--props-rate", soak->propsRate, "Poses of all balls per second")
+      ->type_name("HZ")
+      ->capture_default_str();
   soakCommand->footer("Example:\n  foretouch-bench soak --minutes 150 --disk /mnt/small");
   soakCommand->callback([soak, &exit] { exit = runSoak(*soak); });
 }

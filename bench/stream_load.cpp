@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ctime>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <unordered_map>
 #include <utility>
@@ -73,11 +74,17 @@ class Senders {
           period * static_cast<double>(s) / static_cast<double>(request.senders.size());
       schedule_.push_back({period, phase, 0});
     }
+    if (request.moving.props == 0) return;
+    const auto first = static_cast<BodyNumber>(request.senders.size()) + 1;
+    props_.emplace(request.moving, startUtimeUs_, first);
+    schedule_.push_back({static_cast<double>(kNsPerS) / request.moving.rateHz, 0.0, 0});
   }
 
   [[nodiscard]] std::int64_t session() const { return startUtimeUs_; }
 
+  /// Who is there: skeletons, and bodies of a moving world.
   void sendSkeletons() {
+    if (props_) props_->tell(publisher_, utimeUs());
     Bytes payload;
     SkeletonMessage skeleton = track_.skeleton;
     for (const LoadSender& sender : request_.senders) {
@@ -106,7 +113,11 @@ class Senders {
         if (everySecond) everySecond();
         nextSecondNs += kNsPerS;
       }
-      sendPose(s, dueNs);
+      if (s < request_.senders.size()) {
+        sendPose(s, dueNs);
+      } else {
+        moveProps(s, dueNs);
+      }
       for (owed += request_.garbageShare; owed >= 1.0; owed -= 1.0) {
         garbage->send();
         ++outcome_.garbage;
@@ -149,6 +160,11 @@ class Senders {
     const std::int64_t sequence = due.sequence++;
     pose_ = poseAt(sequence);
     pose_.avatar = request_.senders[s].avatar;
+    if (props_) {
+      for (PoseTranslation& moved : pose_.translations) {
+        if (moved.joint == 0) moved.translation += placeInCrowd(s);
+      }
+    }
     pose_.session = session();
     pose_.sequence = sequence;
     pose_.utimeUs = startUtimeUs_ + (dueNs - startNs_) / 1000;
@@ -162,13 +178,21 @@ class Senders {
     outcome_.sendFailures += publisher_.publish(kPoseChannel, payload_) ? 0 : 1;
   }
 
+  void moveProps(std::size_t s, std::int64_t dueNs) {
+    ++schedule_[s].sequence;
+    ++outcome_.propMessages;
+    const std::int64_t captureUs = startUtimeUs_ + (dueNs - startNs_) / 1000;
+    outcome_.sendFailures += props_->move(publisher_, captureUs, utimeUs()) ? 0 : 1;
+  }
+
   const LoadTrack& track_;
   const LoadRequest& request_;
   Publisher& publisher_;
   SendTimes& times_;
   LoadOutcome& outcome_;
   std::int64_t startNs_ = 0, startUtimeUs_ = 0;
-  std::vector<Due> schedule_;
+  std::vector<Due> schedule_;  // of the senders; then of the balls, if there are any
+  std::optional<MovingProps> props_;
   PoseMessage pose_;
   Bytes payload_;
 };
@@ -198,6 +222,7 @@ class Answers {
   std::vector<LoadAnswer> answers;
   std::int64_t repeated = 0, gaps = 0;
   StatusMessage status;
+  MovingAnswers world;
 
  private:
   void take(const WireMessage& message, std::int64_t now) {
@@ -205,6 +230,7 @@ class Answers {
       if (decode(message.payload, heard_) == Reject::None) status = heard_;
       return;
     }
+    if (message.channel == kEventsChannel) return world.take(message.payload);
     if (decode(message.payload, contacts_) != Reject::None || contacts_.session != session) return;
     const auto found = senderOf_.find(contacts_.avatar);
     if (found == senderOf_.end()) return;
@@ -245,7 +271,8 @@ void waitForTheLast(const Answers& answers, std::int64_t sent) {
 
 Result<LoadOutcome> runLoad(const LoadTrack& track, const LoadRequest& request,
                             const std::function<void()>& everySecond) {
-  FORETOUCH_TRY(auto receiver, openUdpmReceiver(request.url, {kContactsChannel, kStatusChannel}));
+  FORETOUCH_TRY(auto receiver,
+                openUdpmReceiver(request.url, {kContactsChannel, kStatusChannel, kEventsChannel}));
   FORETOUCH_TRY(auto publisher, openUdpmPublisher(request.url));
   LoadOutcome outcome;
   SendTimes times(request);
@@ -263,6 +290,7 @@ Result<LoadOutcome> runLoad(const LoadTrack& track, const LoadRequest& request,
   outcome.repeated = answers.repeated;
   outcome.gaps = answers.gaps;
   outcome.status = std::move(answers.status);
+  outcome.world = std::move(answers.world);
   outcome.unanswered = outcome.sent - static_cast<std::int64_t>(outcome.answers.size());
   outcome.ownDrops = static_cast<std::int64_t>(receiver->counts().kernelDrops);
   return outcome;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "articulated/result.h"
+#include "bench/moving_load.h"
 #include "network/wire/messages.h"
 #include "network/wire/wire.h"
 
@@ -30,6 +31,7 @@ struct LoadRequest {
   double durationS = 10.0;
   double garbageShare = 0.0;  ///< Invalid datagrams, or wrong messages, per pose.
   std::uint64_t seed = 1;     ///< Of the garbage.
+  MovingRequest moving;       ///< With balls the avatars stand apart (placeInCrowd()).
 };
 
 struct LoadAnswer {
@@ -49,6 +51,8 @@ struct LoadOutcome {
   std::int64_t ownDrops = 0;      ///< Datagrams that the system dropped before this side read them.
   StatusMessage status;           ///< The service's last one.
   std::vector<LoadAnswer> answers;
+  std::int64_t propMessages = 0;  ///< Of all balls.
+  MovingAnswers world;
 };
 
 /// Sends from the calling thread for `durationS` and receives in another; waits for the last
