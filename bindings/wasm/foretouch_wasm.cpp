@@ -291,7 +291,10 @@ FTW_EXPORT Handle ftw_clip(std::size_t length, double scale, Handle avatar) {
     const Avatar* const body = needed(module().avatars, moved.avatar, "avatar");
     if (body == nullptr) return 0;
     auto match = matchJoints(body->skeleton(), moved.clip.skeleton);
-    if (!match.ok()) return fails(match.error());
+    if (!match.ok()) {
+      if (avatar == 0) module().avatars.remove(moved.avatar);
+      return fails(match.error());
+    }
     moved.match = std::move(match).value();
     double* const out = numbersFor(3);
     out[0] = moved.avatar;
@@ -407,7 +410,7 @@ FTW_EXPORT void ftw_query_destroy(Handle query) {
   module().queries.remove(query);
 }
 
-/// `mayMove`: whether feet below the floor lift the whole target.
+/// `liftsFeet`: whether feet below the floor lift the whole target.
 FTW_EXPORT Handle ftw_solid(Handle scene, Handle avatar, double skin, double tolerance,
                             bool liftsFeet) {
   return guarded([&]() -> Handle {
