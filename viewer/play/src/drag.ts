@@ -5,18 +5,16 @@ import * as THREE from "three";
 import type { PlayView } from "./play_view.js";
 
 export interface Drag {
-  /** Metres in W, and the link that was taken hold of. */
-  moved(by: THREE.Vector3, link: number): void;
+  /** Metres in W. */
+  moved(by: THREE.Vector3): void;
   turned(axis: THREE.Vector3, radians: number): void;
-  began(link: number): void;
-  ended(): void;
 }
 
 const radiansPerPixel = 0.008;
 
 export function listenForDrags(view: PlayView, drag: Drag): void {
   const { canvas, controls, camera } = view.stage;
-  let held: { link: number; plane: THREE.Plane; last: THREE.Vector3; x: number; y: number } | null = null;
+  let held: { plane: THREE.Plane; last: THREE.Vector3; x: number; y: number } | null = null;
   const rayOf = (event: PointerEvent): THREE.Ray => view.stage.rayThrough(event.offsetX, event.offsetY);
 
   // Before the camera's own listeners: what holds the body does not turn the camera.
@@ -28,8 +26,7 @@ export function listenForDrags(view: PlayView, drag: Drag): void {
     canvas.setPointerCapture(event.pointerId);
     const last = rayOf(event).at(hit.distance, new THREE.Vector3());
     const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(camera.getWorldDirection(new THREE.Vector3()), last);
-    held = { link: hit.link, plane, last, x: event.offsetX, y: event.offsetY };
-    drag.began(hit.link);
+    held = { plane, last, x: event.offsetX, y: event.offsetY };
   }, { capture: true });
 
   canvas.addEventListener("pointermove", (event) => {
@@ -40,7 +37,7 @@ export function listenForDrags(view: PlayView, drag: Drag): void {
     } else {
       const at = rayOf(event).intersectPlane(held.plane, new THREE.Vector3());
       if (at !== null) {
-        drag.moved(at.clone().sub(held.last), held.link);
+        drag.moved(at.clone().sub(held.last));
         held.last.copy(at);
       }
     }
@@ -51,7 +48,6 @@ export function listenForDrags(view: PlayView, drag: Drag): void {
     if (held === null) return;
     held = null;
     controls.enabled = true;
-    drag.ended();
   };
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);

@@ -21,8 +21,8 @@ import { hasVr, Reach } from "./xr.js";
 const handPlace = [-0.25, 1.1, -0.35], handDistance = 1.5, dancerPlace = [-0.2, 0.98, 0.3], dancerDistance = 3.4;
 /** In another scene: above its middle. */
 const handAbove = 0.3;
-/** What a clip's unit is, by the height of its first pose: people are between these, metres. */
-const tallest = 3, scales = [1, 0.01, 0.0254, 0.001];
+/** What a clip's unit may be, metres; and people's longest bone, a thigh or a shin. */
+const scales = [1, 0.01, 0.0254, 0.001], longestBone = 0.43;
 
 let theme = preferredTheme();
 const engine = new Engine();
@@ -117,23 +117,21 @@ async function takeAvatar(name: string, text: string): Promise<void> {
   view?.frame(dancerDistance);
 }
 
-/** BVH does not say its unit: that in which the body is as tall as people are. */
+/** BVH does not say its unit: the one in which the body is about as large as people are. */
 async function takeClip(name: string, text: string): Promise<void> {
-  for (const scale of scales) {
-    const body = await engine.ask("clip", { name, text, scale });
-    if (scale !== scales[scales.length - 1] && tallOf(body.rest.translations) > tallest) continue;
-    await play.setBody(body, null);
-    await play.setMode("step");
-    break;
-  }
+  const asWritten = await engine.ask("clip", { name, text, scale: 1 }), longest = longestIn(asWritten.rest.translations);
+  const off = (scale: number): number => Math.abs(Math.log((scale * longest) / longestBone));
+  const scale = scales.reduce((best, one) => (off(one) < off(best) ? one : best));
+  await play.setBody(scale === 1 ? asWritten : await engine.ask("clip", { name, text, scale }), null);
+  await play.setMode("step");
   view?.frame(dancerDistance);
 }
 
-/** Of the bones together, at most. */
-function tallOf(translations: Float64Array): number {
-  let sum = 0;
-  for (let i = 3; i + 2 < translations.length; i += 3) sum = Math.max(sum, Math.hypot(translations[i], translations[i + 1], translations[i + 2]));
-  return 6 * sum;
+/** Of all joints' offsets but the root's. */
+function longestIn(translations: Float64Array): number {
+  let longest = 0;
+  for (let i = 3; i + 2 < translations.length; i += 3) longest = Math.max(longest, Math.hypot(...translations.subarray(i, i + 3)));
+  return longest;
 }
 
 function listen(): void {
@@ -155,10 +153,8 @@ function listen(): void {
   byId("enter").addEventListener("click", () => act(async () => reach?.begin()));
   if (view === null) return;
   listenForDrags(view, {
-    began: () => {},
     moved: (by) => play.move(by),
     turned: (axis, radians) => play.turn(axis, radians),
-    ended: () => {},
   });
 }
 

@@ -54,6 +54,10 @@ export class Reach {
       renderer.setAnimationLoop(null);
       renderer.xr.enabled = false;
       this.view.setHands([]);
+      // The next session may be another person's.
+      this.areHandsMade = false;
+      this.kept.fill(null);
+      this.lastTime = 0;
       if (this.view.figure !== null) this.view.figure.group.visible = true;
       this.ended();
     });
