@@ -216,9 +216,31 @@ class OpenedPage {
       const y = y0 + u * (y1 - y0), z = z0 + u * (z1 - z0);
       assert.ok(y < 0.8 || y > 1.5 || z < -0.95 || z > -0.05, `through the board at y ${y}, z ${z}`);
     }
+    const room = await this.#handsInTheRoom(page);
     assert.deepEqual(complaints, []);
     await context.close();
-    return `${way.frames} frames, ${way.places.length} pieces; in the end ${way.state}`;
+    return `${way.frames} frames, ${way.places.length} pieces; in the end ${way.state}; in the bundled room ${room}`;
+  }
+
+  /** Both hands wander through 105,914 triangles; what the library's part of a frame takes is told, not judged. */
+  async #handsInTheRoom(page) {
+    await page.setInputFiles("#file", join(this.setting.examples, "room.obj"));
+    await page.waitForFunction(() => document.getElementById("panels").textContent.includes("105,914"), null, { timeout: patience });
+    const begun = await page.evaluate(() => window.foretouch.reached().microseconds.length);
+    const { count, times, areCertified } = await page.evaluate((begun) => new Promise((done) => {
+      const move = () => {
+        const { microseconds, areCertified } = window.foretouch.reached(), angle = (microseconds.length - begun) / 15;
+        window.headset.hands.left.position.set(-0.6 + 0.4 * Math.cos(angle), 1.25 + 0.15 * Math.sin(2 * angle), 0.4 * Math.sin(angle));
+        window.headset.hands.right.position.set(0.4 + 0.4 * Math.cos(angle), 1.2 + 0.15 * Math.cos(2 * angle), 0.3 - 0.4 * Math.sin(angle));
+        if (microseconds.length < begun + 200) requestAnimationFrame(move);
+        else done({ count: microseconds.length - begun, times: microseconds.slice(begun), areCertified });
+      };
+      move();
+    }), begun);
+    assert.ok(count >= 200);
+    assert.equal(areCertified, true);
+    const sorted = times.sort((a, b) => a - b);
+    return `${count} frames of both, median ${(sorted[Math.floor(count / 2)] / 1e3).toFixed(1)} ms, 99 in 100 ${(sorted[Math.floor(0.99 * count)] / 1e3).toFixed(1)} ms`;
   }
 
   async withoutWebGL() {
