@@ -74,6 +74,14 @@ struct Prepared {
   ::_exit(kExecFailed);
 }
 
+/// Not fork(): a copy of the page tables would cost a job as much as all else that we do for it. In
+/// a function of its own: nothing that the caller keeps in registers is shared with the child.
+[[gnu::noinline]] pid_t startChild(const Prepared& plan) {
+  const pid_t child = ::vfork();
+  if (child == 0) becomeChild(plan);
+  return child;
+}
+
 void keepEnd(std::string& text, std::string_view more, std::size_t most) {
   text += more;
   if (text.size() > most) text.erase(0, text.size() - most);
@@ -122,9 +130,7 @@ ChildEnd runChild(const ChildPlan& plan, const std::function<bool()>& stop) {
   const Prepared prepared{
       plan.program.c_str(), words.data(),      plan.folder.c_str(), out.writing(),
       err.writing(),        started.writing(), ::getpid()};
-  // Not fork(): a copy of the page tables would cost a job as much as all else that we do for it.
-  const pid_t child = areOpen ? ::vfork() : -1;
-  if (child == 0) becomeChild(prepared);
+  const pid_t child = areOpen ? startChild(prepared) : -1;
   if (child < 0) {
     end.failure = std::string("no process could be started: ") + std::strerror(errno);
     return end;
