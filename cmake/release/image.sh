@@ -15,4 +15,9 @@ buildah "${tools[@]}" config --entrypoint '["/opt/foretouch/bin/foretouch"]' --c
   --history-comment '' "$container"
 rm -f "$output"
 buildah "${tools[@]}" commit --quiet --disable-compression=false --timestamp "$SOURCE_DATE_EPOCH" "$container" "oci-archive:$output:foretouch:$version" >&2
+# buildah dates the files of the image, but those of its archive are as old as the archive.
+mkdir "$scratch/image"
+tar -xf "$output" -C "$scratch/image"
+tar --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$SOURCE_DATE_EPOCH" -cf "$output" -C "$scratch/image" \
+  blobs index.json oci-layout
 echo "$output"
