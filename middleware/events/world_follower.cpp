@@ -45,10 +45,24 @@ std::int64_t nextCutUs(const WorldParts& world, std::int64_t afterUs) {
   return next;
 }
 
-/// The multiple of `step` at or before the instant.
-std::int64_t multipleBefore(std::int64_t us, std::int64_t step) {
+/// How far the instant is beyond the last multiple of `step`: in [0, step).
+std::int64_t beyondMultiple(std::int64_t us, std::int64_t step) {
   const std::int64_t rest = us % step;
-  return us - (rest < 0 ? rest + step : rest);
+  return rest < 0 ? rest + step : rest;
+}
+
+/// The multiple of `step` at or before the instant; the earliest instant if there is none.
+std::int64_t multipleBefore(std::int64_t us, std::int64_t step) {
+  const std::int64_t rest = beyondMultiple(us, step);
+  return us < std::numeric_limits<std::int64_t>::min() + rest
+             ? std::numeric_limits<std::int64_t>::min()
+             : us - rest;
+}
+
+/// The first multiple after the instant; never, if there is none.
+std::int64_t multipleAfter(std::int64_t us, std::int64_t step) {
+  const std::int64_t rest = step - beyondMultiple(us, step);
+  return us > kNever - rest ? kNever : us + rest;
 }
 
 PairKey keyOf(const WorldContact& contact) {
@@ -90,16 +104,19 @@ struct WorldFollower::Impl {
     return options.cutUs > 0 ? multipleBefore(wantedUs, options.cutUs) : wantedUs;
   }
   [[nodiscard]] Result<Done> checkedCuts(std::int64_t endUs) const {
-    if (options.cutUs == 0 || (endUs - untilUs) / options.cutUs <= kMostCuts) return Done{};
+    if (options.cutUs == 0 || endUs <= untilUs) return Done{};
+    // Ages may be longer than their type holds.
+    const std::uint64_t length =
+        static_cast<std::uint64_t>(endUs) - static_cast<std::uint64_t>(untilUs);
+    if (length / static_cast<std::uint64_t>(options.cutUs) <= kMostCuts) return Done{};
     return Error::in("untilUs", ErrorCode::OutOfRange,
                      "expected at most " + std::to_string(kMostCuts) + " cuts of " +
                          std::to_string(options.cutUs) + " us in one call, found " +
                          std::to_string(untilUs) + " to " + std::to_string(endUs) + " us");
   }
   [[nodiscard]] std::int64_t nextUs(const WorldParts& parts, std::int64_t endUs) const {
-    const std::int64_t next = options.cutUs > 0
-                                  ? multipleBefore(untilUs, options.cutUs) + options.cutUs
-                                  : nextCutUs(parts, untilUs);
+    const std::int64_t next =
+        options.cutUs > 0 ? multipleAfter(untilUs, options.cutUs) : nextCutUs(parts, untilUs);
     return std::min(next, endUs);
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -449,6 +450,23 @@ TEST(WorldFollower, RefusesMoreCutsThanItCouldEverFollow) {
   WorldFollower whole = WorldFollower::start(-kMostUtimeUs).value();
   ASSERT_TRUE(whole.follow(world, kMostUtimeUs, answer).ok());  // nothing is cut
   EXPECT_EQ(answer.counters.windows, 1u);
+}
+
+TEST(WorldFollower, CutsAtTheEndsOfTimeToo) {
+  World world = worldOf();
+  ASSERT_TRUE(world.add(ball(0.1)).ok());
+  ASSERT_TRUE(world.push(0, 0, at(0.0)).ok());
+  constexpr std::int64_t kFirst = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+  FollowOptions options;
+  options.cutUs = 9'999'991;  // of which neither is a multiple
+  WorldEvents answer;
+  WorldFollower follower = followerFrom(0, options);
+  ASSERT_TRUE(follower.follow(world, kFirst, answer).ok());
+  EXPECT_EQ(follower.followedUntilUs(), 0);
+  const auto beyond = follower.follow(world, kLast, answer);
+  EXPECT_FALSE(beyond.ok());  // too many cuts, and nobody knows so far
+  EXPECT_EQ(follower.followedUntilUs(), 0);
 }
 
 TEST(WorldFollower, RefusesWorldsThatTouchByTriangles) {
