@@ -13,14 +13,14 @@ import { Engine, Refused } from "./engine.js";
 import { libraryModule } from "./module.js";
 import { Play } from "./play.js";
 import { PlayView } from "./play_view.js";
-import { ownRoom } from "./room.js";
+import { ownRoom, roomName } from "./room.js";
 import { cards, headline } from "./words.js";
 import { hasVr, Reach } from "./xr.js";
 
 /** Where the bodies begin, in the page's own room, and how far away one looks from. Metres. */
 const handPlace = [-0.25, 1.1, -0.35], handDistance = 1.5, dancerPlace = [-0.2, 0.98, 0.3], dancerDistance = 3.4;
 /** In another scene: above its middle. */
-const handAbove = 0.3;
+const above = 0.3;
 /** What a clip's unit may be, metres; and people's longest bone, a thigh or a shin. */
 const scales = [1, 0.01, 0.0254, 0.001], longestBone = 0.43;
 
@@ -28,7 +28,7 @@ let theme = preferredTheme();
 const engine = new Engine();
 const view = makeView();
 const play = new Play(engine, view, () => update());
-const controls = new Controls(play, { hand: () => act(takeHand), dancer: () => act(takeDancer), again: () => act(again), files: (files) => act(() => take(files)) });
+const controls = new Controls(play, { hand: () => act(takeHand), dancer: () => act(takeDancer), again: () => act(() => begin()), files: (files) => act(() => take(files)) });
 const reach = view === null ? null : new Reach(engine, view, () => view.frame(handDistance));
 let begin: () => Promise<void> = takeHand;
 
@@ -75,28 +75,24 @@ async function attempt(what: () => Promise<unknown>): Promise<void> {
 }
 
 /** In a scene of the person's own, in the middle and above what is there. */
-function placeFor(own: readonly number[], above: number): readonly number[] {
-  if (play.scene === null || play.scene.name === ownRoom().name || view === null) return own;
-  const { x, y, z } = view.centre;
+function placeFor(own: readonly number[]): readonly number[] {
+  if (play.scene === null || play.scene.name === roomName || view === null) return own;
+  const [x, y, z] = view.centre;
   return [x, y + above, z];
 }
 
 async function takeHand(): Promise<void> {
   begin = takeHand;
   const body = await engine.ask("links", { name: "hand", links: handLinks(), liftsFeet: false });
-  await play.setBody(body, placeFor(handPlace, handAbove));
+  await play.setBody(body, placeFor(handPlace));
   view?.frame(handDistance);
 }
 
 async function takeDancer(): Promise<void> {
   begin = takeDancer;
   const body = await engine.ask("links", { name: "dancer", links: dancerLinks(), liftsFeet: true });
-  await play.setBody(body, placeFor(dancerPlace, handAbove));
+  await play.setBody(body, placeFor(dancerPlace));
   view?.frame(dancerDistance);
-}
-
-async function again(): Promise<void> {
-  await begin();
 }
 
 async function take(files: FileList | readonly File[]): Promise<void> {

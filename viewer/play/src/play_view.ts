@@ -3,8 +3,8 @@
 
 import * as THREE from "three";
 import type { Point, SweptSurface } from "../../../bindings/wasm/foretouch.js";
-import type { Scene } from "../../src/data/document.js";
-import { boundsOfPosture } from "../../src/scene3d/bounds.js";
+import type { Bounds, Scene, Vector } from "../../src/data/document.js";
+import { ball, boundsOfPosture, emptyBounds } from "../../src/scene3d/bounds.js";
 import { ContactShadow } from "../../src/scene3d/contact_shadow.js";
 import { Cutaway } from "../../src/scene3d/cutaway.js";
 import type { Palette } from "../../src/scene3d/palette.js";
@@ -50,7 +50,7 @@ export class PlayView {
   /** The hands of WebXR. */
   hands: Figure[] = [];
   private scenery: Scenery | null = null;
-  private box = new THREE.Box3();
+  private bounds: Bounds = emptyBounds;
   private readonly cutaway = new Cutaway();
   private readonly shadow = new ContactShadow();
   private readonly swept = new THREE.Group();
@@ -59,8 +59,11 @@ export class PlayView {
   private readonly sweptMaterial = facetMaterial(0.36);
   private readonly planeMaterial = new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.28, side: THREE.DoubleSide, depthWrite: false });
   private readonly planeEdge = new THREE.LineBasicMaterial();
+  private readonly plane = new THREE.PlaneGeometry(planeSide, planeSide);
+  private readonly planeOutline = new THREE.EdgesGeometry(this.plane);
+  private readonly markBall = new THREE.SphereGeometry(markRadius, 16, 12);
   private readonly markMaterial = new THREE.MeshBasicMaterial({ depthTest: false, transparent: true });
-  private palette: Palette = palettes.light;
+  private theme: Theme = "light";
   private touching: ReadonlySet<number> = new Set();
 
   /** Throws where there is no WebGL. */
@@ -76,7 +79,7 @@ export class PlayView {
     const drawn = drawnScene(scene);
     this.scenery = new Scenery(drawn, this.cutaway, this.shadow);
     this.stage.scene.add(this.scenery.group);
-    this.box = new THREE.Box3().setFromArray(scene.positions);
+    this.bounds = drawn.bounds ?? emptyBounds;
     this.paint(this.theme);
   }
 
@@ -101,15 +104,16 @@ export class PlayView {
   }
 
   /** Of the scene's box. */
-  get centre(): THREE.Vector3 {
-    return this.box.getCenter(new THREE.Vector3());
+  get centre(): Vector {
+    return ball(this.bounds).centre;
   }
 
-  private theme: Theme = "light";
+  private get palette(): Palette {
+    return palettes[this.theme];
+  }
 
   paint(theme: Theme): void {
     this.theme = theme;
-    this.palette = palettes[theme];
     this.stage.paint(this.palette);
     this.scenery?.paint(this.palette);
     setScreenColour(this.sweptMaterial.uniforms["colour"].value as THREE.Color, this.palette.swept);
@@ -130,12 +134,13 @@ export class PlayView {
   }
 
   setMarks(marks: readonly Mark[]): void {
+    for (const child of this.marks.children) if (child instanceof THREE.ArrowHelper) child.dispose();
     this.marks.clear();
     for (const { point, normal, length } of marks) {
-      const ball = new THREE.Mesh(new THREE.SphereGeometry(markRadius, 16, 12), this.markMaterial);
-      ball.position.set(...point);
-      ball.renderOrder = 8;
-      this.marks.add(ball);
+      const spot = new THREE.Mesh(this.markBall, this.markMaterial);
+      spot.position.set(...point);
+      spot.renderOrder = 8;
+      this.marks.add(spot);
       if (length <= 0 || Math.hypot(...normal) === 0) continue;
       const arrow = new THREE.ArrowHelper(new THREE.Vector3(...normal), new THREE.Vector3(...point), length, this.palette.touching, headShare * length, headShare * length / 2);
       this.marks.add(arrow);
@@ -163,11 +168,10 @@ export class PlayView {
     const { figure } = this;
     if (figure !== null) {
       for (const { link, normal, offset } of planes) {
-        const { min, max } = boundsOfPosture({ ...figure.avatar, lss: figure.avatar.lss.filter((one) => one.link === link) }, figure.world);
-        const direction = new THREE.Vector3(...normal), middle = new THREE.Vector3(...min).add(new THREE.Vector3(...max)).multiplyScalar(0.5);
+        const ofLink = boundsOfPosture({ ...figure.avatar, lss: figure.avatar.lss.filter((one) => one.link === link) }, figure.world);
+        const direction = new THREE.Vector3(...normal), middle = new THREE.Vector3(...ball(ofLink).centre);
         middle.addScaledVector(direction, offset - direction.dot(middle));
-        const geometry = new THREE.PlaneGeometry(planeSide, planeSide);
-        const square = new THREE.Mesh(geometry, this.planeMaterial), edge = new THREE.LineSegments(new THREE.EdgesGeometry(geometry), this.planeEdge);
+        const square = new THREE.Mesh(this.plane, this.planeMaterial), edge = new THREE.LineSegments(this.planeOutline, this.planeEdge);
         for (const part of [square, edge]) {
           part.position.copy(middle);
           part.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), direction);
@@ -181,7 +185,8 @@ export class PlayView {
 
   /** Looks at the body, from above and a little from the side. */
   frame(distance = 1.6): void {
-    const target = this.figure === null ? this.centre : new THREE.Vector3(...boundsMiddle(this.figure));
+    const { figure } = this;
+    const target = new THREE.Vector3(...(figure === null ? this.centre : ball(boundsOfPosture(figure.avatar, figure.world)).centre));
     this.stage.controls.target.copy(target);
     this.stage.camera.position.copy(target).add(new THREE.Vector3(0.2, 0.45, 1).normalize().multiplyScalar(distance));
     this.stage.controls.update();
@@ -193,9 +198,4 @@ export class PlayView {
     const bodies = [...(this.figure?.group.visible === true ? [this.figure] : []), ...this.hands];
     if (bodies.length > 0) this.shadow.cast(this.stage.drawer, bodies.map(({ mesh }) => mesh), boundsOfPosture(bodies[0].avatar, bodies[0].world));
   }
-}
-
-function boundsMiddle(figure: Figure): Point {
-  const { min, max } = boundsOfPosture(figure.avatar, figure.world);
-  return [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
 }

@@ -2,6 +2,7 @@
 // browser's tracker: each joint's pose becomes one in its parent's frame.
 
 import type { Link, Point, Pose } from "../../../bindings/wasm/foretouch.js";
+import { multiply, normalise, rotate } from "../../src/motion/quaternion.js";
 
 const fingers = ["thumb", "index-finger", "middle-finger", "ring-finger", "pinky-finger"];
 const segments = ["metacarpal", "phalanx-proximal", "phalanx-intermediate", "phalanx-distal", "tip"];
@@ -25,27 +26,15 @@ export interface TrackedJoint {
   readonly radius: number;
 }
 
-type Rotation = readonly [number, number, number, number];
-
-const conjugate = ([w, x, y, z]: Rotation): Rotation => [w, -x, -y, -z];
-
-function product([a, b, c, d]: Rotation, [e, f, g, h]: Rotation): Rotation {
-  return [a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e];
-}
-
-function turned(q: Rotation, [x, y, z]: Point): Point {
-  const [, px, py, pz] = product(product(q, [0, x, y, z]), conjugate(q));
-  return [px, py, pz];
-}
-
-const minus = (a: Point, b: Point): Point => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-
 /** Of a joint in its parent's frame. */
-function local(joints: readonly TrackedJoint[], joint: number): { rotation: Rotation; place: Point } {
-  const { parent } = handJoints[joint], own = joints[joint];
-  if (parent < 0) return { rotation: own.rotation, place: own.place };
-  const back = conjugate(joints[parent].rotation);
-  return { rotation: product(back, own.rotation), place: turned(back, minus(own.place, joints[parent].place)) };
+function local(joints: readonly TrackedJoint[], joint: number): { rotation: Float64Array; place: Point } {
+  const { parent } = handJoints[joint], own = joints[joint], rotation = Float64Array.from(own.rotation);
+  if (parent < 0) return { rotation, place: own.place };
+  const above = joints[parent], [w, x, y, z] = above.rotation, back = Float64Array.of(w, -x, -y, -z);
+  const place = Float64Array.from(own.place, (value, axis) => value - above.place[axis]);
+  multiply(back, rotation, 0);
+  rotate(back, place, 0);
+  return { rotation, place: [place[0], place[1], place[2]] };
 }
 
 /** The links of a hand of this size: that of the first frame in which it was tracked. */
@@ -65,8 +54,9 @@ export function linksOfHand(joints: readonly TrackedJoint[]): Link[] {
 export function poseOfHand(joints: readonly TrackedJoint[]): Pose {
   const rotations = new Float64Array(4 * joints.length), translations = new Float64Array(3 * joints.length);
   joints.forEach((_, joint) => {
-    const { rotation, place } = local(joints, joint), length = Math.hypot(...rotation);
-    rotations.set(rotation.map((value) => value / length), 4 * joint);
+    const { rotation, place } = local(joints, joint);
+    rotations.set(rotation, 4 * joint);
+    normalise(rotations, 4 * joint);
     translations.set(place, 3 * joint);
   });
   return { rotations, translations };
