@@ -45,8 +45,7 @@ Eigen::Vector3d placeInCrowd(std::size_t index) {
           kSpacing * static_cast<double>(index / kPerRow)};
 }
 
-MovingProps::MovingProps(const MovingRequest& request, std::int64_t session, BodyNumber firstBody)
-    : first_(firstBody) {
+MovingProps::MovingProps(const MovingRequest& request, std::int64_t session, BodyNumber firstBody) {
   body_.session = pose_.session = session;
   body_.shape = kShape;
   pose_.bodies.resize(countOf(request.props));

@@ -37,15 +37,12 @@ class MovingProps {
   /// All of them at one instant. False if the system did not take it.
   bool move(Publisher& publisher, std::int64_t captureUs, std::int64_t sendUs);
 
-  [[nodiscard]] std::int64_t sent() const { return pose_.sequence; }  ///< Messages.
-
  private:
   [[nodiscard]] RigidPose poseAt(std::size_t ball, double seconds) const;
 
   BodyMessage body_;
   RigidPoseMessage pose_;
   std::int64_t startUs_ = -1, told_ = 0;
-  BodyNumber first_ = 0;
   Bytes payload_;
 };
 
@@ -57,8 +54,8 @@ struct MovingAnswers {
   std::int64_t missed = 0;    ///< Messages that never came here.
   std::int64_t events = 0, marked = 0;
   std::int64_t timelines = 0;
-  std::vector<float>
-      advanceUs;  ///< From the receipt that let the watermark advance to the sending.
+  /// From the receipt that let the watermark advance to the sending, per window.
+  std::vector<float> advanceUs;
 
  private:
   std::int64_t next_ = -1, timeline_ = -1;

@@ -361,10 +361,8 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   row("service: poses dropped by the system", static_cast<double>(outcome.status.kernelDrops));
   row("service: answers not sent", static_cast<double>(outcome.status.publishFailures));
   row("service: refused, garbage among them", static_cast<double>(outcome.status.rejected));
-  for (const StatusMessage::Count& count : outcome.status.counts) {
-    if (count.reason != toString(Reject::Overrun)) continue;
-    row("service: overrun", static_cast<double>(count.count));
-  }
+  const std::int64_t overrun = countNamed(outcome.status, toString(Reject::Overrun));
+  if (overrun > 0) row("service: overrun", static_cast<double>(overrun));
   row("resident memory, first MB", memory.firstMb);
   row("resident memory, last MB", memory.lastMb);
   row("slope after warm-up, MB/h", soak.slopeMbPerHour);
