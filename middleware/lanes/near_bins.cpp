@@ -48,7 +48,7 @@ struct PlacePairs {
   using V = hn::Vec<D>;
   Point<V> a, b, axis, vertex[3], edge[3], normal;
   V squaredAxis, squaredEdge[3], squaredNormal;
-  hn::Mask<D> isFlatEdge[3], isFlatVertex[3];
+  hn::Mask<D> isFlatEdge[3], isFlatVertex[3], isStraightVertex[3];
 };
 
 template <class D>
@@ -78,11 +78,16 @@ HWY_INLINE PlacePairs<D> placePairs(D d, const PlacedLss& lss, const PlaceBlock&
     pairs.squaredEdge[k] = plainDot(pairs.edge[k], pairs.edge[k]);
     pairs.isFlatEdge[k] = hn::RebindMask(d, hn::TestBit(flat, hn::Set(di, 1LL << k)));
     pairs.isFlatVertex[k] = hn::RebindMask(d, hn::TestBit(flat, hn::Set(di, 8LL << k)));
+    pairs.isStraightVertex[k] = hn::AndNot(
+        pairs.isFlatVertex[k], hn::RebindMask(d, hn::TestBit(flat, hn::Set(di, 64LL << k))));
   }
   pairs.normal = plainCross(pairs.vertex[1], pairs.vertex[2]);
   pairs.squaredNormal = plainDot(pairs.normal, pairs.normal);
   return pairs;
 }
+
+/// Of a squared sine that is compared with a bound: far above rounding.
+constexpr double kMore = 1.0 + 1e-6;
 
 /// A place in every lane.
 template <class D>
@@ -91,7 +96,8 @@ struct LanePlaces {
   Point<hn::Vec<D>> away;  ///< From the triangle to the axis.
   hn::Vec<D> along;        ///< Of the axis.
   hn::Mask<D> isOnFace;
-  hn::Mask<D> isFlat;  ///< On an edge or a vertex inside a flat surface.
+  hn::Mask<D> isFlat;         ///< On an edge or a vertex inside a flat surface.
+  hn::Mask<D> isStraight[3];  ///< On that vertex, where a corner goes on straight.
 };
 
 template <class D>
@@ -110,6 +116,21 @@ HWY_INLINE hn::Mask<D> isFlatAt(D d, const PlacePairs<D>& pairs, int k, hn::Vec<
   return hn::Or(hn::AndNot(hn::Or(isFirst, isLast), pairs.isFlatEdge[k]),
                 hn::Or(hn::And(isFirst, pairs.isFlatVertex[k]),
                        hn::And(isLast, pairs.isFlatVertex[(k + 1) % 3])));
+}
+
+/// Of the places at a share of edge k, those on straight vertices.
+template <class D>
+HWY_INLINE void setStraight(D d, const PlacePairs<D>& pairs, int k, hn::Vec<D> share,
+                            hn::Mask<D> places, LanePlaces<D>& place) {
+  const int next = (k + 1) % 3, last = (k + 2) % 3;
+  const auto choose = [&](int vertex, hn::Mask<D> there) HWY_ATTR {
+    place.isStraight[vertex] =
+        hn::Or(hn::And(places, hn::And(there, pairs.isStraightVertex[vertex])),
+               hn::AndNot(places, place.isStraight[vertex]));
+  };
+  choose(k, isAtFirst(d, share));
+  choose(next, isAtLast(d, share));
+  place.isStraight[last] = hn::AndNot(places, place.isStraight[last]);
 }
 
 /// The foot of p on the face, where it has one; else the squared distance is infinite. `isRim`: it
@@ -133,6 +154,7 @@ HWY_INLINE LanePlaces<D> footOf(D d, const PlacePairs<D>& pairs, const Point<hn:
   place.along = zero;
   place.isOnFace = isInside;
   place.isFlat = hn::Gt(zero, zero);
+  for (auto& isStraight : place.isStraight) isStraight = place.isFlat;
   return place;
 }
 
@@ -154,6 +176,7 @@ HWY_INLINE LanePlaces<D> placeOfEnd(D d, const PlacePairs<D>& pairs, const Point
     best.away = select(isNearer, away, best.away);
     best.isFlat =
         hn::Or(hn::And(isNearer, isFlatAt(d, pairs, k, t)), hn::AndNot(isNearer, best.isFlat));
+    setStraight(d, pairs, k, t, isNearer, best);
   }
   return best;
 }
@@ -180,6 +203,8 @@ HWY_INLINE LanePlaces<D> placeOfEdge(D d, const PlacedLss& lss, const PlacePairs
   place.along = s;
   place.isOnFace = hn::Gt(place.squared, hn::Inf(d));
   place.isFlat = isFlatAt(d, pairs, k, t);
+  for (auto& isStraight : place.isStraight) isStraight = place.isOnFace;
+  setStraight(d, pairs, k, t, hn::Not(place.isOnFace), place);
   const auto isAtAny =
       hn::Or(hn::Or(isAtFirst(d, s), isAtLast(d, s)), hn::Or(isAtFirst(d, t), isAtLast(d, t)));
   isInner = hn::AndNot(isAtAny, isTrusted);
@@ -246,6 +271,29 @@ HWY_INLINE hn::Vec<D> limitsOf(D d, const NearBins& bins, const LanePlaces<D>& p
   return hn::GatherIndex(d, bins.limit, index);
 }
 
+/// Of the asked places on vertices where a corner goes on straight, those that stand: across it.
+template <class D>
+HWY_INLINE hn::Mask<D> standsAtStraight(D d, const PlacedLss& lss, const PlacePairs<D>& pairs,
+                                        const LanePlaces<D>& place, hn::Mask<D> asked) {
+  using V = hn::Vec<D>;
+  for (int vertex = 0; vertex < 3; ++vertex) {
+    const auto isStraight = hn::And(asked, place.isStraight[vertex]);
+    if (hn::AllFalse(d, isStraight)) continue;
+    const int before = (vertex + 2) % 3;
+    const auto isBefore = pairs.isFlatEdge[vertex];
+    const Point<V> corner = select(isBefore, pairs.edge[before], pairs.edge[vertex]);
+    const V along = plainDot(place.away, corner);
+    const V squared =
+        hn::IfThenElse(isBefore, pairs.squaredEdge[before], pairs.squaredEdge[vertex]);
+    const V most = hn::Mul(hn::Set(d, kMore * lss.flatDirection * lss.flatDirection),
+                           hn::Mul(squared, place.squared));
+    const auto stands = hn::AndNot(hn::And(isBefore, pairs.isFlatEdge[before]),
+                                   hn::Le(hn::Mul(along, along), most));
+    asked = hn::AndNot(hn::AndNot(stands, isStraight), asked);
+  }
+  return asked;
+}
+
 /// Of the asked places, those that may win.
 template <class D>
 HWY_INLINE hn::Mask<D> mayWin(D d, const PlacedLss& lss, const NearBins& bins,
@@ -256,7 +304,6 @@ HWY_INLINE hn::Mask<D> mayWin(D d, const PlacedLss& lss, const NearBins& bins,
   // Inside a flat surface only an end that is above it along its normal stands.
   const auto isFlat = hn::And(asked, place.isFlat);
   if (!hn::AllFalse(d, isFlat)) {
-    constexpr double kMore = 1.0 + 1e-6;  // far above rounding
     const Point<V> across = plainCross(place.away, pairs.normal);
     const V most = hn::Mul(hn::Set(d, kMore * lss.flatDirection * lss.flatDirection),
                            hn::Mul(pairs.squaredNormal, place.squared));
@@ -264,6 +311,7 @@ HWY_INLINE hn::Mask<D> mayWin(D d, const PlacedLss& lss, const NearBins& bins,
     const auto isAtEnd = hn::Or(isAtFirst(d, place.along), isAtLast(d, place.along));
     asked = hn::AndNot(hn::AndNot(hn::And(isAlong, isAtEnd), isFlat), asked);
   }
+  asked = standsAtStraight(d, lss, pairs, place, asked);
   if (hn::AllFalse(d, asked)) return asked;
   return hn::And(asked, hn::Le(place.squared, limitsOf(d, bins, place)));
 }

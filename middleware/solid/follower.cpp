@@ -110,7 +110,9 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
   step_.aim(request.target, request.wanted, here_, shown);
   gather(certifier, tick);
   const double most = std::min(trust_, left_);
+  tries_ = 0;
   const bool hasStep = propose(request, certifier.plan(), shown, most, tick);
+  certifier.spend(kTryWork * tries_);
   if (!hasPushes() && (!hasDirectFailed_ || size_ <= trust_)) {
     return stepFreely(request, far, certifier, shown, tick);
   }
@@ -299,6 +301,7 @@ void Follower::solve(SolidTick& tick) {
 }
 
 bool Follower::tryShare(const FollowRequest& request, const Pose& shown, double share) {
+  ++tries_;
   step_.move(here_, shown, share, tried_);
   step_.place(tried_, there_);
   weigh(request, tried_, there_);

@@ -105,7 +105,8 @@ class Follower {
   std::vector<ContactRow> rows_;
   Pose tried_, nearer_, reached_;
   ChainMotion part_;
-  double size_ = 0.0;  // of the whole step that was solved for
+  double size_ = 0.0;        // of the whole step that was solved for
+  std::uint64_t tries_ = 0;  // shares of it that were tried
 
   // Of the current tick.
   double trust_ = 0.0, left_ = 0.0;

@@ -26,8 +26,9 @@ inline constexpr double kRest = 0.3, kBackTo = 0.6, kBackShare = 0.5, kMostBack 
 inline constexpr double kKeptGap = 0.9;
 /// Halves of a step that are tried.
 inline constexpr int kHalvings = 4;
-/// Work of an iteration without its features, and of one feature, in evaluations in lanes.
-inline constexpr std::uint64_t kIterationWork = 400, kRowWork = 4;
+/// Work of an iteration without its features, of one feature, and of one step that is tried, in
+/// evaluations in lanes.
+inline constexpr std::uint64_t kIterationWork = 1000, kRowWork = 80, kTryWork = 1000;
 
 /// Beyond a free step of `far` on a link.
 [[nodiscard]] inline double reachFor(double far, double trust, double skin) {

@@ -61,9 +61,10 @@ struct SolidOptions {
   std::vector<IgnoredPair> ignored;
   /// Whether own links stop each other, too: the hand rests on the own knee. Of the same avatar.
   std::optional<PairRules> self;
-  /// The most that one tick may cost, in evaluations of a pair in lanes (about 10 ns). What is not
-  /// reached by then waits for the next tick; nothing is shown that is not proven. At least 1.
-  std::uint64_t workBudget = 200'000;
+  /// When a tick takes no further step, in evaluations of a pair in lanes (about 10 ns); the step
+  /// that spends the last of it is finished. What is not reached by then waits for the next tick;
+  /// nothing is shown that is not proven. At least 1.
+  std::uint64_t workBudget = 60'000;
 };
 
 /// As SolidOptions::visibility by the names of the avatar's links, of any common convention.

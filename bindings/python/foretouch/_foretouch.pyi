@@ -435,7 +435,7 @@ class SolidAvatar:
         placing_reach: float = 2.0,
         ignore: Iterable[IgnoredLike] = (),
         self_pairs: Optional[PairRules] = None,
-        work_budget: int = 200000,
+        work_budget: int = 60000,
     ) -> None: ...
     def follow(
         self, tracked: PoseLike, dt: float, is_tracked: Optional[npt.ArrayLike] = None

@@ -240,7 +240,7 @@ TEST_P(NearReductionTest, OfBarsThatAreInLineWithTheLinksIsThatOfAllPlaces) {
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(tally.left, 200U);
-  EXPECT_LT(tally.inDoubles, tally.all);
+  EXPECT_LT(tally.inDoubles, tally.all / 3);  // along a bar's edges, vertices stand for little
 }
 
 /// A hilly surface of small triangles: lanes refuse nearly all of it.
