@@ -123,7 +123,7 @@ constexpr char kSolidText[] =
     "skin: the gap that it keeps to surfaces where it can, metres; tolerance: of the proofs.\n"
     "catch_up: m/s beyond the tracked speed while it catches up.\n"
     "visibility: {link: weight}: how much an error of the link counts beyond its area; the\n"
-    "others by their names: hands 4, trunk and head 30, all else 1.\n"
+    "others by their names: hands 4, trunk and head 100, all else 1.\n"
     "floor: 'lift' (the whole target, as far as the feet ask for, at most most_lift) or 'hold'.\n"
     "feet: the links that 'lift' listens to; None: by their names. up: unit.\n"
     "may_snap: farther off than most_deviation (a limb: most_limb_deviation) for longer than\n"

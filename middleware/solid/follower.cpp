@@ -366,7 +366,7 @@ bool Follower::keepsGaps(const QueryPlan& plan) const {
 void Follower::correctFor(const QueryPlan& plan, double share) {
   for (ContactRow& row : rows_) {
     if (!(row.push > 0.0)) continue;
-    const double wanted = std::min(row.gap, kRest * options_.skin);
+    const double wanted = std::min(row.gap, kAimed * options_.skin);
     const double gap = gapAt(there_.states, plan, row);
     if (gap < wanted) row.bias += (wanted - gap) / share;
   }

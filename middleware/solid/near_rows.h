@@ -22,6 +22,8 @@ inline constexpr double kReachOfStep = 1.2, kReachMore = 3e-3, kReachMargin = 2e
 /// In the rest zone, from this share of the skin to the skin, rows forbid to approach, and push
 /// nothing. Below it, they push back towards the second share.
 inline constexpr double kRest = 0.3, kBackTo = 0.6, kBackShare = 0.5, kMostBack = 5e-3;
+/// What a correction aims at (shares of the skin): at the bound itself, rounding would decide.
+inline constexpr double kAimed = 0.35;
 /// A step must leave rows that push this share of their gap, unless they stay in the rest zone.
 inline constexpr double kKeptGap = 0.9;
 /// Halves of a step that are tried.

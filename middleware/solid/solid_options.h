@@ -35,7 +35,7 @@ struct SolidOptions {
   double catchUp = 2.0;
   /// One per link, >= 0: how much an error of the link's surface counts, beyond its area. What
   /// counts much stays at its tracked place and lets the others yield. Empty: hands 4, trunk and
-  /// head 30, all others 1 (visibilityByName()). So a limb in contact yields alone, and the trunk
+  /// head 100, all others 1 (visibilityByName()). So a limb in contact yields alone, and the trunk
   /// only if the limb cannot.
   std::vector<double> visibility;
   FloorPolicy floor = FloorPolicy::Lift;

@@ -12,7 +12,7 @@
 namespace foretouch {
 namespace {
 
-constexpr double kHandVisibility = 4.0, kTrunkVisibility = 30.0;
+constexpr double kHandVisibility = 4.0, kTrunkVisibility = 100.0;
 
 constexpr std::array<std::string_view, 9> kHandWords = {
     "hand", "wrist", "palm", "finger", "thumb", "index", "middle", "ring", "pinky"};

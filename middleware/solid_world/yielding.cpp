@@ -162,7 +162,7 @@ bool Yielding::correct(Run& run) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     ContactRow& row = rows_[i];
     if (!(row.push > 0.0)) continue;
-    const double wanted = std::min(row.gap, kRest * options_.skin);
+    const double wanted = std::min(row.gap, kAimed * options_.skin);
     const double gap = gapThere(run, i);
     if (gap >= kKeptGap * wanted) continue;
     row.bias += wanted - gap;
