@@ -59,6 +59,7 @@ FeelTables::FeelTables()
                      {"p99_us", "p99", 0},
                      {"max_us", "max", 0},
                      {"contact_mean_us", "contact tick mean us", 1},
+                     {"contact_p50_us", "p50", 1},
                      {"contact_p99_us", "p99", 0},
                      {"free_p50_us", "free tick p50 us", 2},
                      {"over_p50_us", "beyond its query p50 us", 2},
@@ -108,8 +109,8 @@ void FeelTables::add(const FeelRow& row, const FeelTally& tally) {
   append(motion_,
          {static_cast<std::int64_t>(tally.back.size()), back.mean, back.p90, cell(tally.neverBack),
           moves.p50, moves.p90, moves.p99, tracked.p99, tally.fastest});
-  append(cost_, {us.mean, us.p50, us.p99, us.max, contact.mean, contact.p99, free.p50, over.p50,
-                 bare.mean, us.mean / bare.mean, queries.mean, queries.p99,
+  append(cost_, {us.mean, us.p50, us.p99, us.max, contact.mean, contact.p50, contact.p99, free.p50,
+                 over.p50, bare.mean, us.mean / bare.mean, queries.mean, queries.p99,
                  percentilesOf(tally.aroundQueries).mean, percentilesOf(tally.iterations).mean});
   const auto state = [&](SolidState one) {
     return cell(tally.way.states[static_cast<std::size_t>(one)]);
