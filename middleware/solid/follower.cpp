@@ -19,6 +19,9 @@ constexpr int kMostIterations = 8, kMostFruitless = 4;
 /// A tick ends with a step below this share of the tracked one, and at most this long (m): the rest
 /// waits for the next tick. A still target is followed until the avatar rests.
 constexpr double kEnoughOfStep = 0.2, kMostEnough = 1.5e-3;
+/// Of the step that a second solution would take, as a rule: what the first one's circles about
+/// joints so far away are off their tangents (m).
+constexpr double kLever = 0.3;
 constexpr std::uint8_t kHotTicks = 8;
 constexpr int kDoublings = 3, kCorrections = 2;
 /// Two faces are of one plane: a cosine, and metres, as where near features are reduced.
@@ -132,6 +135,8 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
   const double moved = std::min(size_, most);
   const Outcome outcome = show(request, tried_, certifier, shown, tick);
   if (outcome != Outcome::Clear) return ++fruitless_ < kMostFruitless;
+  const bool isNearlyThere = moved * moved < 2.0 * kLever * enough_;
+  if (isWhole_ && isNearlyThere && enough_ > kSettled) return false;
   if (isShort && trust_ < size_) trust_ = std::min(2.0 * trust_, kMostTrust);
   if (left_ > kSettled) return moved >= enough_;
   if (isShort) tick.limit = SolidLimit::CatchUp;
@@ -248,12 +253,14 @@ bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, cons
                        double most, SolidTick& tick) {
   step_.begin();
   setBounds(true);
+  isWhole_ = false;
   for (int attempt = 0; attempt <= kCorrections; ++attempt) {
     solve(tick);
     if (size_ < kSettled) return false;
     double share = std::min(1.0, most / size_);
     const bool isLast = attempt == kCorrections;
     if (halve(request, plan, shown, share, isLast ? kHalvings : 0)) {
+      isWhole_ = attempt == 0 && share == 1.0;
       goFarther(request, plan, shown, share, most);
       return true;
     }

@@ -107,6 +107,7 @@ class Follower {
   ChainMotion part_;
   double size_ = 0.0;        // of the whole step that was solved for
   std::uint64_t tries_ = 0;  // shares of it that were tried
+  bool isWhole_ = false;     // all of it is tried, as it was solved for at first
 
   // Of the current tick.
   double trust_ = 0.0, left_ = 0.0;
