@@ -57,4 +57,11 @@ void proveSteps(const TrianglePairBlock& block, const OtherMotions& others, std:
 /// third vertex. Looks at three pairs of edges, not nine.
 void proveSegmentSteps(const TrianglePairBlock& block, std::size_t count, TrianglePairSteps& steps);
 
+/// The same for pairs of which both sides move; and for those whose scene's triangle is a segment
+/// as well, from scene[0] to scene[1]: one pair of edges.
+void proveSegmentSteps(const TrianglePairBlock& block, const OtherMotions& others,
+                       std::size_t count, TrianglePairSteps& steps);
+void proveAxisSteps(const TrianglePairBlock& block, const OtherMotions& others, std::size_t count,
+                    TrianglePairSteps& steps);
+
 }  // namespace foretouch::internal

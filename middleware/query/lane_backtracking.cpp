@@ -10,9 +10,6 @@
 namespace foretouch::internal {
 namespace {
 
-/// At most so many parts replace one.
-constexpr std::size_t kMostBelow = std::size_t{1} << kPartLevels;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Sides>
@@ -65,18 +62,17 @@ class LaneBacktracker {
   }
 
   /// At one instant the parts of a mesh and an LSS stand still: no more than places counts. All
-  /// that cut into each other at t = 0 touch at once, and the deepest is reported: the nearest come
-  /// first, until lanes show that no better one is left. What is apart moves on from there. False
-  /// if a spent budget ended it.
+  /// that cut into each other at t = 0 touch at once, and the deepest is reported: of what is below
+  /// a part the nearest comes first, down to the surfaces, and then lanes mostly show that no
+  /// better one is left. What is apart moves on from there. False if a spent budget ended it.
   [[nodiscard]] bool lookStill(double t) {
     if constexpr (Sides::kAnswersStarts) {
-      std::vector<StillPair>& heap = scratch_.stillPairs;
-      while (!heap.empty()) {
+      std::vector<StillPair>& stack = scratch_.stillPairs;
+      while (!stack.empty()) {
+        const StillPair pair = stack.back();
         if (query_.meter.isPartSpent(counters_)) return false;
-        takeNearest(t);
-        counters_.partSteps += count_;
-        scratch_.still.prove(count_);
-        for (std::size_t lane = 0; lane < count_; ++lane) settleStill(lane, t);
+        stack.pop_back();
+        lookDown(pair, t);
       }
       if (horizon_ > t) {
         for (const StillPair& pair : scratch_.stillApart) push(sides_.movingFrom(t, pair));
@@ -85,42 +81,43 @@ class LaneBacktracker {
     return true;
   }
 
-  /// Fills the lanes with what is below the nearest pairs; pairs of surfaces are for doubles.
-  void takeNearest(double t) {
-    std::vector<StillPair>& heap = scratch_.stillPairs;
-    count_ = 0;
-    while (count_ + kMostBelow <= kTrianglePairLanes && !heap.empty()) {
-      std::pop_heap(heap.begin(), heap.end());
-      const StillPair pair = heap.back();
-      heap.pop_back();
-      if (isTooFar(static_cast<double>(pair.nearest), t)) {
-        heap.clear();  // as all others are
-      } else if (pair.part.isTriangle()) {
-        look(sides_.movingFrom(t, pair));
-      } else {
-        sides_.descendStill(pair, [this](const StillPair& below) { putStill(below); });
-      }
+  /// From the pair down to surfaces, by the nearest part of each.
+  void lookDown(StillPair pair, double t) {
+    while (!isTooFar(static_cast<double>(pair.nearest), t)) {
+      if (pair.part.isTriangle()) return look(sides_.movingFrom(t, pair));
+      const WideNode& node = sides_.belowStill(pair);
+      boundGaps(scratch_.stillAxes[slotOf(pair.candidate)], node.parts, scratch_.gaps);
+      counters_.partSteps += slotOf(node.parts.count);
+      const std::int32_t nearest = keepNear(node, pair.candidate, t);
+      if (nearest < 0) return;
+      pair.nearest = scratch_.gaps[nearest];
+      pair.part = node.below[slotOf(nearest)];
     }
   }
 
-  void putStill(const StillPair& pair) {
-    sides_.putStill(count_, pair);
-    stillBatch_[count_++] = pair;
+  /// Keeps all that may be near but the nearest, whose lane it returns; -1: nothing is.
+  [[nodiscard]] std::int32_t keepNear(const WideNode& node, std::int32_t candidate, double t) {
+    const double most = horizon_ <= t ? nearest_ : kInfinity;
+    std::int32_t nearest = -1;
+    for (std::int32_t i = 0; i < node.parts.count; ++i) {
+      const float gap = scratch_.gaps[i];
+      if (static_cast<double>(gap) > most) continue;
+      if (static_cast<double>(gap) > handOver_) {
+        scratch_.stillApart.push_back({gap, candidate, node.below[slotOf(i)]});
+        continue;
+      }
+      const std::int32_t farther = nearest < 0 || gap < scratch_.gaps[nearest] ? nearest : i;
+      if (farther != i) nearest = i;
+      if (farther < 0) continue;
+      scratch_.stillPairs.push_back(
+          {scratch_.gaps[farther], candidate, node.below[slotOf(farther)]});
+    }
+    return nearest;
   }
 
   /// What is reported at `t` is nearer.
   [[nodiscard]] bool isTooFar(double nearest, double t) const {
     return horizon_ <= t && nearest > nearest_;
-  }
-
-  void settleStill(std::size_t lane, double t) {
-    StillPair pair = stillBatch_[lane];
-    const double lower = scratch_.still.lower(lane);
-    if (isTooFar(lower, t)) return;
-    if (lower > handOver_) return scratch_.stillApart.push_back(pair);
-    pair.nearest = floatBelow(lower);
-    scratch_.stillPairs.push_back(pair);
-    std::push_heap(scratch_.stillPairs.begin(), scratch_.stillPairs.end());
   }
 
   /// Pairs that moved on beyond the contact's instant, or were dropped, may be nearer at it: this
@@ -269,7 +266,6 @@ class LaneBacktracker {
   double end_;
   bool standsStill_;  // at one instant: two links, one of which is made of LSS
   std::array<PartPair, kTrianglePairLanes> batch_;
-  std::array<StillPair, kTrianglePairLanes> stillBatch_;
   std::size_t count_ = 0;
   double horizon_ = kInfinity;       // nothing later than this can change the answer
   double nearest_ = kInfinity;       // what is farther at the horizon comes after the contact there

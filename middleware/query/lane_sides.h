@@ -165,8 +165,9 @@ class OwnSides : private LaneSides {
   using LaneSides::widen;
   OwnSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
       : LaneSides(query, candidates, scratch) {
-    if (query.parts.surface != nullptr) query.parts.surface->prepare();
-    if (query.other->surface != nullptr) query.other->surface->prepare();
+    const LinkSurface *const one = query.parts.surface, *const other = query.other->surface;
+    if (one != nullptr) other == nullptr ? one->prepareWide() : one->prepare();
+    if (other != nullptr) one == nullptr ? other->prepareWide() : other->prepare();
   }
 
   [[nodiscard]] static bool isSurface(const PartPair& pair) {
@@ -200,7 +201,7 @@ class OwnSides : private LaneSides {
       push(pair);
     }
   }
-  /// One instant, at which all parts stand still. Precondition, as of the next four: one of the
+  /// One instant, at which all parts stand still. Precondition, as of the next three: one of the
   /// links has no mesh.
   void stopAt(const PosedLink& posed) {
     const LinkParts &mesh = meshSide(), &plain = plainSide();
@@ -221,17 +222,9 @@ class OwnSides : private LaneSides {
     if (!mesh.surface->hasTriangles(lss)) return std::nullopt;
     return StillPair{-std::numeric_limits<float>::infinity(), candidate, mesh.surface->root(lss)};
   }
-  void putStill(std::size_t lane, const StillPair& pair) const {
-    scratch_.still.put(lane, scratch_.stillAxes[slotOf(pair.candidate)],
-                       meshSide().surface->lanePart(meshLss(pair.candidate), pair.part));
-  }
-  template <typename Push>
-  void descendStill(StillPair pair, const Push& push) const {
-    const LinkSurface& surface = *meshSide().surface;
-    for (const HierarchyChild below : surface.below(meshLss(pair.candidate), pair.part)) {
-      pair.part = below;
-      push(pair);
-    }
+  /// Of a pair that is not of surfaces.
+  [[nodiscard]] const WideNode& belowStill(const StillPair& pair) const {
+    return meshSide().surface->wideNode(meshLss(pair.candidate), pair.part);
   }
   /// As one that goes on from `t`.
   [[nodiscard]] PartPair movingFrom(double t, const StillPair& pair) const {

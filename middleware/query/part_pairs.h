@@ -12,7 +12,7 @@
 #include "middleware/query/link_query.h"
 #include "middleware/query/part_lanes.h"
 #include "middleware/query/skin_lanes.h"
-#include "middleware/query/still_lanes.h"
+#include "middleware/query/still_axis.h"
 
 namespace foretouch::internal {
 
@@ -26,13 +26,11 @@ struct PartPair {
   bool isEntered = false;  // of two links: both LSS were replaced by what is below them
 };
 
-/// A part of a mesh and an LSS of another link, at one instant at least so far apart (m). The
-/// nearest is the greatest, on top of a heap.
+/// A part of a mesh and an LSS of another link, at one instant at least so far apart (m).
 struct StillPair {
   float nearest = 0.0F;
   std::int32_t candidate = -1;  // whose LSS
   HierarchyChild part = HierarchyChild::node(0);
-  [[nodiscard]] bool operator<(const StillPair& other) const { return nearest > other.nearest; }
 };
 
 /// Pairs by time, the earliest first up to 1/64 of the span. The order only decides how much work a
@@ -102,14 +100,15 @@ struct StartPair {
 /// Reusable memory for the descents of one thread's queries.
 struct PartScratch {
   PartLanes lanes;
+  alignas(64) PairFloats gaps = {};  // of what is below a part, at one instant
   TimeBuckets lss, triangles;
-  // Of two links at one instant: the LSS by candidate, a heap of pairs, and those that are apart.
-  StillLanes still;
+  // Of two links at one instant: the LSS by candidate, a stack of pairs, and those that are apart.
   std::vector<StillAxis> stillAxes;
   std::vector<StillPair> stillPairs, stillApart;
-  std::vector<HierarchyChild> parts;        // a stack
-  std::vector<std::int32_t> linkTriangles;  // those the stack ended in
-  SkinLanes skin;                           // at skinned fidelity
+  std::vector<std::array<LanePart, 2>> wholeParts;  // by candidate: of both LSS
+  std::vector<HierarchyChild> parts;                // a stack
+  std::vector<std::int32_t> linkTriangles;          // those the stack ended in
+  SkinLanes skin;                                   // at skinned fidelity
   // At the start of a skin: of clusters; of triangles that may touch; of parts; of triangles apart.
   std::vector<StartPair> clusterPairs, startPairs;
   std::vector<Candidate> partPairs, nearPairs;

@@ -92,6 +92,16 @@ void LinkSurface::prepare() const {
   });
 }
 
+void LinkSurface::prepareWide() const {
+  prepare();
+  std::call_once(builtWide_, [this] {
+    wideNodes_.resize(hierarchies_.size());
+    for (std::size_t i = 0; i < hierarchies_.size(); ++i) {
+      if (hierarchies_[i]) wideNodes_[i].emplace(*hierarchies_[i], laneTriangles_);
+    }
+  });
+}
+
 void LinkSurface::prepareLanes() const {
   laneTriangles_.reserve(triangles_.size());
   for (const Triangle& triangle : triangles_)

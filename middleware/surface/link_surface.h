@@ -13,6 +13,7 @@
 #include "lss/lss_hierarchy.h"
 #include "lss/triangle.h"
 #include "middleware/lanes/frame_lanes.h"
+#include "middleware/surface/wide_nodes.h"
 
 namespace foretouch::internal {
 
@@ -48,6 +49,12 @@ class LinkSurface {
   /// Built once, by the first thread that uses it. Precondition: hasTriangles(lss).
   [[nodiscard]] const LssHierarchy& hierarchy(std::int32_t lss) const;
   void prepare() const;
+  /// Likewise, for wideNode() as well.
+  void prepareWide() const;
+  /// Of an LSS with triangles. Preconditions: prepareWide() was called; as WideNodes::at().
+  [[nodiscard]] const WideNode& wideNode(std::int32_t lss, HierarchyChild node) const {
+    return wideNodes_[slotOf(lss)]->at(node);
+  }
   /// That hierarchy in the form for lanes. Precondition of all three: prepare() was called.
   [[nodiscard]] HierarchyChild root(std::int32_t lss) const {
     return hierarchies_[slotOf(lss)]->root();
@@ -72,10 +79,11 @@ class LinkSurface {
   }
   std::vector<Triangle> triangles_;
   std::vector<std::vector<std::int32_t>> idsOfLss_;
-  mutable std::once_flag built_;
+  mutable std::once_flag built_, builtWide_;
   mutable Hierarchies hierarchies_;
   mutable std::vector<LanePart> laneTriangles_;
   mutable std::vector<std::vector<LaneNode>> laneNodes_;  // per LSS
+  mutable std::vector<std::optional<WideNodes>> wideNodes_;
 };
 
 struct SurfaceParts {

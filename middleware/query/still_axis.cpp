@@ -1,4 +1,4 @@
-#include "middleware/query/still_lanes.h"
+#include "middleware/query/still_axis.h"
 
 #include <algorithm>
 
@@ -7,14 +7,13 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of a coordinate that becomes a float, and of the pad's own sum.
+/// Of a coordinate that becomes a float, with as much to spare.
 constexpr double kToFloat = 2.0 * kUnitRoundoffOfFloat;
 /// Of a matrix times a difference, in double.
 constexpr double kTurned = 32.0 * kUnitRoundoff;
 /// Lengths change by once the rotation's rounding when the computed matrix is applied, and its
 /// transpose differs by twice as much from its inverse; one is to spare.
 constexpr double kTurns = 4.0;
-constexpr float kPadSum = 1.0F + 4.0F * kUnitRoundoffOfFloat;
 
 }  // namespace
 
@@ -36,16 +35,6 @@ StillAxis stillAxis(const Lss& lss, const LinkState& own, const AxisBounds& boun
   axis.padPerRho =
       floatAbove((boundsOfMesh.positionRoundingAt(1.0) - ofOrigin + relative) * kInflation);
   return axis;
-}
-
-void StillLanes::put(std::size_t lane, const StillAxis& axis, const LanePart& part) {
-  for (int k = 0; k < 3; ++k) {
-    pairs_.link[0][k][lane] = axis.point[0][k];
-    pairs_.link[1][k][lane] = axis.point[1][k];
-    for (int i = 0; i < 3; ++i) pairs_.scene[i][k][lane] = part.point[i][k];
-  }
-  pairs_.positionPad[lane] = (axis.pad + axis.padPerRho * part.rho) * kPadSum;
-  radii_[lane] = static_cast<double>(axis.radius) + static_cast<double>(part.radius);
 }
 
 }  // namespace foretouch::internal

@@ -1,0 +1,86 @@
+#include "middleware/lanes/axis_parts.h"
+
+#include "lss/rounding.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "middleware/lanes/axis_parts.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "middleware/lanes/triangle_planes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace foretouch::internal::HWY_NAMESPACE {
+namespace {
+
+/// Rounds the sum of two radii, and a part's pad, up.
+constexpr float kSumOfRadii = 1.0F + 4.0F * kUnitRoundoffOfFloat;
+/// Outweighs the rounding of the last difference.
+constexpr float kGapRounding = 2.0F * kUnitRoundoffOfFloat;
+
+HWY_INLINE Vec3 all(Floats d, const float (&p)[3]) {
+  return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2])};
+}
+
+template <int kPoints>
+HWY_INLINE Lanes distanceFrom(Floats d, const StillAxis& axis, const PartRows& parts,
+                              std::size_t first) {
+  const Vec3 origin = load(d, parts.point[0], first);
+  Triangles<2, kPoints> pair;
+  for (int i = 0; i < 2; ++i) pair.link[i] = sub(all(d, axis.point[i]), origin);
+  // Sums, because a maximum might hide a NaN.
+  Lanes squares = hn::Zero(d), farthest = squares;
+  for (int i = 1; i < kPoints; ++i) {
+    pair.scene[i - 1] = sub(load(d, parts.point[i], first), origin);
+    const Lanes own = square(pair.scene[i - 1]);
+    squares = hn::Add(squares, own);
+    farthest = hn::Max(farthest, own);
+  }
+  const Lanes ends[2] = {square(pair.link[0]), square(pair.link[1])};
+  const Lanes rho = hn::Load(d, parts.rho + first);
+  const Lanes pad = hn::Mul(hn::MulAdd(hn::Set(d, axis.padPerRho), rho, hn::Set(d, axis.pad)),
+                            hn::Set(d, kSumOfRadii));
+  const Lanes extent = hn::Add(hn::Sqrt(farthest), hn::Sqrt(hn::Max(ends[0], ends[1])));
+  const Lanes slack =
+      hn::MulAdd(hn::Set(d, kPairPlaneRounding), extent,
+                 hn::MulAdd(pad, hn::Set(d, kPadInflation), hn::Set(d, kPairUnderflow)));
+  const LaneMask inRange =
+      hn::And(hn::And(hn::Ge(pad, hn::Zero(d)), hn::Le(pad, hn::Set(d, kMost))),
+              hn::Le(sumOf(squares, ends[0], ends[1]), hn::Set(d, kMost * kMost)));
+  const Plane plane = widestPlane(d, pair);
+  const Lanes lowest = hn::Min(dot(plane.n, pair.link[0]), dot(plane.n, pair.link[1]));
+  const Lanes gap = hn::Sub(hn::Sub(lowest, topOf(d, pair, plane.n)), slack);
+  return hn::IfThenElseZero(inRange, hn::Max(gap, hn::Zero(d)));
+}
+
+void boundGapsInLanes(const StillAxis& axis, const PartRows& parts, PairFloats& lower) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t first = 0; first < static_cast<std::size_t>(parts.count); first += lanes) {
+    const Lanes distance = parts.areAxes ? distanceFrom<2>(d, axis, parts, first)
+                                         : distanceFrom<3>(d, axis, parts, first);
+    const Lanes radii = hn::Mul(hn::Add(hn::Set(d, axis.radius), hn::Load(d, parts.radius + first)),
+                                hn::Set(d, kSumOfRadii));
+    const Lanes gap = hn::Sub(distance, radii);
+    hn::Store(hn::NegMulAdd(hn::Set(d, kGapRounding), hn::Abs(gap), gap), d, lower + first);
+  }
+}
+
+}  // namespace
+}  // namespace foretouch::internal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace foretouch::internal {
+namespace {
+
+HWY_EXPORT(boundGapsInLanes);
+
+}  // namespace
+
+void boundGaps(const StillAxis& axis, const PartRows& parts, PairFloats& lower) {
+  HWY_DYNAMIC_DISPATCH(boundGapsInLanes)(axis, parts, lower);
+}
+
+}  // namespace foretouch::internal
+#endif
