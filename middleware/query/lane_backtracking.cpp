@@ -140,6 +140,7 @@ class LaneBacktracker {
     scratch_.stillPairs.clear();
     scratch_.stillApart.clear();
     scratch_.stillAxes.clear();
+    sides_.readCandidates();
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       PartPair pair;
       pair.freeUntil = nextPossible(query_.pieces, candidates_[i], candidates_[i].freeUntil);

@@ -20,6 +20,8 @@ class LaneSides {
  public:
   /// Pairs up to `reach` (m) apart count from now on.
   static void widen(double /*reach*/) {}
+  /// The candidates are others than before.
+  static void readCandidates() {}
 
  protected:
   LaneSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
@@ -51,6 +53,7 @@ class MeshSides : private LaneSides {
   /// Contacts at the start are left to whoever asks.
   static constexpr bool kAnswersStarts = false;
   using LaneSides::candidateOf;
+  using LaneSides::readCandidates;
   using LaneSides::widen;
   MeshSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
       : LaneSides(query, candidates, scratch), surface_(*query.parts.surface) {
@@ -102,6 +105,7 @@ class SkinSides : private LaneSides {
  public:
   static constexpr bool kAnswersStarts = false;
   using LaneSides::candidateOf;
+  using LaneSides::readCandidates;
   SkinSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
       : LaneSides(query, candidates, scratch), reach_(reachInLanes(query.tolerance)) {}
 
@@ -168,8 +172,18 @@ class OwnSides : private LaneSides {
     const LinkSurface *const one = query.parts.surface, *const other = query.other->surface;
     if (one != nullptr) other == nullptr ? one->prepareWide() : one->prepare();
     if (other != nullptr) one == nullptr ? other->prepareWide() : other->prepare();
+    if (one == nullptr || other == nullptr) {
+      kind_ = one == nullptr ? BothParts::AxisOfOne : BothParts::AxisOfOther;
+    }
   }
 
+  void readCandidates() {
+    scratch_.wholeParts.clear();
+    for (const Candidate& candidate : candidates_) {
+      scratch_.wholeParts.push_back({lanePart(query_.parts.lss[slotOf(candidate.lss)]),
+                                     lanePart(query_.other->lss[slotOf(candidate.otherLss)])});
+    }
+  }
   [[nodiscard]] static bool isSurface(const PartPair& pair) {
     return pair.isEntered && isOnTop(pair.isWhole, pair.part) &&
            isOnTop(pair.isOtherWhole, pair.otherPart);
@@ -240,13 +254,17 @@ class OwnSides : private LaneSides {
 
   [[nodiscard]] static bool isForDoubles(const PartPair& /*pair*/) { return false; }
   void put(std::size_t lane, const PartPair& pair, float floor) const {
+    const auto& [one, other] = scratch_.wholeParts[slotOf(pair.candidate)];
     const Candidate& candidate = candidateOf(pair);
     scratch_.lanes.putBoth(
-        lane, partOf(query_.parts, candidate.lss, pair.isWhole, pair.part),
-        partOf(*query_.other, candidate.otherLss, pair.isOtherWhole, pair.otherPart),
+        lane, pair.isWhole ? one : query_.parts.surface->lanePart(candidate.lss, pair.part),
+        pair.isOtherWhole ? other
+                          : query_.other->surface->lanePart(candidate.otherLss, pair.otherPart),
         laneTime(pair), floor);
   }
-  void prove(bool /*areSurfaces*/, std::size_t count) const { scratch_.lanes.proveBoth(count); }
+  void prove(bool areSurfaces, std::size_t count) const {
+    scratch_.lanes.proveBoth(kind_, areSurfaces, count);
+  }
   [[nodiscard]] Candidate inDoubles(const PartPair& pair) const {
     Candidate candidate = candidateOf(pair);
     if (!pair.isWhole) candidate.part = Part::of(pair.part);
@@ -278,10 +296,8 @@ class OwnSides : private LaneSides {
                                       HierarchyChild part) {
     return isOnTop(isWhole, part) ? -1.0F : side.surface->lanePart(lss, part).radius;
   }
-  [[nodiscard]] static LanePart partOf(const LinkParts& side, std::int32_t lss, bool isWhole,
-                                       HierarchyChild part) {
-    return isWhole ? lanePart(side.lss[slotOf(lss)]) : side.surface->lanePart(lss, part);
-  }
+
+  BothParts kind_ = BothParts::Triangles;
 };
 
 }  // namespace foretouch::internal

@@ -126,9 +126,11 @@ void PartLanes::proveBlendedTriangles(const BlendTriangle* curves, std::size_t c
   proveSteps(pairs_, count, steps_);
 }
 
-void PartLanes::proveBoth(std::size_t count) {
-  placeParts(frame_, parts_, count, pairs_);
-  placeParts(otherFrame_, otherParts_, count, others_);
+void PartLanes::proveBoth(BothParts kind, bool areSurfaces, std::size_t count) {
+  // An axis goes first, as the side with two points.
+  const bool isTurned = kind == BothParts::AxisOfOther;
+  placeParts(isTurned ? otherFrame_ : frame_, isTurned ? otherParts_ : parts_, count, pairs_);
+  placeParts(isTurned ? frame_ : otherFrame_, isTurned ? parts_ : otherParts_, count, others_);
   std::copy_n(&others_.link[0][0][0], 9 * kTrianglePairLanes, &pairs_.scene[0][0][0]);
   std::copy_n(&others_.velocity[0][0][0], 9 * kTrianglePairLanes, &motions_.velocity[0][0][0]);
   std::copy_n(others_.acceleration[0], kTrianglePairLanes, motions_.acceleration);
@@ -138,7 +140,9 @@ void PartLanes::proveBoth(std::size_t count) {
     pairs_.velocityPad[lane] =
         (pairs_.velocityPad[lane] + others_.velocityPad[lane]) * kFloorInflation;
   }
-  proveSteps(pairs_, motions_, count, steps_);
+  if (kind == BothParts::Triangles) return proveSteps(pairs_, motions_, count, steps_);
+  areSurfaces ? proveSegmentSteps(pairs_, motions_, count, steps_)
+              : proveAxisSteps(pairs_, motions_, count, steps_);
 }
 
 void PartLanes::proveBlendedParts(const BlendTriangle* curves, std::size_t count) {

@@ -24,6 +24,13 @@ namespace foretouch::internal {
   return floatAbove(reach * (1.0 + 4.0 * double{kUnitRoundoffOfFloat}));
 }
 
+/// What the parts of two links are.
+enum class BothParts : std::uint8_t {
+  Triangles,    ///< Of either, or what is above them.
+  AxisOfOne,    ///< The first link's are LSS, which nothing is below.
+  AxisOfOther,  ///< The other's are.
+};
+
 /// One link over one span of t, whose length and bounds are multiples of 2^-20. Keeps its memory;
 /// for one thread.
 class PartLanes {
@@ -70,8 +77,8 @@ class PartLanes {
   /// The same of a skin.
   void proveBlendedTriangles(const BlendTriangle* curves, std::size_t count);
   void proveBlendedParts(const BlendTriangle* curves, std::size_t count);
-  /// The same of both links.
-  void proveBoth(std::size_t count);
+  /// The same of both links; `areSurfaces`: where one's are LSS, the other's may be triangles.
+  void proveBoth(BothParts kind, bool areSurfaces, std::size_t count);
 
   /// Lower bound (m) on the separation of the lane's part and triangle; not above 0 if nothing is
   /// proven.
