@@ -24,6 +24,9 @@ bool comesBefore(const ContactPlace& x, const ContactPlace& y) {
 
 /// How far a mesh may turn in a span (radians) and still be the frame that others are seen from.
 constexpr float kMostTurnOfFrame = 0.1F;
+/// Where no more LSS than this are near its own, a mesh is asked as a link however little it turns:
+/// few descents cost less than a frame's boxes around all of a body.
+constexpr std::size_t kFewNear = 8;
 
 /// Pairs of bodies whose boxes meet, for one thread.
 class PairAsker {
@@ -46,12 +49,14 @@ class PairAsker {
   [[nodiscard]] bool isMesh(BodyId id) const { return !world_.kindOf(id).avatar; }
 
   /// A mesh that hardly turns is what the other one is seen from: boxes in its frame are tight, and
-  /// cull at once all triangles that they do not meet. While it turns they are not, and both move.
+  /// cull at once all triangles that they do not meet. While it turns they are not, and both move,
+  /// as they do where hardly anything is near.
   [[nodiscard]] SystemQuestion questionOf(BodyId a, BodyId b, std::int64_t utimeUs) const {
     if (isMesh(a) == isMesh(b)) return SystemQuestion::Pair;
     const BodyId mesh = isMesh(a) ? a : b;
     const bool isFrame = !world_.kindOf(mesh).surface ||
-                         scratch_.sweeps[slotOf(mesh)].at(utimeUs).turn <= kMostTurnOfFrame;
+                         (worker_.apart.open().size() > kFewNear &&
+                          scratch_.sweeps[slotOf(mesh)].at(utimeUs).turn <= kMostTurnOfFrame);
     return isFrame ? SystemQuestion::Mesh : SystemQuestion::Pair;
   }
 
