@@ -1,6 +1,7 @@
 #include "middleware/query/lane_backtracking.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "lss/assert.h"
 #include "lss/index.h"
@@ -16,12 +17,13 @@ template <class Sides>
 class LaneBacktracker {
  public:
   LaneBacktracker(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch,
-                  QueryCounters& counters)
+                  QueryCounters& counters, LaneFrames* frames = nullptr)
       : query_(query),
         sides_(query, candidates, scratch),
         candidates_(candidates),
         scratch_(scratch),
         counters_(counters),
+        frames_(frames),
         states_(query, counters),
         floor_(floatAbove(kFloorShare * query.tolerance)),
         handOver_(kHandOverShare * query.tolerance),
@@ -54,6 +56,7 @@ class LaneBacktracker {
           !scratch_.triangles.isEmpty() && !scratch_.lss.isBefore(scratch_.triangles);
       takeBatch(areSurfaces ? scratch_.triangles : scratch_.lss);
       if (count_ == 0) continue;
+      if (frames_ != nullptr) std::exchange(frames_, nullptr)->make(scratch_.lanes, counters_);
       counters_.partSteps += count_;
       sides_.prove(areSurfaces, count_);
       for (std::size_t lane = 0; lane < count_; ++lane) settle(lane);
@@ -261,6 +264,7 @@ class LaneBacktracker {
   std::vector<Candidate>& candidates_;
   PartScratch& scratch_;
   QueryCounters& counters_;
+  LaneFrames* frames_;  // null once they are made
   StateCache states_;
   float floor_;
   double handOver_;
@@ -284,10 +288,10 @@ LinkContact nearestInLanes(const LinkQuery& query, const LinkContact& contact,
 }
 
 PairContact backtrackInLanes(const LinkQuery& query, std::vector<Candidate>& candidates,
-                             PartScratch& scratch, QueryCounters& counters) {
+                             PartScratch& scratch, QueryCounters& counters, LaneFrames* frames) {
   FORETOUCH_ASSERT(!candidates.empty());
   if (query.other != nullptr) {
-    return LaneBacktracker<OwnSides>(query, candidates, scratch, counters).run();
+    return LaneBacktracker<OwnSides>(query, candidates, scratch, counters, frames).run();
   }
   if (query.parts.skin != nullptr) {
     return LaneBacktracker<SkinSides>(query, candidates, scratch, counters).run();

@@ -14,13 +14,23 @@ namespace foretouch::internal {
 /// will mostly find contact: what lanes prove is a little less than the truth.
 inline constexpr double kHandOverShare = 0.75;
 
+/// Makes the lanes' frames when they are first needed: most that touch at the start need none.
+class LaneFrames {
+ public:
+  virtual void make(PartLanes& lanes, QueryCounters& counters) = 0;
+
+ protected:
+  ~LaneFrames() = default;
+};
+
 /// As backtrack(), for exact and skinned fidelity and for candidates in the span of
 /// `scratch.lanes`, to which it adds their triangles as needed. Every pair's instants depend on
 /// that pair alone, so the reported contact does not depend on order, unless the current part of
-/// the budget runs out before all pairs are done.
+/// the budget runs out before all pairs are done. `frames`: of the lanes, or null if they are
+/// there.
 [[nodiscard]] PairContact backtrackInLanes(const LinkQuery& query,
                                            std::vector<Candidate>& candidates, PartScratch& scratch,
-                                           QueryCounters& counters);
+                                           QueryCounters& counters, LaneFrames* frames = nullptr);
 
 /// As nearestContact().
 [[nodiscard]] LinkContact nearestInLanes(const LinkQuery& query, const LinkContact& contact,

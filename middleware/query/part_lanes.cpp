@@ -23,17 +23,26 @@ constexpr float kFloorInflation = 1.0F + 4.0F * kUnitRoundoffOfFloat;
 
 void PartLanes::reset(const FramePolynomials& polynomials, const Eigen::Vector3d& nodesOrigin_W,
                       double begin, double end) {
+  reset(begin, end);
+  setFrame(polynomials, nodesOrigin_W);
+}
+
+void PartLanes::reset(double begin, double end) {
   FORETOUCH_ASSERT(begin < end);
-  frame_ = laneFrame(polynomials);
-  for (int axis = 0; axis < 3; ++axis)
-    origin_[axis] = nodesOrigin_W[axis] + polynomials.origin[axis];
-  originPad_ = kOriginRounding * origin_.norm() + kFrameUnderflow;
   begin_ = begin;
   end_ = end;
   halfSpan_ = 0.5 * (end - begin);
   instantsPerTime_ = 1.0 / (kInstant * halfSpan_);
   triangles_.clear();
   boxes_.clear();
+}
+
+void PartLanes::setFrame(const FramePolynomials& polynomials,
+                         const Eigen::Vector3d& nodesOrigin_W) {
+  frame_ = laneFrame(polynomials);
+  for (int axis = 0; axis < 3; ++axis)
+    origin_[axis] = nodesOrigin_W[axis] + polynomials.origin[axis];
+  originPad_ = kOriginRounding * origin_.norm() + kFrameUnderflow;
 }
 
 std::int32_t PartLanes::add(const Triangle& triangle_W) {

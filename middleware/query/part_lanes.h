@@ -38,7 +38,10 @@ class PartLanes {
   /// The polynomials' origin is relative to `nodesOrigin_W`. Forgets the scene's triangles.
   void reset(const FramePolynomials& polynomials, const Eigen::Vector3d& nodesOrigin_W,
              double begin, double end);
-  /// The other link, whose polynomials have the same origin over the same span. After reset().
+  /// The span alone: setFrame() before anything is proven, or a triangle of the scene is added.
+  void reset(double begin, double end);
+  void setFrame(const FramePolynomials& polynomials, const Eigen::Vector3d& nodesOrigin_W);
+  /// The other link, whose polynomials have the same origin over the same span. After setFrame().
   void setOther(const FramePolynomials& polynomials) { otherFrame_ = laneFrame(polynomials); }
 
   [[nodiscard]] double begin() const { return begin_; }

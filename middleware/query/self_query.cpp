@@ -8,7 +8,6 @@
 #include "lss/rounding.h"
 #include "lss/simd.h"
 #include "middleware/query/backtracking.h"
-#include "middleware/query/lane_backtracking.h"
 #include "middleware/query/lane_cull.h"
 #include "middleware/query/leaving.h"
 #include "middleware/scene/scene_parts.h"
@@ -71,7 +70,6 @@ void SelfQuery::runAmong(const FoundPairs& found, StepContacts& step) {
   // Curves need the slabs.
   if (slabsOf(table_, motion_, plan_.tolerances.least) != 1) return run(step);
   own_.left.clear();
-  scratch_.lanes.evaluateNodes(motion_, begin_, end_, plan_.scene.parts().origin, step.counters);
   take(found);
   answerPairs(step);
   finish(step);
@@ -98,6 +96,12 @@ void SelfQuery::take(const FoundPairs& found) {
 void SelfQuery::finish(StepContacts& step) const {
   std::sort(step.pairs.begin(), step.pairs.end(), comesBefore);
   step.arePairsAnswered = true;
+}
+
+/// Of the current slab. Pairs that touch at the start may need none.
+const ChainNodes& SelfQuery::nodes(QueryCounters& counters) {
+  scratch_.lanes.evaluateNodes(motion_, begin_, end_, plan_.scene.parts().origin, counters);
+  return scratch_.lanes.nodes();
 }
 
 /// The links' frames at the nodes, and the boxes and ends of all LSS, in the current slab.
@@ -221,7 +225,9 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   one_.link = table_[pairs->i].link;
   other_.link = table_[pairs->j].link;
   double times[kNodes];
-  for (int k = 0; k < kNodes; ++k) times[k] = scratch_.lanes.nodes().instant(k);
+  for (int k = 0; k < kNodes; ++k) {
+    times[k] = k + 1 == kNodes ? end_ : begin_ + (end_ - begin_) * ChainNodes::time(k);
+  }
   const LinkParts other = partsOf(other_, own_.boundsOfOther);
   LinkQuery query{partsOf(one_, own_.boundsOfOne),
                   plan_.scene,
@@ -237,8 +243,8 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   const bool mayStart = begin_ == 0.0 && std::any_of(pairs, pairs + count, [](const PlanePair& p) {
                           return (p.open & 1U) != 0;
                         });
-  const bool areNodesFine = pointRounding(scratch_.lanes.nodes().bounds(), 0.0) <= kStartRounding;
-  if (mayStart && areNodesFine && !areMeshes) {
+  if (mayStart && !areMeshes &&
+      pointRounding(nodes(step.counters).bounds(), 0.0) <= kStartRounding) {
     const auto contact = contactAtStart(query, step.counters);
     if (contact && !mayLeave(query, *contact, step.counters)) {
       return keep(*contact, kNoParent, step);
@@ -312,22 +318,39 @@ PairContact SelfQuery::contactFrom(const LinkQuery& query, const PlanePair* pair
 PairContact SelfQuery::meshContact(const LinkQuery& query, QueryCounters& counters) {
   // A single lane is slower than doubles.
   if (activeSimd() == Simd::Scalar) return backtrack(query, scratch_.candidates, counters);
-  const ChainNodes& nodes = scratch_.lanes.nodes();
   PartScratch& parts = scratch_.lanes.parts;
-  const FramePolynomials polynomials = framePolynomialsOf(one_.link, motion_, nodes);
-  parts.lanes.reset(polynomials, nodes.origin(), begin_, end_);
-  parts.lanes.setOther(framePolynomialsOf(other_.link, motion_, nodes, polynomials.origin));
-  return backtrackInLanes(query, scratch_.candidates, parts, counters);
+  parts.lanes.reset(begin_, end_);
+  return backtrackInLanes(query, scratch_.candidates, parts, counters, this);
+}
+
+void SelfQuery::make(PartLanes& lanes, QueryCounters& counters) {
+  const ChainNodes& here = nodes(counters);
+  const FramePolynomials polynomials = framePolynomialsOf(one_.link, motion_, here);
+  lanes.setFrame(polynomials, here.origin());
+  lanes.setOther(framePolynomialsOf(other_.link, motion_, here, polynomials.origin));
 }
 
 /// Drops the candidates that never come near in the slab, and takes the others to where they do:
 /// all but the last look is spared trigonometry.
 void SelfQuery::advanceAlongCurves(const LinkQuery& query, QueryCounters& counters) {
   own_.curves.clear();
+  StateCache states(query, counters);
+  const auto isNever = [&](Candidate& candidate) {
+    return !isNearAtStart(query, candidate, states, counters) &&
+           !advance(query, candidate, counters);
+  };
   std::vector<Candidate>& candidates = scratch_.candidates;
-  candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
-                                  [&](Candidate& c) { return !advance(query, c, counters); }),
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isNever),
                    candidates.end());
+}
+
+/// A mesh may be near at t = 0: what is below its LSS decides, and no curve is needed before.
+bool SelfQuery::isNearAtStart(const LinkQuery& query, const Candidate& candidate,
+                              StateCache& states, QueryCounters& counters) const {
+  const bool mayStart = begin_ == 0.0 && (candidate.pieces & 1U) != 0 &&
+                        (query.isExact() || query.other->surface != nullptr);
+  return mayStart && !(pairOf(query, candidate, states.at(0.0), counters).gapLower() >
+                       kHandOverShare * query.tolerance);
 }
 
 /// False: proven apart throughout the slab.
@@ -338,8 +361,8 @@ bool SelfQuery::advance(const LinkQuery& query, Candidate& candidate, QueryCount
     candidate.freeUntil = t;
     ++counters.planeTests;
     const MovingPair pair =
-        movingPair(alongCurve(one_, candidate.lss, query.frame, t, candidate.radiusShare),
-                   alongCurve(other_, candidate.otherLss, query.frame, t, candidate.radiusShare));
+        movingPair(alongCurve(one_, candidate.lss, query.frame, t, candidate.radiusShare, counters),
+                   alongCurve(other_, candidate.otherLss, query.frame, t, candidate.radiusShare, counters));
     // Curves that are off by much of the tolerance cannot tell.
     if (!(pair.gapLower() > handOver)) return true;
     const double reached = timeAfter(t, pair.stepFrom(floor), end_);
@@ -350,8 +373,8 @@ bool SelfQuery::advance(const LinkQuery& query, Candidate& candidate, QueryCount
 }
 
 MovingHull SelfQuery::alongCurve(const Side& side, std::int32_t lss, LinkId frame, double t,
-                                 double radiusShare) {
-  const AxisCurve& curve = curveOf(side, lss, frame);
+                                 double radiusShare, QueryCounters& counters) {
+  const AxisCurve& curve = curveOf(side, lss, frame, counters);
   const AxisCurve::Ends ends = curve.endsAt(t);
   MovingHull hull;
   hull.hull = Hull::segment(ends.a, ends.b);
@@ -364,14 +387,15 @@ MovingHull SelfQuery::alongCurve(const Side& side, std::int32_t lss, LinkId fram
   return hull;
 }
 
-const AxisCurve& SelfQuery::curveOf(const Side& side, std::int32_t lss, LinkId frame) {
+const AxisCurve& SelfQuery::curveOf(const Side& side, std::int32_t lss, LinkId frame,
+                                    QueryCounters& counters) {
   const std::int32_t inTable = table_.first(side.link) + lss;
   for (const SelfCurve& known : own_.curves) {
     if (known.lss == inTable) return known.curve;
   }
-  const ChainNodes& nodes = scratch_.lanes.nodes();
-  own_.curves.push_back({inTable, axisCurve(table_[inTable], side.bounds, nodes,
-                                            frame == kNoParent ? nullptr : &nodes.link(frame))});
+  const ChainNodes& here = nodes(counters);
+  own_.curves.push_back({inTable, axisCurve(table_[inTable], side.bounds, here,
+                                            frame == kNoParent ? nullptr : &here.link(frame))});
   return own_.curves.back().curve;
 }
 

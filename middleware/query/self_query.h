@@ -10,6 +10,7 @@
 
 #include "articulated/motion.h"
 #include "middleware/contact.h"
+#include "middleware/query/lane_backtracking.h"
 #include "middleware/query/link_query.h"
 #include "middleware/query/query_plan.h"
 #include "middleware/query/scratch_parts.h"
@@ -28,7 +29,7 @@ struct FoundPairs {
 };
 
 /// One query over all asked pairs of links of one step.
-class SelfQuery final : private Neighbours {
+class SelfQuery final : private Neighbours, private LaneFrames {
  public:
   /// Preconditions: the plan asks for pairs; the scratch's evaluator is that of the motion.
   SelfQuery(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
@@ -47,6 +48,7 @@ class SelfQuery final : private Neighbours {
   };
 
   void evaluate(QueryCounters& counters);
+  [[nodiscard]] const ChainNodes& nodes(QueryCounters& counters);
   void take(const FoundPairs& found);
   void finish(StepContacts& step) const;
   void collectOpen(QueryCounters& counters);
@@ -65,15 +67,19 @@ class SelfQuery final : private Neighbours {
                                         std::size_t count, QueryCounters& counters);
   [[nodiscard]] std::optional<PairContact> contactAtStart(const LinkQuery& query,
                                                           QueryCounters& counters);
+  [[nodiscard]] bool isNearAtStart(const LinkQuery& query, const Candidate& candidate,
+                                   StateCache& states, QueryCounters& counters) const;
   [[nodiscard]] MovingHull atFirstNode(LinkId of, std::int32_t lss, double radiusShare) const;
   [[nodiscard]] LinkParts partsOf(const Side& side, const std::vector<AxisBounds>& bounds) const;
   void prepareSide(Side& side, LinkId frame, std::vector<AxisBounds>& bounds);
+  void make(PartLanes& lanes, QueryCounters& counters) override;
   [[nodiscard]] PairContact meshContact(const LinkQuery& query, QueryCounters& counters);
   void advanceAlongCurves(const LinkQuery& query, QueryCounters& counters);
   [[nodiscard]] bool advance(const LinkQuery& query, Candidate& candidate, QueryCounters& counters);
   [[nodiscard]] MovingHull alongCurve(const Side& side, std::int32_t lss, LinkId frame, double t,
-                                      double radiusShare);
-  [[nodiscard]] const AxisCurve& curveOf(const Side& side, std::int32_t lss, LinkId frame);
+                                      double radiusShare, QueryCounters& counters);
+  [[nodiscard]] const AxisCurve& curveOf(const Side& side, std::int32_t lss, LinkId frame,
+                                         QueryCounters& counters);
   [[nodiscard]] Candidate candidateOf(const LssIndexPair& pair, std::uint8_t pieces) const;
   void keep(PairContact contact, LinkId frame, StepContacts& step);
   void collect(double t, const PosedLink& posed, double reach, std::vector<Candidate>& candidates,
