@@ -65,6 +65,8 @@ int Pieces::amongSeveral(double t) const {
 double nextPossible(const Pieces& pieces, const Candidate& candidate, double t) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   if (t >= pieces.end) return kNever;
+  const std::uint32_t every = ~std::uint32_t{0} >> (kMaxPieces - pieces.count);
+  if ((candidate.pieces & every) == every) return t;
   const int here = pieces.at(t);
   if ((candidate.pieces >> here & 1u) != 0) return t;
   for (int k = here + 1; k < pieces.count; ++k) {
