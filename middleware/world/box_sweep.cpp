@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "lss/rounding.h"
 
@@ -127,6 +128,24 @@ void BoxSweep::arrange(const std::vector<BodyBox>& boxes) {
   }
 }
 
+/// By a, then by b: in one pass, as who meets whom is spread over all bodies.
+void BoxSweep::sortMeeting(std::size_t numBodies, std::vector<MeetingBodies>& meeting) {
+  ends_.assign(numBodies, 0);
+  for (const MeetingBodies& pair : meeting) ++ends_[slotOf(pair.a)];
+  std::int32_t sum = 0;
+  for (std::int32_t& end : ends_) sum += std::exchange(end, sum);  // where each begins
+  sorted_.resize(meeting.size());
+  for (const MeetingBodies& pair : meeting) sorted_[slotOf(ends_[slotOf(pair.a)]++)] = pair;
+  auto first = sorted_.begin();
+  for (const std::int32_t end : ends_) {
+    const auto last = sorted_.begin() + end;
+    std::sort(first, last,
+              [](const MeetingBodies& x, const MeetingBodies& y) { return x.b < y.b; });
+    first = last;
+  }
+  meeting.swap(sorted_);
+}
+
 void BoxSweep::collect(const std::vector<BodyBox>& boxes, std::vector<MeetingBodies>& meeting) {
   meeting.clear();
   sort(boxes);
@@ -134,9 +153,7 @@ void BoxSweep::collect(const std::vector<BodyBox>& boxes, std::vector<MeetingBod
   const float* rows[5];
   for (std::size_t k = 0; k < 5; ++k) rows[k] = rows_[k].data();
   HWY_DYNAMIC_DISPATCH(sweepRows)(rows, boxes.data(), order_.data(), count_, meeting);
-  std::sort(meeting.begin(), meeting.end(), [](const MeetingBodies& x, const MeetingBodies& y) {
-    return std::tie(x.a, x.b) < std::tie(y.a, y.b);
-  });
+  sortMeeting(boxes.size(), meeting);
 }
 
 }  // namespace foretouch::internal

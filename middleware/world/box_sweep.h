@@ -48,6 +48,7 @@ class BoxSweep {
  private:
   void sort(const std::vector<BodyBox>& boxes);
   void arrange(const std::vector<BodyBox>& boxes);
+  void sortMeeting(std::size_t numBodies, std::vector<MeetingBodies>& meeting);
 
   std::vector<std::int32_t> order_;
   // Of the boxes in that order, with room for a vector beyond: lower and upper along y and z, and
@@ -55,6 +56,8 @@ class BoxSweep {
   std::vector<float> rows_[5];
   std::size_t count_ = 0;  // not empty
   std::uint64_t swaps_ = 0;
+  std::vector<std::int32_t> ends_;  // per a, of its pairs so far
+  std::vector<MeetingBodies> sorted_;
 };
 
 }  // namespace foretouch::internal

@@ -1,6 +1,7 @@
 #include "middleware/world/system_plan.h"
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -260,6 +261,15 @@ std::int64_t ownRulesOf(const WorldParts& world, SystemQuestion question, BodyId
   return asksOwn ? world.body(a).ownRules : -1;
 }
 
+std::uint64_t mixed(const std::vector<std::int64_t>& key) {
+  std::uint64_t sum = 0;
+  for (const std::int64_t part : key) {
+    sum = (sum ^ static_cast<std::uint64_t>(part)) * 0x9E37'79B9'7F4A'7C15U;
+    sum ^= sum >> 32U;
+  }
+  return sum;
+}
+
 bool comesBeforeKey(const std::unique_ptr<SystemPlan>& plan, const std::vector<std::int64_t>& key) {
   return plan->key < key;
 }
@@ -272,6 +282,16 @@ MemberLink SystemPlan::memberLink(LinkId link) const {
   return {member, link - first[slotOf(member)]};
 }
 
+std::uint64_t SystemPlans::newGeneration() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
+void SystemPlans::clear() {
+  plans_.clear();
+  generation_ = newGeneration();
+}
+
 const SystemPlan* SystemPlans::find(const std::vector<std::int64_t>& key) const {
   const auto place = std::lower_bound(plans_.begin(), plans_.end(), key, comesBeforeKey);
   return place != plans_.end() && (*place)->key == key ? place->get() : nullptr;
@@ -279,7 +299,7 @@ const SystemPlan* SystemPlans::find(const std::vector<std::int64_t>& key) const 
 
 Result<const SystemPlan*> SystemPlans::planOf(const WorldParts& world, const SystemSpans& spans,
                                               SystemQuestion question, BodyId a, BodyId b,
-                                              std::vector<std::int64_t>& key) {
+                                              std::vector<std::int64_t>& key, LatePlans* late) {
   const std::int32_t placeOfA = spans.placeOf(a);
   const std::int32_t placeOfB = b == kStillScene ? -1 : spans.placeOf(b);
   key.clear();
@@ -292,10 +312,24 @@ Result<const SystemPlan*> SystemPlans::planOf(const WorldParts& world, const Sys
     key.push_back(member.carrier);
     key.push_back(member.link);
   }
+  if (late == nullptr) return ofAll(world, spans, question, key);
+  if (std::exchange(late->generation_, generation_) != generation_) late->plans_ = {};
+  const SystemPlan*& plan = late->plans_[mixed(key) % LatePlans::kKept];
+  if (plan != nullptr && plan->key == key) return plan;
+  FORETOUCH_TRY(plan, ofAll(world, spans, question, key));
+  return plan;
+}
+
+/// Of those that any thread has asked for, or a new one.
+Result<const SystemPlan*> SystemPlans::ofAll(const WorldParts& world, const SystemSpans& spans,
+                                             SystemQuestion question,
+                                             const std::vector<std::int64_t>& key) {
   {
     const std::shared_lock<std::shared_mutex> lock(mutex_);
     if (const SystemPlan* const known = find(key)) return known;
   }
+  const auto placeOfA = static_cast<std::int32_t>(key[2]),
+             placeOfB = static_cast<std::int32_t>(key[3]);
   auto made = std::make_unique<SystemPlan>();
   made->key = key;
   FORETOUCH_CHECK(PlanMaker(world, spans, *made).make(question, placeOfA, placeOfB));

@@ -2,6 +2,8 @@
 // checked and resolved: their chain, the LSS of those that are asked, and the query. Not installed.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -48,23 +50,36 @@ struct SystemPlan {
   [[nodiscard]] MemberLink memberLink(LinkId link) const;
 };
 
+/// Plans that one thread has asked for lately: found without asking what all threads share.
+class LatePlans {
+ private:
+  friend class SystemPlans;
+  static constexpr std::size_t kKept = 32;
+  std::uint64_t generation_ = 0;  // of those that it has them from
+  std::array<const SystemPlan*, kKept> plans_{};
+};
+
 /// Plans of one world, by what they are made of: kinds of bodies, who hangs on whom, and what is
 /// asked. Two avatars of the same two kinds share one. Any number of threads may ask for plans at
 /// once.
 class SystemPlans {
  public:
   /// Precondition: the spans are at a span; `a` and, of Pair and Mesh, `b` are among the members.
-  /// `key`: the thread's own memory. Errors: a chain that is too deep, or of too many joints.
-  /// Allocates only what it has not.
+  /// `key`, `late`: the thread's own memory; `late` may be null. Errors: a chain that is too deep,
+  /// or of too many joints. Allocates only what it has not.
   Result<const SystemPlan*> planOf(const WorldParts& world, const SystemSpans& spans,
                                    SystemQuestion question, BodyId a, BodyId b,
-                                   std::vector<std::int64_t>& key);
-  void clear() { plans_.clear(); }
+                                   std::vector<std::int64_t>& key, LatePlans* late = nullptr);
+  void clear();
 
  private:
+  [[nodiscard]] static std::uint64_t newGeneration();
   [[nodiscard]] const SystemPlan* find(const std::vector<std::int64_t>& key) const;
+  Result<const SystemPlan*> ofAll(const WorldParts& world, const SystemSpans& spans,
+                                  SystemQuestion question, const std::vector<std::int64_t>& key);
 
   std::shared_mutex mutex_;
+  std::uint64_t generation_ = newGeneration();      // of these plans, among all of the process
   std::vector<std::unique_ptr<SystemPlan>> plans_;  // by key
 };
 

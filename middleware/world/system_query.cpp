@@ -38,8 +38,8 @@ void addCounters(const QueryCounters& more, QueryCounters& sum) {
 }
 
 Result<const SystemPlan*> SystemQuery::prepare(SystemQuestion question, BodyId a, BodyId b) {
-  FORETOUCH_TRY(const SystemPlan* const plan,
-                plans_.planOf(world_, scratch_.spans, question, a, b, scratch_.key));
+  FORETOUCH_TRY(const SystemPlan* const plan, plans_.planOf(world_, scratch_.spans, question, a, b,
+                                                            scratch_.key, &scratch_.late));
   if (plan->isEmpty) return static_cast<const SystemPlan*>(nullptr);
   SystemPoses& poses = scratch_.poses;
   scratch_.origin = originOf(question);

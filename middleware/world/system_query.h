@@ -23,6 +23,7 @@ namespace foretouch::internal {
 /// One thread's memory for questions.
 struct SystemScratch {
   std::vector<std::int64_t> key;
+  LatePlans late;
   PieceMotions motions;
   SystemSpans spans;
   SystemPoses poses;

@@ -22,6 +22,21 @@ bool comesBefore(const ContactPlace& x, const ContactPlace& y) {
          std::tie(y.bodyOfA, y.linkOfA, y.bodyOfB, y.linkOfB);
 }
 
+/// Sorts what consists of a few sorted runs, by merging them; `merged` is memory.
+void sortRuns(std::vector<ContactPlace>& places, std::vector<ContactPlace>& merged) {
+  constexpr int kFewRuns = 4;
+  for (int run = 0; run < kFewRuns; ++run) {
+    const auto middle = std::is_sorted_until(places.begin(), places.end(), comesBefore);
+    if (middle == places.end()) return;
+    const auto end = std::is_sorted_until(middle, places.end(), comesBefore);
+    merged.resize(places.size());
+    const auto rest = std::merge(places.begin(), middle, middle, end, merged.begin(), comesBefore);
+    std::copy(end, places.end(), rest);
+    places.swap(merged);
+  }
+  std::sort(places.begin(), places.end(), comesBefore);
+}
+
 /// How far a mesh may turn in a span (radians) and still be the frame that others are seen from.
 constexpr float kMostTurnOfFrame = 0.1F;
 /// Where no more LSS than this are near its own, a mesh is asked as a link however little it turns:
@@ -274,17 +289,24 @@ class WindowQuery {
   }
 
   void gather() {
-    std::vector<ContactPlace>& places = scratch_.places;
-    places.clear();
+    // Most touch on from the window before, and come in order: bodies, then pairs of them.
+    std::vector<ContactPlace>&atBegin = scratch_.atBegin, &later = scratch_.later;
+    atBegin.clear();
+    later.clear();
+    const WorldTime begin{window_.fromUs, 0.0};
     for (const auto& worker : scratch_.workers) {
       for (const WorldContact& contact : worker->contacts) {
-        places.push_back({contact.time, contact.a.body, contact.a.link, contact.b.body,
-                          contact.b.link, &contact});
+        (begin < contact.time ? later : atBegin)
+            .push_back({contact.time, contact.a.body, contact.a.link, contact.b.body,
+                        contact.b.link, &contact});
       }
       addCounters(worker->counters, answer_.counters);
     }
-    std::sort(places.begin(), places.end(), comesBefore);
-    for (const ContactPlace& place : places) answer_.contacts.push_back(*place.contact);
+    sortRuns(atBegin, scratch_.merged);
+    std::sort(later.begin(), later.end(), comesBefore);
+    answer_.contacts.reserve(atBegin.size() + later.size());
+    for (const ContactPlace& place : atBegin) answer_.contacts.push_back(*place.contact);
+    for (const ContactPlace& place : later) answer_.contacts.push_back(*place.contact);
   }
 
   const WorldParts& world_;

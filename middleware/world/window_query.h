@@ -48,7 +48,7 @@ struct WorldScratchParts {
   std::vector<MeetingBodies> meeting;
   std::vector<BodyId> near;  // known roughly so far, though something may be near
   std::vector<std::unique_ptr<WindowWorker>> workers;  // one per thread
-  std::vector<ContactPlace> places;
+  std::vector<ContactPlace> atBegin, later, merged;
 };
 
 void addCounters(const WorldCounters& more, WorldCounters& sum);

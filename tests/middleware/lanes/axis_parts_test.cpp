@@ -1,11 +1,12 @@
 // Parts of a mesh and an LSS of another link at one instant, against fifty digits: the pads cover
 // what separates the floats from the true motion, and what lanes prove is true of it.
-#include "middleware/query/still_lanes.h"
+#include "middleware/lanes/axis_parts.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -14,6 +15,8 @@
 #include "judge/plain_distance.h"
 #include "judge/plain_motion.h"
 #include "lss/simd.h"
+#include "middleware/lanes/frame_lanes.h"
+#include "middleware/query/still_axis.h"
 #include "tests/support/random_motion.h"
 
 namespace foretouch::internal {
@@ -65,7 +68,7 @@ Precise3 precise(const float (&p)[3]) {
   return {Real(p[0]), Real(p[1]), Real(p[2])};
 }
 
-TEST(StillLanes, PadsCoverTheWayFromFloatsToTheTrueMotion) {
+TEST(StillAxis, PadsCoverTheWayFromFloatsToTheTrueMotion) {
   double used = 0.0;
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     SCOPED_TRACE(seed);
@@ -91,7 +94,7 @@ TEST(StillLanes, PadsCoverTheWayFromFloatsToTheTrueMotion) {
 }
 
 /// Every width of the processor, one after the other.
-class StillLanesAtWidth : public testing::TestWithParam<Simd> {
+class AxisPartsAtWidth : public testing::TestWithParam<Simd> {
  protected:
   void SetUp() override { ASSERT_TRUE(useSimd(GetParam())); }
   void TearDown() override { useSimd(std::nullopt); }
@@ -101,48 +104,95 @@ std::string nameOf(const testing::TestParamInfo<Simd>& info) {
   return toString(info.param);
 }
 
-TEST_P(StillLanesAtWidth, ProveNoMoreThanIsTrue) {
-  StillLanes lanes;
-  int proven = 0;
+/// Parts of the mesh, most of them near the LSS: there a pad decides. Either LSS of it, or one of
+/// them at least a triangle.
+struct NearParts {
+  PartRows rows;
+  std::array<std::array<Precise3, 3>, kTrianglePairLanes> points;
+  std::array<Real, kTrianglePairLanes> radii;
+
+  NearParts(const TwoLinks& links, const Lss& lss, Random& random) {
+    rows.count = 1 + random.below(static_cast<int>(kTrianglePairLanes));
+    rows.areAxes = random.chance(0.5);
+    for (std::size_t lane = 0; lane < static_cast<std::size_t>(rows.count); ++lane) {
+      const Precise3 there = links.inMesh(random.chance(0.5) ? lss.a : lss.b);
+      const Vector3d middle = Vector3d(static_cast<double>(there.x), static_cast<double>(there.y),
+                                       static_cast<double>(there.z)) +
+                              random.magnitude(1e-6, 0.5) * random.direction();
+      const double size = random.magnitude(1e-4, 0.1);
+      const auto point = [&] { return Vector3d(middle + size * random.inBox(1.0)); };
+      if (rows.areAxes || random.chance(0.3)) {
+        const Lss own{point(), random.chance(0.1) ? middle : point(), random.magnitude(1e-6, 1e-2)};
+        put(lane, lanePart(own), {own.a, own.b, own.b}, own.radius);
+      } else {
+        const Triangle own{{point(), point(), point()}};
+        put(lane, lanePart(own), {own.vertices[0], own.vertices[1], own.vertices[2]}, 0.0);
+      }
+    }
+  }
+
+ private:
+  void put(std::size_t lane, const LanePart& part, const std::array<Vector3d, 3>& at,
+           double radius) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) rows.point[i][k][lane] = part.point[i][k];
+      points[lane][i] = Precise3(at[i]);
+    }
+    rows.rho[lane] = part.rho;
+    rows.radius[lane] = part.radius;
+    radii[lane] = Real(radius);
+  }
+};
+
+TEST_P(AxisPartsAtWidth, ProveNoMoreThanIsTrue) {
+  int proven = 0, deep = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const TwoLinks links(random);
-    std::array<Lss, kTrianglePairLanes> lss;
-    std::array<Triangle, kTrianglePairLanes> triangles;
-    for (std::size_t lane = 0; lane < kTrianglePairLanes; ++lane) {
-      lss[lane] = randomLss(random);
-      // Most triangles lie near the LSS: there a pad decides.
-      const Precise3 there = links.inMesh(random.chance(0.5) ? lss[lane].a : lss[lane].b);
-      const Vector3d beside(static_cast<double>(there.x), static_cast<double>(there.y),
-                            static_cast<double>(there.z));
-      const Vector3d middle = beside + random.magnitude(1e-6, 0.5) * random.direction();
-      const double size = random.magnitude(1e-4, 0.1);
-      for (Vector3d& v : triangles[lane].vertices) v = middle + size * random.inBox(1.0);
-      lss[lane].radius = random.magnitude(1e-6, 1e-2);
-      lanes.put(lane, links.axis(lss[lane]), lanePart(triangles[lane]));
-    }
-    lanes.prove(kTrianglePairLanes);
-    for (std::size_t lane = 0; lane < kTrianglePairLanes; ++lane) {
-      const auto& v = triangles[lane].vertices;
-      const Precise3 a = links.inMesh(lss[lane].a), b = links.inMesh(lss[lane].b);
-      const Real distance =
-          oracle::preciseDistance({a, b, b}, {Precise3(v[0]), Precise3(v[1]), Precise3(v[2])}) -
-          Real(lss[lane].radius);
-      ASSERT_LE(Real(lanes.lower(lane)), distance);
-      if (lanes.lower(lane) > 0.0) {
-        ++proven;
-        // Floats resolve 6e-8 of the distance from the mesh's own origin; a root may be 10 km away
-        // from another.
-        const double far = lss[lane].a.norm() + static_cast<double>(norm(a)) + v[0].norm();
-        EXPECT_LE(distance - Real(lanes.lower(lane)), Real(1e-5 * far + 1e-6));
-      }
+    Lss lss = randomLss(random);
+    lss.radius = random.magnitude(1e-6, 1e-2);
+    const NearParts parts(links, lss, random);
+    alignas(64) PairFloats lower;
+    boundGaps(links.axis(lss), parts.rows, lower);
+    const Precise3 a = links.inMesh(lss.a), b = links.inMesh(lss.b);
+    for (std::size_t lane = 0; lane < static_cast<std::size_t>(parts.rows.count); ++lane) {
+      const Real radii = Real(lss.radius) + parts.radii[lane];
+      const Real gap = oracle::preciseDistance({a, b, b}, parts.points[lane]) - radii;
+      ASSERT_LE(Real(lower[lane]), gap);
+      deep += gap < Real(0) ? 1 : 0;
+      if (gap <= Real(0)) continue;
+      ++proven;
+      // Floats resolve 6e-8 of the distance from the mesh's own origin; a root may be 10 km away
+      // from another.
+      const double far = lss.a.norm() + static_cast<double>(norm(a) + norm(parts.points[lane][0]));
+      EXPECT_LE(gap - Real(lower[lane]), Real(1e-5 * far + 1e-6));
     }
   }
   EXPECT_GT(proven, 1000);
+  EXPECT_GT(deep, 50);
 }
 
-INSTANTIATE_TEST_SUITE_P(Widths, StillLanesAtWidth, testing::ValuesIn(supportedSimd()), nameOf);
+TEST_P(AxisPartsAtWidth, ProveNothingOfWhatIsNoNumber) {
+  Random random(0);
+  const TwoLinks links(random);
+  const Lss lss = randomLss(random);
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 0x1p60F}) {
+    NearParts parts(links, lss, random);
+    const StillAxis axis = links.axis(lss);
+    StillAxis off = axis;
+    off.point[1][2] = bad;
+    parts.rows.point[1][0][0] = bad;
+    alignas(64) PairFloats lower;
+    boundGaps(axis, parts.rows, lower);
+    EXPECT_LT(lower[0], 0.0F);
+    boundGaps(off, parts.rows, lower);
+    for (std::int32_t lane = 0; lane < parts.rows.count; ++lane) EXPECT_LT(lower[lane], 0.0F);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Widths, AxisPartsAtWidth, testing::ValuesIn(supportedSimd()), nameOf);
 
 }  // namespace
 }  // namespace foretouch::internal

@@ -25,14 +25,18 @@ using test::Random;
 using Real = oracle::Precise;
 using Vertices = std::array<Vector3d, 3>;
 
+/// What moves in a pair, and what it is made of: two triangles, an axis and a triangle, or two
+/// axes. An axis has its second point twice.
+enum class PairKind { LinkMoves, BothMove, AxisAndTriangle, TwoAxes };
+
 /// One pair as the lanes see it: everything in it is a float.
 struct LanePair {
   Vertices link{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
   Vertices scene = link, velocity = link;
   std::array<double, 3> acceleration{};
   double positionPad = 0.0, velocityPad = 0.0, floor = 0.0;
-  // If the scene's triangle moves too; all pairs of a list are alike in that.
-  bool doBothMove = false;
+  // All pairs of a list are alike in that. Beyond the first kind the scene's side moves too.
+  PairKind kind = PairKind::LinkMoves;
   Vertices otherVelocity = scene;
   double otherAcceleration = 0.0;
 };
@@ -74,10 +78,11 @@ std::vector<LaneAnswer> answersTo(const std::vector<LanePair>& pairs) {
   for (std::size_t first = 0; first < pairs.size(); first += kTrianglePairLanes) {
     const std::size_t count = std::min(kTrianglePairLanes, pairs.size() - first);
     for (std::size_t lane = 0; lane < count; ++lane) put(pairs[first + lane], lane, block, others);
-    if (pairs.front().doBothMove) {
-      proveSteps(block, others, count, steps);
-    } else {
-      proveSteps(block, count, steps);
+    switch (pairs.front().kind) {
+      case PairKind::LinkMoves: proveSteps(block, count, steps); break;
+      case PairKind::BothMove: proveSteps(block, others, count, steps); break;
+      case PairKind::AxisAndTriangle: proveSegmentSteps(block, others, count, steps); break;
+      case PairKind::TwoAxes: proveAxisSteps(block, others, count, steps); break;
     }
     for (std::size_t lane = 0; lane < count; ++lane) {
       answers[first + lane] = {steps.lower[lane], steps.step[lane]};
@@ -262,7 +267,12 @@ class Unknown {
   bool isWorst_;
 };
 
-LanePair randomMotion(Random& random, bool doBothMove) {
+void makeAxis(Vertices& points, Vertices& velocity) {
+  points[2] = points[1];
+  velocity[2] = velocity[1];
+}
+
+LanePair randomMotion(Random& random, PairKind kind) {
   const double size = random.magnitude(1e-4, 1e1);
   LanePair pair = randomTriangles(random, size, random.inBox(size));
   const Vector3d drift = random.magnitude(1e-3, 1e2) * size * random.direction();
@@ -273,8 +283,8 @@ LanePair randomMotion(Random& random, bool doBothMove) {
         random.chance(0.1) ? 0.0 : nearestFloat(random.uniform(0, 1) * strongest);
   }
   if (random.chance(0.1)) pair.velocity.fill(Vector3d::Zero());
-  pair.doBothMove = doBothMove;
-  if (doBothMove) {
+  pair.kind = kind;
+  if (kind != PairKind::LinkMoves) {
     // Half of them ride along.
     const Vector3d other = random.chance(0.5) ? drift : Vector3d(drift.norm() * random.direction());
     for (Vector3d& v : pair.otherVelocity) {
@@ -286,6 +296,11 @@ LanePair randomMotion(Random& random, bool doBothMove) {
       pair.otherVelocity.fill(pair.otherVelocity[0]);
     }
   }
+  if (kind == PairKind::AxisAndTriangle || kind == PairKind::TwoAxes) {
+    makeAxis(pair.link, pair.velocity);
+    pair.acceleration[2] = pair.acceleration[1];
+  }
+  if (kind == PairKind::TwoAxes) makeAxis(pair.scene, pair.otherVelocity);
   pair.positionPad = random.chance(0.3) ? 0.0 : nearestFloat(random.magnitude(1e-8, 1e-2) * size);
   pair.velocityPad = random.chance(0.3) ? 0.0 : nearestFloat(random.magnitude(1e-8, 1e-1) * size);
   pair.floor = random.chance(0.3) ? 0.0 : nearestFloat(random.magnitude(1e-6, 1e-1) * size);
@@ -300,7 +315,8 @@ TrueMotion truthWithin(const LanePair& pair, Random& random) {
   const Vector3d linkOff = linkShare * pair.positionPad * unknown(across);
   const Vector3d sceneOff = (1.0 - linkShare) * pair.positionPad * unknown(-across);
   const double velocityPad = linkShare * pair.velocityPad;
-  const double otherPad = pair.doBothMove ? (1.0 - linkShare) * pair.velocityPad : 0.0;
+  const bool doBothMove = pair.kind != PairKind::LinkMoves;
+  const double otherPad = doBothMove ? (1.0 - linkShare) * pair.velocityPad : 0.0;
   TrueMotion truth;
   for (std::size_t i = 0; i < 3; ++i) {
     truth.otherVelocity[i] =
@@ -310,8 +326,16 @@ TrueMotion truthWithin(const LanePair& pair, Random& random) {
     truth.scene[i] = Precise3(pair.scene[i]) + Precise3(sceneOff);
     truth.velocity[i] =
         Precise3(pair.velocity[i]) +
-        Precise3(Vector3d((pair.doBothMove ? velocityPad : pair.velocityPad) * unknown(across)));
+        Precise3(Vector3d((doBothMove ? velocityPad : pair.velocityPad) * unknown(across)));
     truth.acceleration[i] = Precise3(Vector3d(pair.acceleration[i] * unknown(across)));
+  }
+  if (pair.kind == PairKind::AxisAndTriangle || pair.kind == PairKind::TwoAxes) {
+    truth.velocity[2] = truth.velocity[1];
+    truth.acceleration[2] = truth.acceleration[1];
+  }
+  if (pair.kind == PairKind::TwoAxes) {
+    truth.otherVelocity[2] = truth.otherVelocity[1];
+    truth.otherAcceleration[2] = truth.otherAcceleration[1];
   }
   return truth;
 }
@@ -332,7 +356,7 @@ double stepInDoubles(const LanePair& pair) {
   return step;
 }
 
-class StepsOfTrianglePairs : public testing::TestWithParam<bool> {};
+class StepsOfTrianglePairs : public testing::TestWithParam<PairKind> {};
 
 TEST_P(StepsOfTrianglePairs, KeepTheTrueTrianglesAtTheFloorOrAbove) {
   constexpr int kCases = 2000;
@@ -369,7 +393,9 @@ TEST_P(StepsOfTrianglePairs, KeepTheTrueTrianglesAtTheFloorOrAbove) {
   EXPECT_GT(spent, kCases / 100) << "the test no longer sees a step that is used up";
 }
 
-INSTANTIATE_TEST_SUITE_P(OfOneOrBothThatMove, StepsOfTrianglePairs, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(OfEveryKind, StepsOfTrianglePairs,
+                         testing::Values(PairKind::LinkMoves, PairKind::BothMove,
+                                         PairKind::AxisAndTriangle, PairKind::TwoAxes));
 
 /// Two triangles 1 m apart, closing at 1 m per t.
 LanePair closingPair() {
