@@ -51,23 +51,39 @@ Apart BodiesApart::prove(const SpanSweep& one, const SpanSweep& other, double fl
   return pairs_.empty() ? Apart::ByPlanes : Apart::Unproven;
 }
 
+/// As BodyBox::movedBy(), of all LSS at once.
+void BodiesApart::moveRows(const SpanSweep& one, const Eigen::Vector3d& shift) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t count = one.lower[k].size();
+    lower_[k].resize(count);
+    upper_[k].resize(count);
+    const double by = shift[static_cast<Eigen::Index>(k)];
+    const float *const lower = one.lower[k].data(), *const upper = one.upper[k].data();
+    float *const movedLower = lower_[k].data(), *const movedUpper = upper_[k].data();
+    for (std::size_t i = 0; i < count; ++i) {
+      const MovedBounds moved = movedBounds(lower[i], upper[i], by);
+      movedLower[i] = moved.lower;
+      movedUpper[i] = moved.upper;
+    }
+  }
+}
+
 /// Pairs of LSS whose boxes meet.
 void BodiesApart::collect(const SpanSweep& one, const SpanSweep& other) {
   const Eigen::Vector3d shift = one.origin - other.origin;
   boxes_.clear();
   meeting_.count = 0;
   if (!one.box.movedBy(shift).meets(other.box)) return;
+  moveRows(one, shift);
   for (std::int32_t i = 0; i < one.numLss; ++i) {
-    BodyBox box;
+    LssBox box{i, {}, {}};
+    bool meets = true;
     for (std::size_t k = 0; k < 3; ++k) {
-      box.lower[k] = one.lower[k][slotOf(i)];
-      box.upper[k] = one.upper[k][slotOf(i)];
+      box.lower[k] = lower_[k][slotOf(i)];
+      box.upper[k] = upper_[k][slotOf(i)];
+      meets = meets && box.lower[k] <= other.box.upper[k] && other.box.lower[k] <= box.upper[k];
     }
-    box = box.movedBy(shift);
-    if (!box.meets(other.box)) continue;
-    boxes_.push_back({i,
-                      {box.lower[0], box.lower[1], box.lower[2]},
-                      {box.upper[0], box.upper[1], box.upper[2]}});
+    if (meets) boxes_.push_back(box);
   }
   if (boxes_.empty()) return;
   const BoxRows rows{{other.lower[0].data(), other.lower[1].data(), other.lower[2].data()},

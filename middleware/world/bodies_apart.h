@@ -3,6 +3,7 @@
 // Not installed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -34,11 +35,13 @@ class BodiesApart {
 
  private:
   void collect(const SpanSweep& one, const SpanSweep& other);
+  void moveRows(const SpanSweep& one, const Eigen::Vector3d& shift);
   void addPairs(const SpanSweep& one, const SpanSweep& other, double floor);
   void closeAtRest(const SpanSweep& one, const SpanSweep& other, QueryCounters& counters);
   void closeAtNodes(const SpanSweep& one, const SpanSweep& other, QueryCounters& counters);
   void dropClosed();
 
+  std::array<std::vector<float>, 3> lower_, upper_;  // of one body, relative to the other's origin
   std::vector<LssBox> boxes_;
   MeetingPairs meeting_;
   NodePlanes planes_{};

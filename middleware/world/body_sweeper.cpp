@@ -66,22 +66,24 @@ bool BodySweeper::sweepRoughly(BodyId body, BodySweep& sweep) {
   while (spans.next()) {
     if (spans.members().size() != 1) return false;
     // Its origin goes straight from knot to knot, and no point of it is farther away than that.
-    const TrackPiece& piece = spans.members().front().piece;
-    sweep.whole.add(boxAround(*piece.from, reach));
-    sweep.whole.add(boxAround(*piece.to, reach));
+    sweep.whole.add(boxAround(spans.members().front().piece, reach));
   }
   return true;
 }
 
-/// Relative to the window's origin, rounded outward.
-BodyBox BodySweeper::boxAround(const Pose& pose, double reach) const {
+/// Around both ends, relative to the window's origin, rounded outward.
+BodyBox BodySweeper::boxAround(const TrackPiece& piece, double reach) const {
+  const Eigen::Vector3d &from = piece.from->translations[0], &to = piece.to->translations[0];
+  const double inflated = reach * kInflation;
   BodyBox box;
   for (int k = 0; k < 3; ++k) {
-    const double p = pose.translations[0][k], origin = window_.origin[k];
+    const double least = std::min(from[k], to[k]), most = std::max(from[k], to[k]);
+    const double origin = window_.origin[k];
     const double padded =
-        reach * kInflation + 8.0 * kUnitRoundoff * (std::abs(p) + std::abs(origin));
-    box.lower[k] = floatBelow((p - origin) - padded);
-    box.upper[k] = floatAbove((p - origin) + padded);
+        inflated +
+        8.0 * kUnitRoundoff * (std::max(std::abs(least), std::abs(most)) + std::abs(origin));
+    box.lower[k] = -floatPaddedAbove(padded - (least - origin));
+    box.upper[k] = floatPaddedAbove((most - origin) + padded);
   }
   return box;
 }

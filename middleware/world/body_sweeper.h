@@ -40,7 +40,7 @@ class BodySweeper {
 
  private:
   [[nodiscard]] SystemQuestion questionOf(BodyId body) const;
-  [[nodiscard]] BodyBox boxAround(const Pose& pose, double reach) const;
+  [[nodiscard]] BodyBox boxAround(const TrackPiece& piece, double reach) const;
   Result<Done> fill(BodyId body, SystemQuestion question, SpanSweep& span);
   Result<Done> keepOwn(BodyId body, SystemQuestion question, const SpanPart& part,
                        const SpanSweep& span, std::size_t first, std::vector<WorldContact>& found,

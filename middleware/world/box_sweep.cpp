@@ -64,9 +64,6 @@ namespace {
 /// Read by the last vector of a sweep.
 constexpr std::size_t kRoomBeyond = 16;
 
-/// Of the shift, which is a difference of two places, and of the sum with it.
-constexpr double kRoundingOfMove = 8.0 * kUnitRoundoff;
-
 }  // namespace
 
 void BodyBox::add(const BodyBox& other) {
@@ -79,11 +76,9 @@ void BodyBox::add(const BodyBox& other) {
 BodyBox BodyBox::movedBy(const Eigen::Vector3d& shift) const {
   BodyBox moved;
   for (int k = 0; k < 3; ++k) {
-    const double low = static_cast<double>(lower[k]), high = static_cast<double>(upper[k]);
-    const double slack = kRoundingOfMove * std::max(std::abs(low), std::abs(high)) +
-                         kRoundingOfMove * std::abs(shift[k]);
-    moved.lower[k] = -floatPaddedAbove(slack - (low + shift[k]));
-    moved.upper[k] = floatPaddedAbove(high + shift[k] + slack);
+    const MovedBounds bounds = movedBounds(lower[k], upper[k], shift[k]);
+    moved.lower[k] = bounds.lower;
+    moved.upper[k] = bounds.upper;
   }
   return moved;
 }

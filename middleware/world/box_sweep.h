@@ -3,6 +3,8 @@
 // hardly moves anything. The sweep and prune of [Cohen95], on one axis. Not installed.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -10,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "lss/index.h"
+#include "lss/rounding.h"
 
 namespace foretouch::internal {
 
@@ -31,6 +34,19 @@ struct BodyBox {
 
   static constexpr float kNowhere = 3.0e38F;
 };
+
+/// Of one axis, as BodyBox::movedBy().
+struct MovedBounds {
+  float lower, upper;
+};
+[[nodiscard]] inline MovedBounds movedBounds(float lower, float upper, double shift) {
+  // Of the shift, which is a difference of two places, and of the sum with it.
+  constexpr double kRoundingOfMove = 8.0 * kUnitRoundoff;
+  const double low = static_cast<double>(lower), high = static_cast<double>(upper);
+  const double slack =
+      kRoundingOfMove * std::max(std::abs(low), std::abs(high)) + kRoundingOfMove * std::abs(shift);
+  return {-floatPaddedAbove(slack - (low + shift)), floatPaddedAbove(high + shift + slack)};
+}
 
 struct MeetingBodies {
   std::int32_t a, b;  ///< a < b.
