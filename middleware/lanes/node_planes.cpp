@@ -145,8 +145,17 @@ void closePieces(const NodePlanes& planes, int node, PlanePair* pairs, std::size
   }
 }
 
+/// Per node: 0 in the range; beyond, so much that no height there counts.
+struct Beyond {
+  alignas(32) float of[kNodes];
+  HWY_INLINE explicit Beyond(const NodeRange& range) {
+    for (int k = 0; k < kNodes; ++k) of[k] = range.first <= k && k <= range.last ? 0.0F : 1e30F;
+  }
+};
+
 /// The plane at rest with the normal of lane `k` keeps the pair apart, whenever either is where.
-HWY_INLINE bool restsBetween(const NodePlanes& planes, const PlanePair& pair,
+HWY_INLINE bool restsBetween(const NodePlanes& planes, const Beyond& beyond,
+                             const Beyond& beyondOther, const PlanePair& pair,
                              const ProposalBlock& block, std::size_t k) {
   const hn::CappedTag<float, kNodes> d;
   using V = hn::Vec<decltype(d)>;
@@ -154,12 +163,12 @@ HWY_INLINE bool restsBetween(const NodePlanes& planes, const PlanePair& pair,
   const NodeEnds::Axis &one = planes.axes[pair.i], &other = otherOf(planes, pair);
   const float n[3] = {block.n[0][k], block.n[1][k], block.n[2][k]};
   const Point<V> normal{hn::Set(d, n[0]), hn::Set(d, n[1]), hn::Set(d, n[2])};
-  V low = hn::Min(heightOf(d, normal, one.a, 0), heightOf(d, normal, one.b, 0));
-  V high = hn::Max(heightOf(d, normal, other.a, 0), heightOf(d, normal, other.b, 0));
-  for (int lane = kLanes; lane < kNodes; lane += kLanes) {
-    low = hn::Min(low, hn::Min(heightOf(d, normal, one.a, lane), heightOf(d, normal, one.b, lane)));
-    high = hn::Max(high,
-                   hn::Max(heightOf(d, normal, other.a, lane), heightOf(d, normal, other.b, lane)));
+  V low = hn::Set(d, 1e30F), high = hn::Set(d, -1e30F);
+  for (int lane = 0; lane < kNodes; lane += kLanes) {
+    const V least = hn::Min(heightOf(d, normal, one.a, lane), heightOf(d, normal, one.b, lane));
+    const V most = hn::Max(heightOf(d, normal, other.a, lane), heightOf(d, normal, other.b, lane));
+    low = hn::Min(low, hn::Add(least, hn::Load(d, beyond.of + lane)));
+    high = hn::Max(high, hn::Sub(most, hn::Load(d, beyondOther.of + lane)));
   }
   const float shifted = n[0] * planes.shift[0] + n[1] * planes.shift[1] + n[2] * planes.shift[2];
   const float width =
@@ -170,11 +179,13 @@ HWY_INLINE bool restsBetween(const NodePlanes& planes, const PlanePair& pair,
 void closeAtRest(const NodePlanes& planes, int node, int otherNode, PlanePair* pairs,
                  std::size_t count) {
   ProposalBlock block;
+  const Beyond beyond(planes.nodes), beyondOther(planes.otherNodes);
   for (std::size_t first = 0; first < count; first += kMaxLanes) {
     const std::size_t here = count - first < kMaxLanes ? count - first : kMaxLanes;
     proposeAll(planes, node, otherNode, pairs + first, here, block);
     for (std::size_t k = 0; k < here; ++k) {
-      if (restsBetween(planes, pairs[first + k], block, k)) pairs[first + k].open = 0;
+      PlanePair& pair = pairs[first + k];
+      if (restsBetween(planes, beyond, beyondOther, pair, block, k)) pair.open = 0;
     }
   }
 }

@@ -33,6 +33,11 @@ struct PlanePair {
 /// Roundings of a plane's heights in float, per metre of both sides' extents (node_planes.md 2).
 inline constexpr double kNodePlaneRounding = 16.0 * 0x1p-24;
 
+/// Both are in it.
+struct NodeRange {
+  int first = 0, last = kNodes - 1;
+};
+
 /// What planes are made of and tested against; all of one span.
 struct NodePlanes {
   const NodeEnds::Axis* axes;  ///< Per LSS of the table.
@@ -43,14 +48,16 @@ struct NodePlanes {
   /// From the origin of `axes` to that of `others`, rounded to nearest (m). The reach then includes
   /// kNodePlaneRounding of its coordinates' sum as well.
   float shift[3] = {0.0F, 0.0F, 0.0F};
+  /// For planes at rest: between which nodes each is looked at.
+  NodeRange nodes = {}, otherNodes = {};
 };
 
 /// Closes those pieces of the first `count` pairs that a plane through node `node`'s closest points
 /// keeps apart by their reach. O(count).
 void closeByPlanes(const NodePlanes& planes, int node, PlanePair* pairs, std::size_t count);
 
-/// Closes those of the first `count` pairs that one plane at rest in W keeps apart, wherever on its
-/// way either is: the two may be of spans of different instants. Through the closest points of the
+/// Closes those of the first `count` pairs that one plane at rest in W keeps apart, wherever between
+/// its nodes of the range either is: the two may be of spans of different instants. Through the closest points of the
 /// first's place at `node` and the second's at `otherNode`. Each pair's reach includes how far both
 /// bend between their nodes; frames and bends are not looked at. O(count).
 void closeByRestingPlanes(const NodePlanes& planes, int node, int otherNode, PlanePair* pairs,

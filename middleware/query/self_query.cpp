@@ -75,6 +75,22 @@ void SelfQuery::runAmong(const FoundPairs& found, StepContacts& step) {
   finish(step);
 }
 
+bool SelfQuery::runAmongFrom(double begin, const FoundPairs& found, StepContacts& step) {
+  if (slabsOf(table_, motion_, plan_.tolerances.least) != 1) return false;
+  start_ = begin_ = begin;
+  if (!areNodesFine(step.counters)) return false;
+  own_.left.clear();
+  take(found);
+  answerPairs(step);
+  finish(step);
+  return true;
+}
+
+/// The first node has the places at the start, well enough to tell who touches there.
+bool SelfQuery::areNodesFine(QueryCounters& counters) {
+  return pointRounding(nodes(counters).bounds(), 0.0) <= kStartRounding;
+}
+
 void SelfQuery::take(const FoundPairs& found) {
   const AskedPairs& asked = self_.asked();
   MeetingPairs& meeting = own_.meeting;
@@ -240,11 +256,10 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
                   &other,
                   frame};
   const bool areMeshes = query.isExact() || other.surface != nullptr;
-  const bool mayStart = begin_ == 0.0 && std::any_of(pairs, pairs + count, [](const PlanePair& p) {
+  const bool mayStart = begin_ == start_ && std::any_of(pairs, pairs + count, [](const PlanePair& p) {
                           return (p.open & 1U) != 0;
                         });
-  if (mayStart && !areMeshes &&
-      pointRounding(nodes(step.counters).bounds(), 0.0) <= kStartRounding) {
+  if (mayStart && !areMeshes && areNodesFine(step.counters)) {
     const auto contact = contactAtStart(query, step.counters);
     if (contact && !mayLeave(query, *contact, step.counters)) {
       return keep(*contact, kNoParent, step);
@@ -399,12 +414,12 @@ const AxisCurve& SelfQuery::curveOf(const Side& side, std::int32_t lss, LinkId f
   return own_.curves.back().curve;
 }
 
-/// At t = 0 the first node has the places, without trigonometry. The contact of the nearest two
+/// At the start the first node has the places, without trigonometry. The contact of the nearest two
 /// LSS, in W; nothing if none is within the tolerance.
 std::optional<PairContact> SelfQuery::contactAtStart(const LinkQuery& query,
                                                      QueryCounters& counters) {
   std::optional<PairContact> best;
-  collect(0.0, {}, query.tolerance, scratch_.candidates, counters);
+  collect(start_, {}, query.tolerance, scratch_.candidates, counters);
   for (const Candidate& candidate : scratch_.candidates) {
     ++counters.advancements;
     const MovingPair apart =
@@ -415,6 +430,7 @@ std::optional<PairContact> SelfQuery::contactAtStart(const LinkQuery& query,
     if (!best || comesFirst(contact, *best)) best = contact;
   }
   if (!best) return best;
+  best->toi = best->freeUntil = start_;
   const Eigen::Vector3d& origin = scratch_.lanes.nodes().origin();
   best->p_WScene += origin;
   best->p_WLink += origin;
@@ -480,9 +496,16 @@ void SelfQuery::keep(PairContact contact, LinkId frame, StepContacts& step) {
 void SelfQuery::collect(double t, const PosedLink& /*posed*/, double /*reach*/,
                         std::vector<Candidate>& candidates, QueryCounters& /*counters*/) {
   candidates.clear();
+  const std::int32_t firstOfOne = table_.first(one_.link), firstOfOther = table_.first(other_.link);
+  const auto ofOne = static_cast<std::uint32_t>(table_.first(one_.link + 1) - firstOfOne);
+  const auto ofOther = static_cast<std::uint32_t>(table_.first(other_.link + 1) - firstOfOther);
   for (std::size_t k = 0; k < own_.meeting.count; ++k) {
     const LssIndexPair& pair = own_.meeting.pairs[k];
-    if (table_[pair.i].link != one_.link || table_[pair.j].link != other_.link) continue;
+    // One comparison tells both ends of a range.
+    if (static_cast<std::uint32_t>(pair.i - firstOfOne) >= ofOne ||
+        static_cast<std::uint32_t>(pair.j - firstOfOther) >= ofOther) {
+      continue;
+    }
     candidates.push_back(candidateOf(pair, kEveryPiece));
     candidates.back().freeUntil = t;
   }

@@ -39,6 +39,9 @@ class SelfQuery final : private Neighbours, private LaneFrames {
   void run(StepContacts& step);
   /// The same for those that were found, of which only asked ones count.
   void runAmong(const FoundPairs& found, StepContacts& step);
+  /// The same from `begin` in (0,1) on: who touches there starts in contact. Of LSS alone. False:
+  /// the motion is too long or too far away to begin anywhere but at 0, and nothing is answered.
+  [[nodiscard]] bool runAmongFrom(double begin, const FoundPairs& found, StepContacts& step);
 
  private:
   /// One side of the pair at hand.
@@ -49,6 +52,7 @@ class SelfQuery final : private Neighbours, private LaneFrames {
 
   void evaluate(QueryCounters& counters);
   [[nodiscard]] const ChainNodes& nodes(QueryCounters& counters);
+  [[nodiscard]] bool areNodesFine(QueryCounters& counters);
   void take(const FoundPairs& found);
   void finish(StepContacts& step) const;
   void collectOpen(QueryCounters& counters);
@@ -92,6 +96,7 @@ class SelfQuery final : private Neighbours, private LaneFrames {
   const WorkMeter& meter_;
   ScratchParts& scratch_;
   SelfScratch& own_;
+  double start_ = 0.0;              // nothing is asked before
   double begin_ = 0.0, end_ = 1.0;  // of the current slab
   Side one_, other_;                // of the current pair of links
 };

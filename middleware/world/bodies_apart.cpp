@@ -39,15 +39,30 @@ Eigen::Vector3d originOfEnds(const SpanSweep& span) {
          Eigen::Vector3d(span.ends.origin[0], span.ends.origin[1], span.ends.origin[2]);
 }
 
+/// The fewest nodes of the span that have both instants between them.
+NodeRange nodesAround(const SpanSweep& span, std::int64_t fromUs, std::int64_t toUs) {
+  // Microseconds; nodes are within 1e-3 of it where their times say (ChainNodes::instant()).
+  constexpr double kOff = 1e-3;
+  const auto length = static_cast<double>(span.endUs - span.beginUs);
+  const auto from = static_cast<double>(fromUs - span.beginUs),
+             to = static_cast<double>(toUs - span.beginUs);
+  NodeRange range;
+  while (range.first + 1 < kNodes && length * ChainNodes::time(range.first + 1) <= from - kOff) {
+    ++range.first;
+  }
+  while (range.last > 0 && length * ChainNodes::time(range.last - 1) >= to + kOff) --range.last;
+  return range;
+}
+
 }  // namespace
 
-Apart BodiesApart::prove(const SpanSweep& one, const SpanSweep& other, double floor,
-                         QueryCounters& counters) {
+Apart BodiesApart::prove(const SpanSweep& one, const SpanSweep& other, std::int64_t fromUs,
+                         std::int64_t toUs, double floor, QueryCounters& counters) {
   collect(one, other);
   if (meeting_.count == 0) return Apart::ByBoxes;
   addPairs(one, other, floor);
   const bool isSameSpan = one.beginUs == other.beginUs && one.endUs == other.endUs;
-  isSameSpan ? closeAtNodes(one, other, counters) : closeAtRest(one, other, counters);
+  isSameSpan ? closeAtNodes(one, other, counters) : closeAtRest(one, other, fromUs, toUs, counters);
   return pairs_.empty() ? Apart::ByPlanes : Apart::Unproven;
 }
 
@@ -130,18 +145,25 @@ void BodiesApart::closeAtNodes(const SpanSweep&, const SpanSweep&, QueryCounters
 }
 
 /// Each has nodes of its own.
-void BodiesApart::closeAtRest(const SpanSweep& one, const SpanSweep& other,
-                              QueryCounters& counters) {
+void BodiesApart::closeAtRest(const SpanSweep& one, const SpanSweep& other, std::int64_t fromUs,
+                              std::int64_t toUs, QueryCounters& counters) {
+  planes_.nodes = nodesAround(one, fromUs, toUs);
+  planes_.otherNodes = nodesAround(other, fromUs, toUs);
+
   for (PlanePair& pair : pairs_) {
     const double bend =
         static_cast<double>(one.bends[slotOf(pair.i)]) * static_cast<double>(one.widestSagitta) +
         static_cast<double>(other.bends[slotOf(pair.j)]) * static_cast<double>(other.widestSagitta);
     pair.reach = floatPaddedAbove((static_cast<double>(pair.reach) + bend) * kReachInflation);
   }
-  for (const int node : kNodesOfPlanes) {
+  const NodeRange &own = planes_.nodes, &others = planes_.otherNodes;
+  const int proposing[3][2] = {{(own.first + own.last) / 2, (others.first + others.last + 1) / 2},
+                               {own.first, others.last},
+                               {own.last, others.first}};
+  for (const auto& nodes : proposing) {
     if (pairs_.empty()) return;
     counters.laneSteps += pairs_.size();
-    closeByRestingPlanes(planes_, node, kNodes - 1 - node, pairs_.data(), pairs_.size());
+    closeByRestingPlanes(planes_, nodes[0], nodes[1], pairs_.data(), pairs_.size());
     dropClosed();
   }
 }

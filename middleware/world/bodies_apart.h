@@ -23,10 +23,10 @@ enum class Apart : std::uint8_t {
 /// For one thread; keeps its memory.
 class BodiesApart {
  public:
-  /// How far the two are proven to stay apart by more than `floor` (m) beyond all radii, wherever
-  /// each is in its span. O(LSS^2) divided by 16.
-  [[nodiscard]] Apart prove(const SpanSweep& one, const SpanSweep& other, double floor,
-                            QueryCounters& counters);
+  /// How far the two are proven to stay apart by more than `floor` (m) beyond all radii from
+  /// `fromUs` to `toUs`, which are in the spans of both. O(LSS^2) divided by 16.
+  [[nodiscard]] Apart prove(const SpanSweep& one, const SpanSweep& other, std::int64_t fromUs,
+                            std::int64_t toUs, double floor, QueryCounters& counters);
 
   /// After `Unproven`: the pairs whose boxes meet, and those of them that are open; i of the first
   /// body's LSS, j of the other's. Pieces are those of the nodes of both, or all.
@@ -37,7 +37,8 @@ class BodiesApart {
   void collect(const SpanSweep& one, const SpanSweep& other);
   void moveRows(const SpanSweep& one, const Eigen::Vector3d& shift);
   void addPairs(const SpanSweep& one, const SpanSweep& other, double floor);
-  void closeAtRest(const SpanSweep& one, const SpanSweep& other, QueryCounters& counters);
+  void closeAtRest(const SpanSweep& one, const SpanSweep& other, std::int64_t fromUs,
+                   std::int64_t toUs, QueryCounters& counters);
   void closeAtNodes(const SpanSweep& one, const SpanSweep& other, QueryCounters& counters);
   void dropClosed();
 

@@ -137,7 +137,23 @@ Result<Done> BodySweeper::keepOwn(BodyId body, SystemQuestion question, const Sp
   for (const WorldContact& contact : span.own) {
     if (!isEarlier(contact) && !(end < contact.time)) keep(contact, first, found);
   }
-  if (std::none_of(span.own.begin(), span.own.end(), isEarlier)) return Done{};
+  std::vector<WorldContact>& met = scratch_.met;
+  met.clear();
+  std::copy_if(span.own.begin(), span.own.end(), std::back_inserter(met), isEarlier);
+  if (met.empty()) return Done{};
+  std::vector<WorldContact>& again = scratch_.again;
+  again.clear();
+  if (question == SystemQuestion::Self) {
+    // The piece's own motion, which is known to its last digit, from that instant on.
+    FORETOUCH_TRY(const SystemPlan* const whole, query_.prepare(question, body, kStillScene));
+    if (query_.askAgainFrom(part.beginUs, *whole, body, met, 0, again, counters.queries)) {
+      ++counters.spans;
+      for (const WorldContact& contact : again) {
+        if (!(end < contact.time)) keep(contact, first, found);
+      }
+      return Done{};
+    }
+  }
   scratch_.spans.narrow();
   FORETOUCH_TRY(const SystemPlan* const plan, query_.prepare(question, body, kStillScene));
   if (!query_.isResolved()) {
@@ -145,15 +161,10 @@ Result<Done> BodySweeper::keepOwn(BodyId body, SystemQuestion question, const Sp
     return Done{};
   }
   ++counters.spans;
-  std::vector<WorldContact>& met = scratch_.met;
-  met.clear();
-  std::copy_if(span.own.begin(), span.own.end(), std::back_inserter(met), isEarlier);
   if (question == SystemQuestion::Self) {
     query_.askAgain(*plan, body, met, first, found, counters.queries);
     return Done{};
   }
-  std::vector<WorldContact>& again = scratch_.again;
-  again.clear();
   query_.ask(*plan, body, kStillScene, 0, again, counters.queries);
   for (const WorldContact& contact : again) {
     const bool hadMet = std::any_of(met.begin(), met.end(), [&](const WorldContact& known) {

@@ -1,13 +1,13 @@
 #include "middleware/world/system_query.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "middleware/counter_fields.h"
 #include "middleware/query/scratch_parts.h"
-#include "middleware/query/self_query.h"
 #include "middleware/query/work_meter.h"
 
 namespace foretouch::internal {
@@ -102,6 +102,35 @@ void SystemQuery::askAmong(const SystemPlan& plan, BodyId a, BodyId b, const Mee
 void SystemQuery::askAgain(const SystemPlan& plan, BodyId a, const std::vector<WorldContact>& met,
                            std::size_t first, std::vector<WorldContact>& found,
                            QueryCounters& counters) {
+  nameAll(plan, met);
+  answerAmong(plan);
+  keepAll(plan, a, kStillScene, first, found, counters);
+}
+
+bool SystemQuery::askAgainFrom(std::int64_t fromUs, const SystemPlan& plan, BodyId a,
+                               const std::vector<WorldContact>& met, std::size_t first,
+                               std::vector<WorldContact>& found, QueryCounters& counters) {
+  const bool areTriangles = plan.plan->options.surface.has_value();
+  // Rounded down: not a moment of what is asked is left out.
+  const double begin =
+      std::nextafter(static_cast<double>(fromUs - scratch_.spans.beginUs()) /
+                         static_cast<double>(scratch_.spans.endUs() - scratch_.spans.beginUs()),
+                     0.0);
+  if (areTriangles || !(begin > 0.0)) return false;
+  nameAll(plan, met);
+  beginStep();
+  const WorkMeter meter(plan.plan->options);
+  SelfQuery query(*plan.plan, scratch_.motion, meter, scratch_.query.parts());
+  if (!query.runAmongFrom(begin, foundPairs(), scratch_.step)) return false;
+  const std::size_t count = found.size();
+  keepAll(plan, a, kStillScene, first, found, counters);
+  for (std::size_t i = count; i < found.size(); ++i) {
+    found[i].time = std::max(found[i].time, WorldTime{fromUs, 0.0});
+  }
+  return true;
+}
+
+void SystemQuery::nameAll(const SystemPlan& plan, const std::vector<WorldContact>& met) {
   const LssTable& table = plan.plan->table;
   scratch_.meeting.clear();
   scratch_.open.clear();
@@ -113,8 +142,6 @@ void SystemQuery::askAgain(const SystemPlan& plan, BodyId a, const std::vector<W
       }
     }
   }
-  answerAmong(plan);
-  keepAll(plan, a, kStillScene, first, found, counters);
 }
 
 void SystemQuery::keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
@@ -143,11 +170,14 @@ void SystemQuery::answer(const SystemPlan& plan) {
 
 void SystemQuery::answerAmong(const SystemPlan& plan) {
   beginStep();
-  const FoundPairs found{scratch_.meeting.data(), scratch_.meeting.size(), scratch_.open.data(),
-                         scratch_.open.size()};
   const WorkMeter meter(plan.plan->options);
   SelfQuery(*plan.plan, scratch_.motion, meter, scratch_.query.parts())
-      .runAmong(found, scratch_.step);
+      .runAmong(foundPairs(), scratch_.step);
+}
+
+FoundPairs SystemQuery::foundPairs() const {
+  return {scratch_.meeting.data(), scratch_.meeting.size(), scratch_.open.data(),
+          scratch_.open.size()};
 }
 
 void SystemQuery::beginStep() {

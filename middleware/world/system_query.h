@@ -13,6 +13,7 @@
 #include "middleware/lanes/node_planes.h"
 #include "middleware/lanes/pair_boxes.h"
 #include "middleware/query/query_scratch.h"
+#include "middleware/query/self_query.h"
 #include "middleware/world/body_system.h"
 #include "middleware/world/system_plan.h"
 #include "middleware/world/world_contacts.h"
@@ -62,6 +63,11 @@ class SystemQuery {
   /// Self.
   void askAgain(const SystemPlan& plan, BodyId a, const std::vector<WorldContact>& met,
                 std::size_t first, std::vector<WorldContact>& found, QueryCounters& counters);
+  /// The same from an instant within the span on; what meets does so then or later. False: cannot
+  /// be asked in this way (SelfQuery::runAmongFrom()), and nothing is found.
+  [[nodiscard]] bool askAgainFrom(std::int64_t fromUs, const SystemPlan& plan, BodyId a,
+                                  const std::vector<WorldContact>& met, std::size_t first,
+                                  std::vector<WorldContact>& found, QueryCounters& counters);
   /// Appends that nothing is known of the two from the span's begin on.
   void giveUp(BodyId a, BodyId b, std::vector<WorldContact>& found) const;
 
@@ -69,6 +75,8 @@ class SystemQuery {
   [[nodiscard]] Eigen::Vector3d originOf(SystemQuestion question) const;
   void answer(const SystemPlan& plan);
   void answerAmong(const SystemPlan& plan);
+  void nameAll(const SystemPlan& plan, const std::vector<WorldContact>& met);
+  [[nodiscard]] FoundPairs foundPairs() const;
   void beginStep();
   void keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
                std::vector<WorldContact>& found, QueryCounters& counters);

@@ -84,8 +84,8 @@ class PairAsker {
     spans.begin(world_, a, b, window_.fromUs, window_.toUs);
     while (spans.next()) {
       const SpanSweep& ofA = one.at(spans.beginUs());
-      const Apart apart =
-          worker_.apart.prove(ofA, other.at(spans.beginUs()), floor(), worker_.counters.queries);
+      const Apart apart = worker_.apart.prove(ofA, other.at(spans.beginUs()), spans.beginUs(),
+                                              spans.endUs(), floor(), worker_.counters.queries);
       isNear = isNear || apart != Apart::ByBoxes;
       if (apart != Apart::Unproven) continue;
       const SystemQuestion question = questionOf(a, b, spans.beginUs());
