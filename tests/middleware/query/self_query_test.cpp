@@ -1,5 +1,7 @@
 // Own links that touch each other: sound and tight at sampled instants, at every width, for chains,
 // trees and several roots; the same whatever carries the body; and what is refused.
+#include "middleware/query/self_query.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +13,7 @@
 #include "lss/separation.h"
 #include "lss/simd.h"
 #include "middleware/query/query.h"
+#include "middleware/query/query_scratch.h"
 #include "tessellation/swept_lss.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/own_body.h"
@@ -45,10 +48,10 @@ struct Tally {
   int clear = 0, contact = 0, start = 0, undecided = 0;
 };
 
-/// Every asked pair at sampled instants: nothing touches before its contact, and at its contact it
-/// is within the tolerance.
+/// Every asked pair at sampled instants from `begin` on: nothing touches before its contact, and at
+/// its contact it is within the tolerance.
 void expectPromise(const OwnBody& body, const PairRules& rules, const StepContacts& step,
-                   double tolerance, Tally& tally) {
+                   double tolerance, Tally& tally, double begin = 0.0) {
   constexpr int kSamples = 200;
   constexpr double kRounding = 1e-10;
   std::map<std::pair<LinkId, LinkId>, const PairContact*> found;
@@ -60,7 +63,7 @@ void expectPromise(const OwnBody& body, const PairRules& rules, const StepContac
   const ChainMotion motion = body.motion();
   std::vector<LinkState> states;
   for (int k = 0; k <= kSamples; ++k) {
-    const double t = static_cast<double>(k) / kSamples;
+    const double t = begin + (1.0 - begin) * k / kSamples;
     motion.statesAt(t, states);
     for (LinkId a = 0; a < body.avatar.numLinks(); ++a) {
       for (LinkId b = a + 1; b < body.avatar.numLinks(); ++b) {
@@ -89,6 +92,7 @@ void expectPromise(const OwnBody& body, const PairRules& rules, const StepContac
       EXPECT_NEAR((contact->p_WLink - contact->p_WScene).dot(contact->nhat_SL_W), separation, 1e-9);
     } else if (contact->verdict == Verdict::StartsInContact) {
       ++tally.start;
+      EXPECT_EQ(contact->toi, begin);
       EXPECT_LE(separation, kRounding);
       EXPECT_NEAR(contact->penetration, -separation, kRounding);
     } else {
@@ -156,6 +160,54 @@ double surfaceSeparationAt(const Avatar& avatar, const std::vector<std::vector<T
 
 // At exact fidelity the meshes decide, and where a link has none its LSS; with policies each side
 // has its own. What is clear at link fidelity is clear exactly, and nothing is earlier.
+// A question may begin within a motion: whoever touches there starts in contact, whatever was
+// before.
+TEST_P(SelfQueries, FromAnInstantOnAreSoundAndTight) {
+  Tally tally;
+  QueryScratch scratch;
+  int refused = 0;
+  for (int i = 0; i < 600; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    OwnBody body = randomOwnBody(random);
+    // All of it would mostly take several spans of time.
+    Pose near;
+    body.motion().poseAt(random.uniform(0.05, 0.3), near);
+    body.steps.to = near;
+    const auto rules = PairRules::derive(body.avatar);
+    if (!rules.ok()) continue;
+    QueryOptions options;
+    options.tolerance = random.magnitude(1e-5, 1e-2);
+    options.self = rules.value();
+    const auto plan = internal::QueryPlan::make(body.avatar, farScene(), options).value();
+    std::vector<internal::LssIndexPair> meeting;
+    std::vector<internal::PlanePair> open;
+    for (std::int32_t x = 0; x < plan.table.size(); ++x) {
+      for (std::int32_t y = x + 1; y < plan.table.size(); ++y) {
+        meeting.push_back({x, y});
+        open.push_back({x, y, 0, 0.0F, 0.0F, internal::kEveryPiece});
+      }
+    }
+    const ChainMotion motion = body.motion();
+    scratch.parts().beginStep(motion);
+    const internal::WorkMeter meter(plan.options);
+    const double begin = random.uniform(0.01, 0.99);
+    StepContacts step;
+    internal::SelfQuery query(plan, motion, meter, scratch.parts());
+    if (!query.runAmongFrom(begin, {meeting.data(), meeting.size(), open.data(), open.size()},
+                            step)) {
+      ++refused;
+      continue;
+    }
+    expectPromise(body, *options.self, step, options.tolerance, tally, begin);
+  }
+  EXPECT_LT(refused, 300);
+  EXPECT_GT(tally.clear, 500);
+  EXPECT_GT(tally.contact, 50);
+  EXPECT_GT(tally.start, 30);
+  EXPECT_EQ(tally.undecided, 0);
+}
+
 TEST_P(SelfQueries, OfMeshesAreSoundTightAndNeverEarlierThanTheirLss) {
   constexpr int kSamples = 60;
   constexpr double kRounding = 1e-10;

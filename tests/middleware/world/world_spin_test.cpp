@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "lss/index.h"
+#include "lss/separation.h"
 #include "middleware/world/world_parts.h"
 #include "tests/middleware/own_body.h"
 #include "tests/middleware/world/random_worlds.h"
@@ -105,6 +106,22 @@ TEST(WorldSpin, IsProvenOfToolsInHands) {
   EXPECT_LT(sum.grazing, 5);
 }
 
+/// How deep the deepest of the ring's triangles is in the link, one after the other.
+double deepestIn(const Walker& walker, LinkId link, const Scene& ring, const RigidPose& at) {
+  const ChainMotion still(walker.avatar.skeleton(), walker.pose, walker.pose);
+  const LinkState state = still.stateAt(link, 0.0);
+  double deepest = 0.0;
+  for (const Lss& lss : walker.avatar.lss(link)) {
+    const Hull axis = Hull::segment(state.pointAt(lss.a), state.pointAt(lss.b));
+    for (std::size_t i = 0; i < ring.numTriangles(); ++i) {
+      Triangle triangle = ring.triangle(static_cast<TriangleId>(i));
+      for (Vector3d& v : triangle.vertices) v = at.rotation * v + at.translation;
+      deepest = std::max(deepest, lss.radius - separation(axis, Hull::of(triangle)).distance);
+    }
+  }
+  return deepest;
+}
+
 // Whoever cuts into a ring touches many of its triangles at once: the deepest is told, whichever
 // way it is found.
 TEST(WorldSpin, TellsTheDeepestTriangleAtTheStart) {
@@ -139,6 +156,7 @@ TEST(WorldSpin, TellsTheDeepestTriangleAtTheStart) {
           [&](const WorldContact& c) { return c.a.link == spun.a.link && isStart(c); });
       ASSERT_NE(seen, answers[1].contacts.end());
       EXPECT_NEAR(spun.penetration, seen->penetration, 1e-9);
+      EXPECT_NEAR(spun.penetration, deepestIn(walker, spun.a.link, thing, begin), 1e-9);
       ++starts;
     }
   }
