@@ -13,8 +13,9 @@ HWY_BEFORE_NAMESPACE();
 namespace foretouch::internal::HWY_NAMESPACE {
 namespace {
 
-/// Rounds the sum of two radii, and a part's pad, up.
+/// Rounds the sum of two radii, a part's pad, or the root of a square up; and the first down.
 constexpr float kSumOfRadii = 1.0F + 4.0F * kUnitRoundoffOfFloat;
+constexpr float kLeastSumOfRadii = 1.0F - 4.0F * kUnitRoundoffOfFloat;
 /// Outweighs the rounding of the last difference.
 constexpr float kGapRounding = 2.0F * kUnitRoundoffOfFloat;
 
@@ -22,9 +23,13 @@ HWY_INLINE Vec3 all(Floats d, const float (&p)[3]) {
   return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2])};
 }
 
+struct Distances {
+  Lanes lower, upper;
+};
+
 template <int kPoints>
-HWY_INLINE Lanes distanceFrom(Floats d, const StillAxis& axis, const PartRows& parts,
-                              std::size_t first) {
+HWY_INLINE Distances distancesFrom(Floats d, const StillAxis& axis, const PartRows& parts,
+                                   std::size_t first) {
   const Vec3 origin = load(d, parts.point[0], first);
   Triangles<2, kPoints> pair;
   for (int i = 0; i < 2; ++i) pair.link[i] = sub(all(d, axis.point[i]), origin);
@@ -47,22 +52,27 @@ HWY_INLINE Lanes distanceFrom(Floats d, const StillAxis& axis, const PartRows& p
   const LaneMask inRange =
       hn::And(hn::And(hn::Ge(pad, hn::Zero(d)), hn::Le(pad, hn::Set(d, kMost))),
               hn::Le(sumOf(squares, ends[0], ends[1]), hn::Set(d, kMost * kMost)));
-  const Plane plane = widestPlane(d, pair);
+  const NearestEdges nearest = nearestEdges(d, pair);
+  const Plane plane = widestPlane(d, pair, nearest);
   const Lanes lowest = hn::Min(dot(plane.n, pair.link[0]), dot(plane.n, pair.link[1]));
   const Lanes gap = hn::Sub(hn::Sub(lowest, topOf(d, pair, plane.n)), slack);
-  return hn::IfThenElseZero(inRange, hn::Max(gap, hn::Zero(d)));
+  const Lanes apart = hn::MulAdd(hn::Sqrt(nearest.squaredDistance), hn::Set(d, kSumOfRadii), slack);
+  return {hn::IfThenElseZero(inRange, hn::Max(gap, hn::Zero(d))),
+          hn::IfThenElse(inRange, apart, hn::Set(d, kMost))};
 }
 
-void boundGapsInLanes(const StillAxis& axis, const PartRows& parts, PairFloats& lower) {
+void boundGapsInLanes(const StillAxis& axis, const PartRows& parts, GapBounds& gaps) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
+  const Lanes rounding = hn::Set(d, kGapRounding);
   for (std::size_t first = 0; first < static_cast<std::size_t>(parts.count); first += lanes) {
-    const Lanes distance = parts.areAxes ? distanceFrom<2>(d, axis, parts, first)
-                                         : distanceFrom<3>(d, axis, parts, first);
-    const Lanes radii = hn::Mul(hn::Add(hn::Set(d, axis.radius), hn::Load(d, parts.radius + first)),
-                                hn::Set(d, kSumOfRadii));
-    const Lanes gap = hn::Sub(distance, radii);
-    hn::Store(hn::NegMulAdd(hn::Set(d, kGapRounding), hn::Abs(gap), gap), d, lower + first);
+    const Distances distances = parts.areAxes ? distancesFrom<2>(d, axis, parts, first)
+                                              : distancesFrom<3>(d, axis, parts, first);
+    const Lanes radii = hn::Add(hn::Set(d, axis.radius), hn::Load(d, parts.radius + first));
+    const Lanes lower = hn::Sub(distances.lower, hn::Mul(radii, hn::Set(d, kSumOfRadii)));
+    const Lanes upper = hn::Sub(distances.upper, hn::Mul(radii, hn::Set(d, kLeastSumOfRadii)));
+    hn::Store(hn::NegMulAdd(rounding, hn::Abs(lower), lower), d, gaps.lower + first);
+    hn::Store(hn::MulAdd(rounding, hn::Abs(upper), upper), d, gaps.upper + first);
   }
 }
 
@@ -78,8 +88,8 @@ HWY_EXPORT(boundGapsInLanes);
 
 }  // namespace
 
-void boundGaps(const StillAxis& axis, const PartRows& parts, PairFloats& lower) {
-  HWY_DYNAMIC_DISPATCH(boundGapsInLanes)(axis, parts, lower);
+void boundGaps(const StillAxis& axis, const PartRows& parts, GapBounds& gaps) {
+  HWY_DYNAMIC_DISPATCH(boundGapsInLanes)(axis, parts, gaps);
 }
 
 }  // namespace foretouch::internal

@@ -1,5 +1,5 @@
 // middleware/lanes/axis_parts.h: the axis of an LSS against sixteen parts of a mesh, all at rest in
-// one frame: a lower bound on each distance. Proof: middleware/lanes/triangle_pairs.md 6. Not
+// one frame: bounds on each distance. Proof: middleware/lanes/triangle_pairs.md 6. Not
 // installed.
 #pragma once
 
@@ -28,8 +28,12 @@ struct PartRows {
   bool areAxes = true;  ///< No part is a triangle: the third point repeats the second.
 };
 
-/// `lower` (m): the LSS and each part, both with their radii, are at least so far apart; minus the
-/// radii where nothing is proven. Writes a whole vector.
-void boundGaps(const StillAxis& axis, const PartRows& parts, PairFloats& lower);
+/// How far the LSS and each part are apart, both with their radii (m).
+struct GapBounds {
+  alignas(64) PairFloats lower;  ///< At least; minus the radii where nothing is proven.
+  alignas(64) PairFloats upper;  ///< At most: two points of them are.
+};
+/// Writes whole vectors.
+void boundGaps(const StillAxis& axis, const PartRows& parts, GapBounds& gaps);
 
 }  // namespace foretouch::internal

@@ -139,7 +139,7 @@ HWY_INLINE void answer(Floats d, const TrianglePairBlock& block, const Other& ot
     pair.scene[i - 1] = sub(load(d, block.scene[i], first), origin);
   }
   const Slack slack = slackOf(d, block, first, pair, velocity, other);
-  const Plane plane = widestPlane(d, pair);
+  const Plane plane = widestPlane(d, pair, nearestEdges(d, pair));
 
   const Lanes top = topOf(d, pair, plane.n);
   const Lanes floor = hn::Load(d, block.floor + first);

@@ -192,8 +192,8 @@ HWY_INLINE void tryDirection(Floats d, const Triangles<kPoints, kScenePoints>& p
 }
 
 template <int kPoints, int kScenePoints>
-HWY_INLINE Plane widestPlane(Floats d, const Triangles<kPoints, kScenePoints>& pair) {
-  const NearestEdges nearest = nearestEdges(d, pair);
+HWY_INLINE Plane widestPlane(Floats d, const Triangles<kPoints, kScenePoints>& pair,
+                             const NearestEdges& nearest) {
   const Vec3 zero{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   Plane best{zero, hn::Zero(d)};
   tryDirection(d, pair, nearest.difference, best);

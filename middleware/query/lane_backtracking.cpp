@@ -66,17 +66,20 @@ class LaneBacktracker {
 
   /// At one instant the parts of a mesh and an LSS stand still: no more than places counts. All
   /// that cut into each other at t = 0 touch at once, and the deepest is reported: of what is below
-  /// a part the nearest comes first, down to the surfaces, and then lanes mostly show that no
-  /// better one is left. What is apart moves on from there. False if a spent budget ended it.
+  /// a part the nearest comes first, down to the triangles. Their own bounds show that hardly any
+  /// but the deepest can be reported; doubles decide between these. What is apart moves on from
+  /// there. False if a spent budget ended it.
   [[nodiscard]] bool lookStill(double t) {
     if constexpr (Sides::kAnswersStarts) {
       std::vector<StillPair>& stack = scratch_.stillPairs;
+      atMost_ = kInfinity;
       while (!stack.empty()) {
-        const StillPair pair = stack.back();
         if (query_.meter.isPartSpent(counters_)) return false;
+        const StillPair pair = stack.back();
         stack.pop_back();
         lookDown(pair, t);
       }
+      if (!lookAtSurfaces(t)) return false;
       if (horizon_ > t) {
         for (const StillPair& pair : scratch_.stillApart) push(sides_.movingFrom(t, pair));
       }
@@ -84,43 +87,70 @@ class LaneBacktracker {
     return true;
   }
 
-  /// From the pair down to surfaces, by the nearest part of each.
+  /// From the pair down to triangles, by the nearest part of each.
   void lookDown(StillPair pair, double t) {
     while (!isTooFar(static_cast<double>(pair.nearest), t)) {
-      if (pair.part.isTriangle()) return look(sides_.movingFrom(t, pair));
+      if (pair.part.isTriangle()) return scratch_.stillSurfaces.push_back(pair);
       const WideNode& node = sides_.belowStill(pair);
       boundGaps(scratch_.stillAxes[slotOf(pair.candidate)], node.parts, scratch_.gaps);
       counters_.partSteps += slotOf(node.parts.count);
       const std::int32_t nearest = keepNear(node, pair.candidate, t);
       if (nearest < 0) return;
-      pair.nearest = scratch_.gaps[nearest];
+      pair.nearest = scratch_.gaps.lower[nearest];
       pair.part = node.below[slotOf(nearest)];
     }
   }
 
-  /// Keeps all that may be near but the nearest, whose lane it returns; -1: nothing is.
+  /// Keeps all that may be near but the nearest that is no triangle, whose lane it returns; -1:
+  /// there is none.
   [[nodiscard]] std::int32_t keepNear(const WideNode& node, std::int32_t candidate, double t) {
-    const double most = horizon_ <= t ? nearest_ : kInfinity;
+    const PairFloats& gaps = scratch_.gaps.lower;
     std::int32_t nearest = -1;
     for (std::int32_t i = 0; i < node.parts.count; ++i) {
-      const float gap = scratch_.gaps[i];
-      if (static_cast<double>(gap) > most) continue;
-      if (static_cast<double>(gap) > handOver_) {
-        scratch_.stillApart.push_back({gap, candidate, node.below[slotOf(i)]});
-        continue;
+      const auto gap = static_cast<double>(gaps[i]);
+      if (isTooFar(gap, t)) continue;
+      const HierarchyChild part = node.below[slotOf(i)];
+      if (gap > handOver_) {
+        scratch_.stillApart.push_back({gaps[i], candidate, part});
+      } else if (part.isTriangle()) {
+        keepTouch(static_cast<double>(scratch_.gaps.upper[i]));
+        scratch_.stillSurfaces.push_back({gaps[i], candidate, part});
+      } else {
+        const std::int32_t farther = nearest < 0 || gaps[i] < gaps[nearest] ? nearest : i;
+        if (farther != i) nearest = i;
+        if (farther < 0) continue;
+        scratch_.stillPairs.push_back({gaps[farther], candidate, node.below[slotOf(farther)]});
       }
-      const std::int32_t farther = nearest < 0 || gap < scratch_.gaps[nearest] ? nearest : i;
-      if (farther != i) nearest = i;
-      if (farther < 0) continue;
-      scratch_.stillPairs.push_back(
-          {scratch_.gaps[farther], candidate, node.below[slotOf(farther)]});
     }
     return nearest;
   }
 
-  /// What is reported at `t` is nearer.
+  /// A pair that is no farther apart than this is well within the tolerance: doubles will say so.
+  void keepTouch(double upper) {
+    if (upper <= 0.5 * query_.tolerance) atMost_ = std::min(atMost_, upper);
+  }
+
+  /// False if a spent budget ended it.
+  [[nodiscard]] bool lookAtSurfaces(double t) {
+    std::vector<StillPair>& surfaces = scratch_.stillSurfaces;
+    const auto isFar = [&](const StillPair& pair) {
+      return isTooFar(static_cast<double>(pair.nearest), t);
+    };
+    surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), isFar), surfaces.end());
+    std::sort(surfaces.begin(), surfaces.end(),
+              [](const StillPair& x, const StillPair& y) { return x.nearest > y.nearest; });
+    while (!surfaces.empty()) {
+      if (query_.meter.isPartSpent(counters_)) return false;
+      const StillPair pair = surfaces.back();
+      surfaces.pop_back();
+      if (!isFar(pair)) look(sides_.movingFrom(t, pair));
+    }
+    return true;
+  }
+
+  /// What is reported at `t`, or will be, is nearer.
   [[nodiscard]] bool isTooFar(double nearest, double t) const {
-    return horizon_ <= t && nearest > nearest_;
+    return nearest > atMost_ || (horizon_ <= t && nearest > nearest_);
   }
 
   /// Pairs that moved on beyond the contact's instant, or were dropped, may be nearer at it: this
@@ -141,6 +171,7 @@ class LaneBacktracker {
     scratch_.lss.reset(scratch_.lanes.begin(), end_);
     scratch_.triangles.reset(scratch_.lanes.begin(), end_);
     scratch_.stillPairs.clear();
+    scratch_.stillSurfaces.clear();
     scratch_.stillApart.clear();
     scratch_.stillAxes.clear();
     sides_.readCandidates();
@@ -167,7 +198,8 @@ class LaneBacktracker {
   /// The remaining pairs bound how far the link is free; a contact that none of them can precede
   /// stands.
   [[nodiscard]] PairContact leftUndone() {
-    double freeUntil = scratch_.stillPairs.empty() ? horizon_ : 0.0;
+    const bool isStillOpen = !scratch_.stillPairs.empty() || !scratch_.stillSurfaces.empty();
+    double freeUntil = isStillOpen ? 0.0 : horizon_;
     for (TimeBuckets* buckets : {&scratch_.lss, &scratch_.triangles}) {
       while (!buckets->isEmpty()) freeUntil = std::min(freeUntil, buckets->pop().freeUntil);
     }
@@ -273,6 +305,7 @@ class LaneBacktracker {
   std::array<PartPair, kTrianglePairLanes> batch_;
   std::size_t count_ = 0;
   double horizon_ = kInfinity;       // nothing later than this can change the answer
+  double atMost_ = kInfinity;        // something is as near as this, at the instant looked at
   double nearest_ = kInfinity;       // what is farther at the horizon comes after the contact there
   std::optional<PairContact> best_;  // nothing: horizon_ is infinite
 };

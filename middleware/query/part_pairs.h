@@ -100,11 +100,11 @@ struct StartPair {
 /// Reusable memory for the descents of one thread's queries.
 struct PartScratch {
   PartLanes lanes;
-  alignas(64) PairFloats gaps = {};  // of what is below a part, at one instant
+  GapBounds gaps{};  // of what is below a part, at one instant
   TimeBuckets lss, triangles;
-  // Of two links at one instant: the LSS by candidate, a stack of pairs, and those that are apart.
+  // Of two links at one instant: the LSS by candidate, a stack of pairs, triangles, and what is apart.
   std::vector<StillAxis> stillAxes;
-  std::vector<StillPair> stillPairs, stillApart;
+  std::vector<StillPair> stillPairs, stillSurfaces, stillApart;
   std::vector<std::array<LanePart, 2>> wholeParts;  // by candidate: of both LSS
   std::vector<HierarchyChild> parts;                // a stack
   std::vector<std::int32_t> linkTriangles;          // those the stack ended in

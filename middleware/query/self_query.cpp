@@ -27,9 +27,6 @@ constexpr float kBendInflation = 1.0F + 0x1p-21F;
 /// the chain: forty joints on end are at 2e-11 before they are anywhere.
 constexpr double kStartRounding = 1e-10;
 
-/// Steps along curves before doubles look: two that slide along each other take many.
-constexpr int kMostRounds = 200;
-
 /// Per h^2/8 of a piece, rounded up past h's own rounding.
 float sagittaOf(double begin, double end) {
   const double h = end - begin;
@@ -343,75 +340,6 @@ void SelfQuery::make(PartLanes& lanes, QueryCounters& counters) {
   const FramePolynomials polynomials = framePolynomialsOf(one_.link, motion_, here);
   lanes.setFrame(polynomials, here.origin());
   lanes.setOther(framePolynomialsOf(other_.link, motion_, here, polynomials.origin));
-}
-
-/// Drops the candidates that never come near in the slab, and takes the others to where they do:
-/// all but the last look is spared trigonometry.
-void SelfQuery::advanceAlongCurves(const LinkQuery& query, QueryCounters& counters) {
-  own_.curves.clear();
-  StateCache states(query, counters);
-  const auto isNever = [&](Candidate& candidate) {
-    return !isNearAtStart(query, candidate, states, counters) &&
-           !advance(query, candidate, counters);
-  };
-  std::vector<Candidate>& candidates = scratch_.candidates;
-  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isNever),
-                   candidates.end());
-}
-
-/// A mesh may be near at t = 0: what is below its LSS decides, and no curve is needed before.
-bool SelfQuery::isNearAtStart(const LinkQuery& query, const Candidate& candidate,
-                              StateCache& states, QueryCounters& counters) const {
-  const bool mayStart = begin_ == 0.0 && (candidate.pieces & 1U) != 0 &&
-                        (query.isExact() || query.other->surface != nullptr);
-  return mayStart && !(pairOf(query, candidate, states.at(0.0), counters).gapLower() >
-                       kHandOverShare * query.tolerance);
-}
-
-/// False: proven apart throughout the slab.
-bool SelfQuery::advance(const LinkQuery& query, Candidate& candidate, QueryCounters& counters) {
-  const double floor = kFloorShare * query.tolerance, handOver = kHandOverShare * query.tolerance;
-  double t = nextPossible(query.pieces, candidate, candidate.freeUntil);
-  for (int round = 0; round < kMostRounds && t < end_; ++round) {
-    candidate.freeUntil = t;
-    ++counters.planeTests;
-    const MovingPair pair =
-        movingPair(alongCurve(one_, candidate.lss, query.frame, t, candidate.radiusShare, counters),
-                   alongCurve(other_, candidate.otherLss, query.frame, t, candidate.radiusShare, counters));
-    // Curves that are off by much of the tolerance cannot tell.
-    if (!(pair.gapLower() > handOver)) return true;
-    const double reached = timeAfter(t, pair.stepFrom(floor), end_);
-    if (!(reached > t)) return true;
-    t = nextPossible(query.pieces, candidate, reached);
-  }
-  return t < end_;
-}
-
-MovingHull SelfQuery::alongCurve(const Side& side, std::int32_t lss, LinkId frame, double t,
-                                 double radiusShare, QueryCounters& counters) {
-  const AxisCurve& curve = curveOf(side, lss, frame, counters);
-  const AxisCurve::Ends ends = curve.endsAt(t);
-  MovingHull hull;
-  hull.hull = Hull::segment(ends.a, ends.b);
-  hull.radius = plan_.avatar.lss(side.link)[slotOf(lss)].radius * radiusShare;
-  hull.moves = true;
-  hull.velocity = {ends.velocityA, ends.velocityB, Eigen::Vector3d::Zero()};
-  hull.acceleration = {curve.accelerationA, curve.accelerationB, 0.0};
-  hull.positionRounding = {curve.error, curve.error, 0.0};
-  hull.velocityRounding = {curve.velocityRounding, curve.velocityRounding, 0.0};
-  return hull;
-}
-
-const AxisCurve& SelfQuery::curveOf(const Side& side, std::int32_t lss, LinkId frame,
-                                    QueryCounters& counters) {
-  const std::int32_t inTable = table_.first(side.link) + lss;
-  for (const SelfCurve& known : own_.curves) {
-    if (known.lss == inTable) return known.curve;
-  }
-  const ChainNodes& here = nodes(counters);
-  own_.curves.push_back({inTable, axisCurve(table_[inTable], side.bounds, here,
-                                            frame == kNoParent ? nullptr : &here.link(frame))});
-  return own_.curves.back().curve;
 }
 
 /// At the start the first node has the places, without trigonometry. The contact of the nearest two

@@ -145,7 +145,7 @@ struct NearParts {
 };
 
 TEST_P(AxisPartsAtWidth, ProveNoMoreThanIsTrue) {
-  int proven = 0, deep = 0;
+  int proven = 0, deep = 0, met = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -153,24 +153,27 @@ TEST_P(AxisPartsAtWidth, ProveNoMoreThanIsTrue) {
     Lss lss = randomLss(random);
     lss.radius = random.magnitude(1e-6, 1e-2);
     const NearParts parts(links, lss, random);
-    alignas(64) PairFloats lower;
-    boundGaps(links.axis(lss), parts.rows, lower);
+    GapBounds gaps;
+    boundGaps(links.axis(lss), parts.rows, gaps);
     const Precise3 a = links.inMesh(lss.a), b = links.inMesh(lss.b);
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(parts.rows.count); ++lane) {
       const Real radii = Real(lss.radius) + parts.radii[lane];
       const Real gap = oracle::preciseDistance({a, b, b}, parts.points[lane]) - radii;
-      ASSERT_LE(Real(lower[lane]), gap);
+      ASSERT_LE(Real(gaps.lower[lane]), gap);
+      ASSERT_GE(Real(gaps.upper[lane]), gap);
+      met += Real(gaps.upper[lane]) - gap < Real(1e-4) ? 1 : 0;
       deep += gap < Real(0) ? 1 : 0;
       if (gap <= Real(0)) continue;
       ++proven;
       // Floats resolve 6e-8 of the distance from the mesh's own origin; a root may be 10 km away
       // from another.
       const double far = lss.a.norm() + static_cast<double>(norm(a) + norm(parts.points[lane][0]));
-      EXPECT_LE(gap - Real(lower[lane]), Real(1e-5 * far + 1e-6));
+      EXPECT_LE(gap - Real(gaps.lower[lane]), Real(1e-5 * far + 1e-6));
     }
   }
   EXPECT_GT(proven, 1000);
   EXPECT_GT(deep, 50);
+  EXPECT_GT(met, 1000) << "points that are never the nearest tell nothing";
 }
 
 TEST_P(AxisPartsAtWidth, ProveNothingOfWhatIsNoNumber) {
@@ -184,11 +187,15 @@ TEST_P(AxisPartsAtWidth, ProveNothingOfWhatIsNoNumber) {
     StillAxis off = axis;
     off.point[1][2] = bad;
     parts.rows.point[1][0][0] = bad;
-    alignas(64) PairFloats lower;
-    boundGaps(axis, parts.rows, lower);
-    EXPECT_LT(lower[0], 0.0F);
-    boundGaps(off, parts.rows, lower);
-    for (std::int32_t lane = 0; lane < parts.rows.count; ++lane) EXPECT_LT(lower[lane], 0.0F);
+    GapBounds gaps;
+    boundGaps(axis, parts.rows, gaps);
+    EXPECT_LT(gaps.lower[0], 0.0F);
+    EXPECT_GT(gaps.upper[0], 1e10F);
+    boundGaps(off, parts.rows, gaps);
+    for (std::int32_t lane = 0; lane < parts.rows.count; ++lane) {
+      EXPECT_LT(gaps.lower[lane], 0.0F);
+      EXPECT_GT(gaps.upper[lane], 1e10F);
+    }
   }
 }
 
