@@ -56,10 +56,11 @@ struct NodePlanes {
 /// keeps apart by their reach. O(count).
 void closeByPlanes(const NodePlanes& planes, int node, PlanePair* pairs, std::size_t count);
 
-/// Closes those of the first `count` pairs that one plane at rest in W keeps apart, wherever between
-/// its nodes of the range either is: the two may be of spans of different instants. Through the closest points of the
-/// first's place at `node` and the second's at `otherNode`. Each pair's reach includes how far both
-/// bend between their nodes; frames and bends are not looked at. O(count).
+/// Closes those of the first `count` pairs that one plane at rest in W keeps apart, wherever
+/// between its nodes of the range either is: the two may be of spans of different instants. Through
+/// the closest points of the first's place at `node` and the second's at `otherNode`. Each pair's
+/// reach includes how far both bend between their nodes; frames and bends are not looked at.
+/// O(count).
 void closeByRestingPlanes(const NodePlanes& planes, int node, int otherNode, PlanePair* pairs,
                           std::size_t count);
 

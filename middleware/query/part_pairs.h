@@ -102,7 +102,8 @@ struct PartScratch {
   PartLanes lanes;
   GapBounds gaps{};  // of what is below a part, at one instant
   TimeBuckets lss, triangles;
-  // Of two links at one instant: the LSS by candidate, a stack of pairs, triangles, and what is apart.
+  // Of two links at one instant: the LSS by candidate, a stack of pairs, triangles, and what is
+  // apart.
   std::vector<StillAxis> stillAxes;
   std::vector<StillPair> stillPairs, stillSurfaces, stillApart;
   std::vector<std::array<LanePart, 2>> wholeParts;  // by candidate: of both LSS

@@ -25,8 +25,7 @@ void SelfQuery::advanceAlongCurves(const LinkQuery& query, QueryCounters& counte
            !advance(query, candidate, counters);
   };
   std::vector<Candidate>& candidates = scratch_.candidates;
-  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isNever),
-                   candidates.end());
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isNever), candidates.end());
 }
 
 /// Of a mesh and an LSS. What is below the mesh's own decides, and no curve is needed before.
@@ -45,9 +44,9 @@ bool SelfQuery::advance(const LinkQuery& query, Candidate& candidate, QueryCount
   for (int round = 0; round < kMostRounds && t < end_; ++round) {
     candidate.freeUntil = t;
     ++counters.planeTests;
-    const MovingPair pair =
-        movingPair(alongCurve(one_, candidate.lss, query.frame, t, candidate.radiusShare, counters),
-                   alongCurve(other_, candidate.otherLss, query.frame, t, candidate.radiusShare, counters));
+    const MovingPair pair = movingPair(
+        alongCurve(one_, candidate.lss, query.frame, t, candidate.radiusShare, counters),
+        alongCurve(other_, candidate.otherLss, query.frame, t, candidate.radiusShare, counters));
     // Curves that are off by much of the tolerance cannot tell.
     if (!(pair.gapLower() > handOver)) return true;
     const double reached = timeAfter(t, pair.stepFrom(floor), end_);

@@ -23,8 +23,8 @@ constexpr int kProposingNodes[] = {3, 0, 7};
 constexpr float kBendInflation = 1.0F + 0x1p-21F;
 
 /// The nodes are relative to the scene's middle. Where that is so far away that their places lose
-/// more than this (m), a contact's points are found from the links' own states. The bound grows with
-/// the chain: forty joints on end are at 2e-11 before they are anywhere.
+/// more than this (m), a contact's points are found from the links' own states. The bound grows
+/// with the chain: forty joints on end are at 2e-11 before they are anywhere.
 constexpr double kStartRounding = 1e-10;
 
 /// Per h^2/8 of a piece, rounded up past h's own rounding.
@@ -253,9 +253,9 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
                   &other,
                   frame};
   const bool areMeshes = query.isExact() || other.surface != nullptr;
-  const bool mayStart = begin_ == start_ && std::any_of(pairs, pairs + count, [](const PlanePair& p) {
-                          return (p.open & 1U) != 0;
-                        });
+  const bool mayStart =
+      begin_ == start_ &&
+      std::any_of(pairs, pairs + count, [](const PlanePair& p) { return (p.open & 1U) != 0; });
   if (mayStart && !areMeshes && areNodesFine(step.counters)) {
     const auto contact = contactAtStart(query, step.counters);
     if (contact && !mayLeave(query, *contact, step.counters)) {
