@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "middleware/lanes/triangle_pairs.h"
+#include "middleware/lanes/pair_floats.h"
 
 namespace foretouch::internal {
 

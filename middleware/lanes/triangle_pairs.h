@@ -6,13 +6,9 @@
 
 #include <cstddef>
 
+#include "middleware/lanes/pair_floats.h"
+
 namespace foretouch::internal {
-
-/// Pairs in a block: one vector of the widest instructions, several of the narrower ones.
-inline constexpr std::size_t kTrianglePairLanes = 16;
-
-/// A coordinate, or a bound, of every pair.
-using PairFloats = float[kTrianglePairLanes];
 
 /// Pairs of a moving triangle of a link and a triangle of the scene. Metres, relative to an origin
 /// of the caller's choice, one per pair: floats resolve 6e-8 of the distance between it and the

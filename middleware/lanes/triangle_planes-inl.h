@@ -12,8 +12,8 @@
 #include <hwy/highway.h>
 
 #include "lss/rounding.h"
+#include "middleware/lanes/pair_floats.h"
 #include "middleware/lanes/points-inl.h"
-#include "middleware/lanes/triangle_pairs.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace foretouch::internal::HWY_NAMESPACE {
