@@ -35,9 +35,8 @@ AvatarSurface surfaceOf(std::vector<Triangle> triangles, std::vector<std::int32_
   parts->numTriangles = triangles.size();
   parts->links.push_back(std::make_shared<const LinkSurface>(
       std::move(triangles), std::vector<std::vector<std::int32_t>>{std::move(held)}));
-  AvatarSurface surface(std::move(parts));
-  surface.prepare();  // so that no window waits for it
-  return surface;
+  parts->links.front()->prepareWide();  // so that no window waits for it
+  return AvatarSurface(std::move(parts));
 }
 
 }  // namespace
