@@ -2,7 +2,9 @@
 // to the bit.
 #include "middleware/world/world_pool.h"
 
+#include <algorithm>
 #include <cstring>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -132,6 +134,49 @@ TEST(WorldPool, GivesTheSameAnswersAfterAnyOtherWindows) {
     // Cuts the same pieces elsewhere.
     const std::int64_t begin = random.below(static_cast<int>(kWindows * kWindowUs) - 2'000);
     ASSERT_TRUE(worldContacts(world, begin, begin + 1'000, scratch, answer).ok());
+  }
+}
+
+TEST(WorldPool, ListsContactsInTheirOrder) {
+  const auto comesBefore = [](const WorldContact& x, const WorldContact& y) {
+    if (!(x.time == y.time)) return x.time < y.time;
+    return std::make_tuple(x.a.body, x.a.link, x.b.body, x.b.link) <
+           std::make_tuple(y.a.body, y.a.link, y.b.body, y.b.link);
+  };
+  std::size_t atBegin = 0, later = 0;
+  for (const WorldContacts& answer : answersOf(crowd())) {
+    const auto& all = answer.contacts;
+    EXPECT_TRUE(std::is_sorted(all.begin(), all.end(), comesBefore));
+    for (const WorldContact& contact : all) {
+      (contact.time == all.front().time ? atBegin : later) += 1;
+    }
+  }
+  EXPECT_GT(atBegin, 50u);
+  EXPECT_GT(later, 50u);
+}
+
+// What one thread keeps of a world serves no other one, even where both are made of the like.
+TEST(WorldPool, GivesTheSameAnswersInTurnsWithAnotherWorld) {
+  const World one = crowd();
+  World other = World::build(std::nullopt).value();
+  for (BodyId body = 0; body < 10; ++body) {
+    Random random(static_cast<std::uint64_t>(100 + body));
+    const test::OwnBody made = test::randomOwnBody(random);
+    EXPECT_TRUE(other.add(made.avatar, {}).ok());
+    for (const std::int64_t us : {std::int64_t{0}, kWindows * kWindowUs}) {
+      EXPECT_TRUE(other.push(body, us, us == 0 ? made.steps.from : made.steps.to).ok());
+    }
+  }
+  const std::vector<WorldContacts> ofOne = answersOf(one), ofOther = answersOf(other);
+  EXPECT_FALSE(ofOther.front().contacts.empty());
+  WorldScratch scratch;
+  WorldContacts answer;
+  for (std::size_t i = 0; i < ofOne.size(); ++i) {
+    const auto from = static_cast<std::int64_t>(i) * kWindowUs;
+    ASSERT_TRUE(worldContacts(one, from, from + kWindowUs, scratch, answer).ok());
+    expectSame(answer, ofOne[i]);
+    ASSERT_TRUE(worldContacts(other, from, from + kWindowUs, scratch, answer).ok());
+    expectSame(answer, ofOther[i]);
   }
 }
 
