@@ -17,6 +17,15 @@ namespace {
 /// then serves all of them; a longer one sweeps so much more than the window needs that more would
 /// be near.
 constexpr std::int64_t kMostWindowsOfPiece = 4;
+/// In so short a time (us) a body sweeps little: a window that is a small part of it, as those of a
+/// live world are, looks at as much of a piece. Longer, and more is near; shorter, and people who
+/// are tracked 30 times per second are looked at more than once per pose.
+constexpr std::int64_t kShortUs = 40'000;
+
+PieceShare shareFor(const Window& window) {
+  const std::int64_t windowsUs = kMostWindowsOfPiece * (window.toUs - window.fromUs);
+  return {std::max(windowsUs, kShortUs), windowsUs <= kShortUs ? kShortUs : 0};
+}
 
 }  // namespace
 
@@ -30,7 +39,7 @@ Result<Done> BodySweeper::sweep(BodyId body, BodySweep& sweep, std::vector<World
   spans.begin(world_, body, kStillScene, window_.fromUs, window_.toUs);
   while (spans.next()) {
     SpanPart part{spans.beginUs(), spans.endUs(), 0};
-    const bool isWhole = spans.widen(kMostWindowsOfPiece * (window_.toUs - window_.fromUs));
+    const bool isWhole = spans.widen(shareFor(window_));
     const std::int64_t episodeUs = spans.members().front().episode->beginUs;
     const std::ptrdiff_t known =
         isWhole ? sweep.placeOf(episodeUs, spans.beginUs(), spans.endUs(), question) : -1;
@@ -132,6 +141,11 @@ Result<Done> BodySweeper::keepOwn(BodyId body, SystemQuestion question, const Sp
   if (isGivenUp) return Done{};
   ++counters.spans;
   addCounters(span.counters, counters.queries);
+  if (!span.own.empty() && span.own.front().a.link == kEveryLink) {
+    scratch_.spans.narrow();
+    query_.giveUp(body, kStillScene, found);
+    return Done{};
+  }
   const WorldTime begin{part.beginUs, 0.0}, end{part.endUs, 0.0};
   const auto isEarlier = [&](const WorldContact& contact) { return contact.time < begin; };
   for (const WorldContact& contact : span.own) {

@@ -82,12 +82,17 @@ bool SystemSpans::next() {
   return false;
 }
 
-bool SystemSpans::widen(std::int64_t mostUs) {
+bool SystemSpans::widen(const PieceShare& share) {
   if (b_ != kStillScene || members_.size() != 1) return false;
   const TrackPiece& piece = members_.front().piece;
-  if (piece.isHeld || piece.endUs - piece.beginUs > mostUs) return false;
-  beginUs_ = piece.beginUs;
-  endUs_ = piece.endUs;
+  const std::int64_t length = piece.endUs - piece.beginUs;
+  if (piece.isHeld || (length > share.wholeUs && share.partUs == 0)) return false;
+  const std::int64_t partUs = length > share.wholeUs ? share.partUs : length;
+  const std::int64_t begin = piece.beginUs + (beginUs_ - piece.beginUs) / partUs * partUs;
+  const std::int64_t end = std::min(begin + partUs, piece.endUs);
+  if (endUs_ > end) return false;
+  beginUs_ = begin;
+  endUs_ = end;
   return true;
 }
 

@@ -55,6 +55,12 @@ struct SystemPoses {
   Pose partFrom, partTo;  // of one member
 };
 
+/// How much of a piece of a body's track serves several windows.
+struct PieceShare {
+  std::int64_t wholeUs = 0;  ///< A piece that is not longer is looked at as a whole.
+  std::int64_t partUs = 0;   ///< A longer one in parts of this length. 0: not at all.
+};
+
 /// Goes from span to span of a window. Keeps its memory; for one thread.
 class SystemSpans {
  public:
@@ -62,10 +68,10 @@ class SystemSpans {
   void begin(const WorldParts& world, BodyId a, BodyId b, std::int64_t fromUs, std::int64_t toUs);
   /// Goes to the next span in which all are there; false if there is none.
   [[nodiscard]] bool next();
-  /// Goes from the span to the whole piece of a's motion that it is part of, if a is asked alone,
-  /// is not carried and goes on moving, and the piece is not longer than `mostUs`: what is found of
+  /// Goes from the span to the whole piece of a's motion that it is part of, or to the part of that
+  /// piece that holds it, if a is asked alone, is not carried and goes on moving: what is found of
   /// it serves other windows too. False: stays. next() goes on behind the span.
-  bool widen(std::int64_t mostUs);
+  bool widen(const PieceShare& share);
   /// Back to the span that next() went to.
   void narrow();
 
