@@ -30,6 +30,12 @@ double partAt(const SystemSpans& spans, const WorldTime& time) {
   return part > 0.0 ? std::nextafter(part, 0.0) : 0.0;
 }
 
+/// It meets the object, or any object, by triangles.
+bool isOfObjects(const WorldParts& world, const BodyPair& bodies) {
+  return bodies.b == kStillScene || !world.kindOf(bodies.a).avatar ||
+         !world.kindOf(bodies.b).avatar;
+}
+
 }  // namespace
 
 /// What one call is about.
@@ -40,12 +46,13 @@ struct BodiesTracer::Asked {
   const TracedBodies& bodies;
   TraceAnswer& answer;
 
-  [[nodiscard]] const TracedPair& pair(std::size_t i) const {
-    return window.pairs[bodies.first + i];
+  [[nodiscard]] FollowedBodies& followed() const { return *bodies.followed; }
+  [[nodiscard]] std::vector<ListedPair>::const_iterator listed() const {
+    return window.listed.begin() + static_cast<std::ptrdiff_t>(bodies.first);
   }
-  [[nodiscard]] PairKey keyOf(const Following& followed) const {
-    const LinkPair& links = pair(followed.pair).links;
-    return {bodies.bodies.a, links.a, bodies.bodies.b, links.b, followed.object};
+  [[nodiscard]] PairKey keyOf(const FollowedSides& side) const {
+    const BodyPair& both = followed().bodies;
+    return {both.a, side.links.a, both.b, side.links.b, side.object};
   }
 };
 
@@ -53,8 +60,6 @@ Result<Done> BodiesTracer::trace(const WorldParts& world, SystemPlans& plans,
                                  const BodyMasses& masses, const TraceWindow& window,
                                  const TracedBodies& bodies, TraceAnswer& answer) {
   const Asked asked{world, masses, window, bodies, answer};
-  isAssumed_ = isFresh_ = false;  // not as the last bodies left them
-  beginFollowing(asked);
   SpanSides span(world, plans, system_);
   const std::uint64_t looks = sides_.looks;
   const Result<Done> done = traceSpans(asked, span);
@@ -64,53 +69,23 @@ Result<Done> BodiesTracer::trace(const WorldParts& world, SystemPlans& plans,
 
 Result<Done> BodiesTracer::traceSpans(const Asked& asked, SpanSides& span) {
   const TraceWindow& window = asked.window;
-  const TracedBodies& bodies = asked.bodies;
-  WorldTime reached{window.fromUs, 0.0};
-  if (!span.begin(bodies.bodies, window.fromUs, window.toUs)) {
-    for (std::size_t i = 0; i < bodies.count; ++i) {
-      endOpen(asked, i, reached, LeaveCause::NotAsked);
-    }
+  part_ = {};  // not as the last bodies left it
+  std::int64_t reachedUs = window.fromUs;
+  if (!span.begin(asked.followed().bodies, window.fromUs, window.toUs)) {
+    endAll(asked, reachedUs);
     return Done{};
   }
   SystemSpans& spans = span.spans();
   while (spans.next()) {
-    reached = {spans.beginUs(), 0.0};
-    FORETOUCH_TRY(const SystemPlan* const plan, span.prepare());
-    isAssumed_ = spans.isAssumed();
-    isFresh_ = isFresh(window, spans);
-    if (plan == nullptr) {
-      for (std::size_t i = 0; i < bodies.count; ++i) {
-        endOpen(asked, i, reached, LeaveCause::NotAsked);
-      }
-    } else if (!span.isResolved()) {
-      loseOpen(asked, reached, UndecidedReason::Resolution);
-      return Done{};
-    } else {
-      traceSpan(asked, span);
-    }
-    reached = {spans.endUs(), 0.0};
+    part_ = {spans.beginUs(), spans.endUs(), isFresh(window, spans), spans.isAssumed()};
+    static_cast<void>(spans.widenToPieces());
+    enterMotion(asked, spans);
+    FORETOUCH_TRY(const bool isResolved, traceSpan(asked, span));
+    if (!isResolved) return Done{};
+    reachedUs = part_.endUs;
   }
-  if (reached.us < window.toUs) loseOpen(asked, reached, UndecidedReason::Gap);
+  if (reachedUs < window.toUs) loseAll(asked, reachedUs, UndecidedReason::Gap);
   return Done{};
-}
-
-void BodiesTracer::beginFollowing(const Asked& asked) {
-  following_.clear();
-  for (std::size_t i = 0; i < asked.bodies.count; ++i) {
-    const TracedPair& pair = asked.pair(i);
-    for (std::size_t k = 0; k < pair.numOpen; ++k) {
-      const OpenPart& open = (*asked.window.open)[pair.firstOpen + k];
-      following_.push_back(
-          {i, open.object, {asked.window.fromUs, 0.0}, true, open.kind, open.reason, open.since});
-    }
-    const bool isOfLinks = asked.bodies.bodies.b != kStillScene &&
-                           asked.world.kindOf(asked.bodies.bodies.a).avatar &&
-                           asked.world.kindOf(asked.bodies.bodies.b).avatar;
-    if (isOfLinks && pair.isListed && pair.numOpen == 0) {
-      following_.push_back(
-          {i, kNoObject, pair.listed, false, PartKind::Contact, UndecidedReason::None, {}});
-    }
-  }
 }
 
 /// What it is in contact with there may have begun before anybody looked.
@@ -125,154 +100,269 @@ bool BodiesTracer::isFresh(const TraceWindow& window, const SystemSpans& spans) 
   });
 }
 
-void BodiesTracer::traceSpan(const Asked& asked, SpanSides& span) {
-  for (std::size_t i = 0; i < asked.bodies.count; ++i) {
-    if (span.set(asked.pair(i).links, sides_)) {
-      tracePair(asked, span, i);
+/// What is known of another motion says nothing about this one, but for what is open. Who was free
+/// before the window is so until it is listed.
+void BodiesTracer::enterMotion(const Asked& asked, const SystemSpans& spans) {
+  FollowedBodies& followed = asked.followed();
+  if (followed.beginUs == spans.beginUs() && followed.endUs == spans.endUs()) return;
+  if (part_.beginUs == asked.window.fromUs) {
+    auto& sides = followed.sides;
+    sides.erase(std::remove_if(sides.begin(), sides.end(),
+                               [](const FollowedSides& side) { return !side.isOpen; }),
+                sides.end());
+  }
+  followed.forgetMotion();
+  followed.beginUs = spans.beginUs();
+  followed.endUs = spans.endUs();
+}
+
+/// False: doubles do not tell where the bodies are, in the rest of the window.
+Result<bool> BodiesTracer::traceSpan(const Asked& asked, SpanSides& span) {
+  FollowedBodies& followed = asked.followed();
+  if (part_.endUs < followed.nextUs && !isAnyNew(asked)) return true;
+  FORETOUCH_TRY(const SystemPlan* const plan, span.prepare());
+  if (plan == nullptr) {
+    endAll(asked, part_.beginUs);
+    return true;
+  }
+  if (!span.isResolved()) {
+    loseAll(asked, part_.beginUs, UndecidedReason::Resolution);
+    return false;
+  }
+  addListed(asked, span);
+  followed.nextUs = std::numeric_limits<std::int64_t>::max();
+  for (FollowedSides& side : followed.sides) {
+    if (!side.isTraced) traceSides(asked, span, side);
+    tellParts(asked, span, side);
+  }
+  return true;
+}
+
+/// Listed in the span, and not followed on its motion.
+bool BodiesTracer::isNew(const Asked& asked, const ListedPair& listed) const {
+  const FollowedBodies& followed = asked.followed();
+  if (!(listed.time < WorldTime{part_.endUs, 0.0})) return false;
+  if (isOfObjects(asked.world, followed.bodies)) {
+    return std::find(followed.collected.begin(), followed.collected.end(), listed.links) ==
+           followed.collected.end();
+  }
+  return std::none_of(followed.sides.begin(), followed.sides.end(),
+                      [&](const FollowedSides& side) { return side.links == listed.links; });
+}
+
+bool BodiesTracer::isAnyNew(const Asked& asked) const {
+  const auto first = asked.listed();
+  return std::any_of(first, first + static_cast<std::ptrdiff_t>(asked.bodies.count),
+                     [&](const ListedPair& listed) { return isNew(asked, listed); });
+}
+
+void BodiesTracer::addListed(const Asked& asked, SpanSides& span) {
+  const auto first = asked.listed();
+  for (auto listed = first; listed != first + static_cast<std::ptrdiff_t>(asked.bodies.count);
+       ++listed) {
+    if (!isNew(asked, *listed)) continue;
+    const WorldTime from = std::max(listed->time, WorldTime{part_.beginUs, 0.0});
+    if (isOfObjects(asked.world, asked.followed().bodies)) {
+      addObjects(asked, span, listed->links, from);
     } else {
-      endOpen(asked, i, {span.spans().beginUs(), 0.0}, LeaveCause::NotAsked);
+      add(asked, listed->links, kNoObject, from);
     }
   }
 }
 
-void BodiesTracer::tracePair(const Asked& asked, SpanSides& span, std::size_t pair) {
-  if (sides_.isScene()) addObjects(asked, span, pair);
-  for (std::size_t k = 0; k < following_.size(); ++k) {
-    if (following_[k].pair == pair) traceOne(asked, span, following_[k]);
-  }
-}
-
-/// Those that the link may come near from where it first does.
-void BodiesTracer::addObjects(const Asked& asked, SpanSides& span, std::size_t pair) {
-  const TracedPair& traced = asked.pair(pair);
-  if (!traced.isListed || !(traced.listed < WorldTime{span.spans().endUs(), 0.0})) return;
-  const WorldTime from = std::max(traced.listed, WorldTime{span.spans().beginUs(), 0.0});
+/// Those that the link may come near from there on.
+void BodiesTracer::addObjects(const Asked& asked, SpanSides& span, const LinkPair& links,
+                              const WorldTime& from) {
+  FollowedBodies& followed = asked.followed();
+  followed.collected.push_back(links);
+  if (!span.set(links, sides_)) return;
   sides_.collect(partAt(span.spans(), from), 1.0, asked.world.options.tolerance, near_);
   for (const SidesPair& near : near_) {
     const ObjectId object = sides_.objectOf(near);
-    const bool isKnown =
-        std::any_of(following_.begin(), following_.end(), [&](const Following& followed) {
-          return followed.pair == pair && followed.object == object;
-        });
-    if (isKnown) continue;
-    following_.push_back({pair, object, from, false, PartKind::Contact, UndecidedReason::None, {}});
+    const bool isKnown = std::any_of(
+        followed.sides.begin(), followed.sides.end(),
+        [&](const FollowedSides& side) { return side.links == links && side.object == object; });
+    if (!isKnown) add(asked, links, object, from);
   }
 }
 
-void BodiesTracer::traceOne(const Asked& asked, SpanSides& span, Following& followed) {
-  const SystemSpans& spans = span.spans();
-  if (!(followed.from < WorldTime{spans.endUs(), 0.0})) return;
-  if (sides_.isScene()) sides_.setScene(sides_.scene(), followed.object);
+void BodiesTracer::add(const Asked& asked, const LinkPair& links, ObjectId object,
+                       const WorldTime& from) {
+  FollowedSides side;
+  side.links = links;
+  side.object = object;
+  side.from = from;
+  asked.followed().sides.push_back(side);
+}
+
+bool BodiesTracer::set(const Asked& asked, SpanSides& span, const FollowedSides& side) {
+  if (!span.set(side.links, sides_)) return false;
+  if (isOfObjects(asked.world, asked.followed().bodies)) {
+    sides_.setScene(sides_.scene(), side.object);
+  }
+  return true;
+}
+
+/// From the span's begin, or from where it is listed, to the motion's end.
+void BodiesTracer::traceSides(const Asked& asked, SpanSides& span, FollowedSides& side) {
+  const WorldTime begin{part_.beginUs, 0.0};
+  std::vector<StepPart>& parts = asked.followed().parts;
+  side.isTraced = true;
+  side.nextPart = side.endPart = parts.size();
+  if (!set(asked, span, side)) return endOpen(asked, side, begin, LeaveCause::NotAsked);
   TraceStart start = TraceStart::Free;
-  if (followed.isOpen) {
-    start = followed.kind == PartKind::Contact ? TraceStart::Contact : TraceStart::Unknown;
+  if (side.isOpen) {
+    start = side.kind == PartKind::Contact ? TraceStart::Contact : TraceStart::Unknown;
   }
-  const IntervalTolerance tolerance =
-      IntervalTolerance::of(asked.world.options.tolerance, span.off());
-  parts_.clear();
-  const double from = followed.isOpen ? 0.0 : partAt(spans, followed.from);
-  tracer_.trace(sides_, tolerance, from, start, parts_, asked.answer.counters);
-  const bool wasUnknown = start == TraceStart::Unknown;
-  const bool isStillUnknown = wasUnknown && !parts_.empty() &&
-                              parts_.front().kind == PartKind::Unresolved &&
-                              parts_.front().from == 0.0;
-  if (isStillUnknown) return;
-  if (wasUnknown) end(asked, EventKind::UnresolvedTo, {spans.beginUs(), 0.0}, followed);
-  takeParts(asked, span, wasUnknown, followed);
+  const bool isFromBegin = side.isOpen || !(begin < side.from);
+  const double from = partAt(span.spans(), isFromBegin ? begin : side.from);
+  EventCounters& counters = asked.answer.counters;
+  tracer_.trace(sides_, toleranceOf(asked, span), from, start, side.witness, parts, counters);
+  side.endPart = parts.size();
+  for (std::size_t i = side.nextPart; i < side.endPart; ++i) {
+    counters.stretches += parts[i].kind == PartKind::Contact ? 1 : 0;
+  }
+  const bool beginsThere = side.isPending() && parts[side.nextPart].from == from;
+  if (start == TraceStart::Unknown) {
+    if (beginsThere && parts[side.nextPart].kind == PartKind::Unresolved) {
+      side.nextPart = side.endPart;  // as before
+      return;
+    }
+    end(asked, EventKind::UnresolvedTo, begin, side);
+  }
+  side.startsInside = beginsThere && isFromBegin && (part_.isFresh || start == TraceStart::Unknown);
 }
 
-void BodiesTracer::takeParts(const Asked& asked, SpanSides& span, bool wasUnknown,
-                             Following& followed) {
-  const SystemSpans& spans = span.spans();
-  const IntervalTolerance tolerance =
-      IntervalTolerance::of(asked.world.options.tolerance, span.off());
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const StepPart& part = parts_[i];
-    if (part.kind == PartKind::Unresolved) {
-      begin(asked, EventKind::UnresolvedFrom, earliestTimeAt(spans, part.from),
-            UndecidedReason::Resolution, followed);
+IntervalTolerance BodiesTracer::toleranceOf(const Asked& asked, const SpanSides& span) const {
+  return IntervalTolerance::of(asked.world.options.tolerance, span.off());
+}
+
+/// Whether an event of the motion is told in this part of it. What begins where it ends belongs to
+/// the next one. The last part has whatever is left, however times are rounded.
+bool BodiesTracer::isDue(const Asked& asked, const WorldTime& time, bool isEnd) const {
+  FollowedBodies& followed = asked.followed();
+  const WorldTime until{part_.endUs, 0.0};
+  if (part_.endUs >= followed.endUs || (isEnd ? !(until < time) : time < until)) return true;
+  followed.nextUs = std::min({followed.nextUs, time.us, followed.endUs});
+  return false;
+}
+
+void BodiesTracer::tellParts(const Asked& asked, SpanSides& span, FollowedSides& side) {
+  const std::vector<StepPart>& parts = asked.followed().parts;
+  for (; side.isPending(); ++side.nextPart) {
+    const StepPart& part = parts[side.nextPart];
+    if (part.kind == PartKind::Contact) {
+      if (!tellContact(asked, span, side)) break;
       continue;
     }
-    ++asked.answer.counters.stretches;
-    const bool goesOnFromBefore = i == 0 && followed.isOpen;
-    if (!goesOnFromBefore) {
-      const bool isInside = part.from == 0.0 && (isFresh_ || wasUnknown);
-      ++asked.answer.counters.contacts;
-      begin(asked, isInside ? EventKind::StartsInside : EventKind::Enter,
-            earliestTimeAt(spans, part.from), UndecidedReason::None, followed);
-      details_.fill(span, sides_, part.from, asked.world.options.tolerance, asked.masses,
-                    asked.answer.events.back());
-    }
-    const bool isLost = i + 1 < parts_.size() && parts_[i + 1].kind == PartKind::Unresolved &&
-                        parts_[i + 1].from == part.to;
-    if (part.goesOn && isAssumed_) {
-      asked.answer.assumed.push_back({asked.keyOf(followed), {spans.endUs(), 0.0}});
-    }
-    if (part.goesOn || isLost) continue;
-    WorldTime time = latestTimeAt(spans, part.to);
-    if (!(followed.since < time)) {
-      time = {followed.since.us, std::nextafter(followed.since.fraction, 1.0)};
-    }
-    end(asked, EventKind::Leave, time, followed);
-    details_.fill(span, sides_, part.to, tolerance.limit, asked.masses, asked.answer.events.back());
+    const WorldTime time = beginAt(span, part);
+    if (!isDue(asked, time, false)) break;
+    begin(asked, EventKind::UnresolvedFrom, time, UndecidedReason::Resolution, side);
   }
-  if (!followed.isOpen) followed.from = {spans.endUs(), 0.0};
+  if (part_.isAssumed && side.isOpen && side.kind == PartKind::Contact) {
+    asked.answer.assumed.push_back({asked.keyOf(side), {part_.endUs, 0.0}});
+  }
 }
 
-void BodiesTracer::endOpen(const Asked& asked, std::size_t pair, const WorldTime& time,
+/// Rounding leads to before the span only where it begins there.
+WorldTime BodiesTracer::beginAt(SpanSides& span, const StepPart& part) const {
+  return std::max(earliestTimeAt(span.spans(), part.from), WorldTime{part_.beginUs, 0.0});
+}
+
+/// The side's next part. False: something of it is told later.
+bool BodiesTracer::tellContact(const Asked& asked, SpanSides& span, FollowedSides& side) {
+  const std::vector<StepPart>& parts = asked.followed().parts;
+  const StepPart& part = parts[side.nextPart];
+  const double tolerance = asked.world.options.tolerance;
+  if (!side.isOpen) {
+    const WorldTime time = beginAt(span, part);
+    if (!isDue(asked, time, false)) return false;
+    ++asked.answer.counters.contacts;
+    begin(asked, side.startsInside ? EventKind::StartsInside : EventKind::Enter, time,
+          UndecidedReason::None, side);
+    tellDetails(asked, span, side, part.from, tolerance);
+    side.startsInside = false;
+  }
+  const bool isLost = side.nextPart + 1 < side.endPart &&
+                      parts[side.nextPart + 1].kind == PartKind::Unresolved &&
+                      parts[side.nextPart + 1].from == part.to;
+  if (part.goesOn || isLost) return true;
+  WorldTime time = std::max(latestTimeAt(span.spans(), part.to), WorldTime{part_.beginUs, 0.0});
+  if (!(side.since < time)) {
+    time = {side.since.us, std::nextafter(side.since.fraction, 1.0)};
+  }
+  if (!isDue(asked, time, true)) return false;
+  end(asked, EventKind::Leave, time, side);
+  tellDetails(asked, span, side, part.to, toleranceOf(asked, span).limit);
+  return true;
+}
+
+/// Of the event that was told last.
+void BodiesTracer::tellDetails(const Asked& asked, SpanSides& span, const FollowedSides& side,
+                               double t, double within) {
+  if (!set(asked, span, side)) return;
+  details_.fill(span, sides_, t, within, asked.masses, asked.answer.events.back());
+}
+
+void BodiesTracer::endOpen(const Asked& asked, FollowedSides& side, const WorldTime& time,
                            LeaveCause cause) {
-  for (Following& followed : following_) {
-    if (followed.pair != pair) continue;
-    if (followed.isOpen && followed.kind == PartKind::Unresolved) {
-      end(asked, EventKind::UnresolvedTo, time, followed);
-    } else if (followed.isOpen) {
-      end(asked, EventKind::Leave, time, followed);
-      asked.answer.events.back().cause = cause;
-    }
-    followed.from = std::max(followed.from, time);
-  }
+  if (!side.isOpen) return;
+  const bool isContact = side.kind == PartKind::Contact;
+  end(asked, isContact ? EventKind::Leave : EventKind::UnresolvedTo, time, side);
+  if (isContact) asked.answer.events.back().cause = cause;
 }
 
-void BodiesTracer::loseOpen(const Asked& asked, const WorldTime& time, UndecidedReason reason) {
-  for (Following& followed : following_) {
-    if (!followed.isOpen || followed.kind == PartKind::Unresolved) continue;
-    begin(asked, EventKind::UnresolvedFrom, time, reason, followed);
+/// Nothing of the two is asked from there on.
+void BodiesTracer::endAll(const Asked& asked, std::int64_t utimeUs) {
+  FollowedBodies& followed = asked.followed();
+  for (FollowedSides& side : followed.sides) {
+    endOpen(asked, side, {utimeUs, 0.0}, LeaveCause::NotAsked);
   }
+  followed.clear();
+}
+
+/// Nothing is claimed of them from there on.
+void BodiesTracer::loseAll(const Asked& asked, std::int64_t utimeUs, UndecidedReason reason) {
+  FollowedBodies& followed = asked.followed();
+  for (FollowedSides& side : followed.sides) {
+    if (!side.isOpen || side.kind == PartKind::Unresolved) continue;
+    begin(asked, EventKind::UnresolvedFrom, {utimeUs, 0.0}, reason, side);
+  }
+  followed.forgetMotion();
 }
 
 void BodiesTracer::begin(const Asked& asked, EventKind kind, const WorldTime& time,
-                         UndecidedReason reason, Following& followed) {
+                         UndecidedReason reason, FollowedSides& side) {
   const bool isUnresolved = kind == EventKind::UnresolvedFrom;
-  followed.isOpen = true;
-  followed.kind = isUnresolved ? PartKind::Unresolved : PartKind::Contact;
-  followed.reason = reason;
-  followed.since = time;
-  tell(asked, kind, time, followed);
+  side.isOpen = true;
+  side.kind = isUnresolved ? PartKind::Unresolved : PartKind::Contact;
+  side.reason = reason;
+  side.since = time;
+  tell(asked, kind, time, side);
 }
 
 void BodiesTracer::end(const Asked& asked, EventKind kind, const WorldTime& time,
-                       Following& followed) {
-  tell(asked, kind, time, followed);
-  followed.isOpen = false;
+                       FollowedSides& side) {
+  tell(asked, kind, time, side);
+  side.isOpen = false;
 }
 
-WorldEvent& BodiesTracer::tell(const Asked& asked, EventKind kind, const WorldTime& time,
-                               const Following& followed) {
-  const LinkPair& links = asked.pair(followed.pair).links;
+void BodiesTracer::tell(const Asked& asked, EventKind kind, const WorldTime& time,
+                        const FollowedSides& side) {
+  const BodyPair& bodies = asked.followed().bodies;
   asked.answer.events.emplace_back();
   WorldEvent& event = asked.answer.events.back();
   event.kind = kind;
-  event.reason = followed.reason;
-  event.isAssumed = isAssumed_;
+  event.reason = side.reason;
+  event.isAssumed = part_.isAssumed;
   event.time = time;
-  event.since = followed.since;
-  event.a.body = asked.bodies.bodies.a;
-  event.a.link = links.a;
-  event.b.body = asked.bodies.bodies.b;
-  event.b.link = links.b;
-  event.object = followed.object;
+  event.since = side.since;
+  event.a.body = bodies.a;
+  event.a.link = side.links.a;
+  event.b.body = bodies.b;
+  event.b.link = side.links.b;
+  event.object = side.object;
   event.effectiveMass = std::numeric_limits<double>::infinity();
-  return event;
 }
 
 }  // namespace foretouch::internal

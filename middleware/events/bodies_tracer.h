@@ -1,5 +1,5 @@
-// middleware/events/bodies_tracer.h: follows pairs of links of two bodies through one window, from
-// span to span, and tells what begins and ends. Not installed.
+// middleware/events/bodies_tracer.h: follows two bodies through one window, from span to span, and
+// tells what begins and ends. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 
 #include "articulated/result.h"
 #include "middleware/events/event_details.h"
+#include "middleware/events/followed_bodies.h"
 #include "middleware/events/interval_tracer.h"
 #include "middleware/events/pair_key.h"
 #include "middleware/events/span_sides.h"
@@ -15,24 +16,23 @@
 
 namespace foretouch::internal {
 
-/// Two links that are not known to be free in the window.
-struct TracedPair {
-  LinkPair links;
-  std::size_t firstOpen = 0, numOpen = 0;  ///< Of TraceWindow::open: those of the two.
-  bool isListed = false;
-  WorldTime listed;  ///< If they are: with whatever else they meet they are free before.
-};
-struct TracedBodies {
+/// Two links that may come near each other from the instant on.
+struct ListedPair {
   BodyPair bodies;
-  std::size_t first = 0, count = 0;  ///< Of TraceWindow::pairs.
+  LinkPair links;
+  WorldTime time;
+};
+/// Two bodies in a window.
+struct TracedBodies {
+  FollowedBodies* followed = nullptr;
+  std::size_t first = 0, count = 0;  ///< Of TraceWindow::listed.
 };
 
 struct TraceWindow {
   std::int64_t fromUs = 0, toUs = 0;
-  bool isFirst = false;           ///< Nothing is known of what was before.
-  std::vector<TracedPair> pairs;  ///< By body pair.
-  std::vector<BodyId> returned;   ///< Were unknown before: by number.
-  const std::vector<OpenPart>* open = nullptr;
+  bool isFirst = false;            ///< Nothing is known of what was before.
+  std::vector<ListedPair> listed;  ///< By bodies, then by links.
+  std::vector<BodyId> returned;    ///< Were unknown before: by number.
 };
 
 /// A contact that goes on at the instant, after a motion that is assumed.
@@ -56,49 +56,56 @@ struct TraceAnswer {
 /// For one thread; keeps its memory.
 class BodiesTracer {
  public:
-  /// Appends what happens to the pairs. Errors: as SystemPlans::planOf().
+  /// Brings what is followed to the window's end, and appends what happens. Errors: as
+  /// SystemPlans::planOf().
   Result<Done> trace(const WorldParts& world, SystemPlans& plans, const BodyMasses& masses,
                      const TraceWindow& window, const TracedBodies& bodies, TraceAnswer& answer);
   /// Forgets what belongs to a world.
   void clear() { system_.motions.clear(); }
 
  private:
-  /// Two that are followed.
-  struct Following {
-    std::size_t pair = 0;
-    ObjectId object = kNoObject;
-    WorldTime from;  ///< Free before it, if nothing is open.
-    bool isOpen = false;
-    PartKind kind = PartKind::Contact;
-    UndecidedReason reason = UndecidedReason::None;
-    WorldTime since;
-  };
   struct Asked;
+  /// The span that it is at: of the window, and of a motion that may go beyond it.
+  struct Part {
+    std::int64_t beginUs = 0, endUs = 0;
+    bool isFresh = false;    ///< What touches at its begin may have begun before anybody looked.
+    bool isAssumed = false;  ///< Somebody is silent and taken to hold still.
+  };
 
   Result<Done> traceSpans(const Asked& asked, SpanSides& span);
-  void beginFollowing(const Asked& asked);
-  void traceSpan(const Asked& asked, SpanSides& span);
-  void tracePair(const Asked& asked, SpanSides& span, std::size_t pair);
-  void addObjects(const Asked& asked, SpanSides& span, std::size_t pair);
-  void traceOne(const Asked& asked, SpanSides& span, Following& followed);
-  void takeParts(const Asked& asked, SpanSides& span, bool wasUnknown, Following& followed);
-  void endOpen(const Asked& asked, std::size_t pair, const WorldTime& time, LeaveCause cause);
-  void loseOpen(const Asked& asked, const WorldTime& time, UndecidedReason reason);
+  void enterMotion(const Asked& asked, const SystemSpans& spans);
+  Result<bool> traceSpan(const Asked& asked, SpanSides& span);
+  [[nodiscard]] bool isNew(const Asked& asked, const ListedPair& listed) const;
+  [[nodiscard]] bool isAnyNew(const Asked& asked) const;
+  void addListed(const Asked& asked, SpanSides& span);
+  void addObjects(const Asked& asked, SpanSides& span, const LinkPair& links,
+                  const WorldTime& from);
+  static void add(const Asked& asked, const LinkPair& links, ObjectId object,
+                  const WorldTime& from);
+  [[nodiscard]] bool set(const Asked& asked, SpanSides& span, const FollowedSides& side);
+  void traceSides(const Asked& asked, SpanSides& span, FollowedSides& side);
+  [[nodiscard]] IntervalTolerance toleranceOf(const Asked& asked, const SpanSides& span) const;
+  [[nodiscard]] bool isDue(const Asked& asked, const WorldTime& time, bool isEnd) const;
+  [[nodiscard]] WorldTime beginAt(SpanSides& span, const StepPart& part) const;
+  void tellParts(const Asked& asked, SpanSides& span, FollowedSides& side);
+  [[nodiscard]] bool tellContact(const Asked& asked, SpanSides& span, FollowedSides& side);
+  void tellDetails(const Asked& asked, SpanSides& span, const FollowedSides& side, double t,
+                   double within);
+  void endOpen(const Asked& asked, FollowedSides& side, const WorldTime& time, LeaveCause cause);
+  void endAll(const Asked& asked, std::int64_t utimeUs);
+  void loseAll(const Asked& asked, std::int64_t utimeUs, UndecidedReason reason);
   void begin(const Asked& asked, EventKind kind, const WorldTime& time, UndecidedReason reason,
-             Following& followed);
-  void end(const Asked& asked, EventKind kind, const WorldTime& time, Following& followed);
-  WorldEvent& tell(const Asked& asked, EventKind kind, const WorldTime& time,
-                   const Following& followed);
+             FollowedSides& side);
+  void end(const Asked& asked, EventKind kind, const WorldTime& time, FollowedSides& side);
+  void tell(const Asked& asked, EventKind kind, const WorldTime& time, const FollowedSides& side);
   [[nodiscard]] static bool isFresh(const TraceWindow& window, const SystemSpans& spans);
 
   SystemScratch system_;
   MovingSides sides_;
   IntervalTracer tracer_;
   EventDetails details_;
-  std::vector<Following> following_;
-  std::vector<StepPart> parts_;
   std::vector<SidesPair> near_;
-  bool isAssumed_ = false, isFresh_ = false;
+  Part part_;
 };
 
 }  // namespace foretouch::internal

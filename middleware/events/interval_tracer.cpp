@@ -26,11 +26,17 @@ IntervalTolerance IntervalTolerance::of(double tolerance, double off) {
 }
 
 void IntervalTracer::trace(MovingSides& sides, const IntervalTolerance& tolerance, double from,
-                           TraceStart start, std::vector<StepPart>& parts,
+                           TraceStart start, SidesPair& witness, std::vector<StepPart>& parts,
                            EventCounters& counters) {
   sides_ = &sides;
   tolerance_ = tolerance;
-  last_ = {};
+  last_ = witness;
+  traceParts(from, start, parts, counters);
+  witness = last_;
+}
+
+void IntervalTracer::traceParts(double from, TraceStart start, std::vector<StepPart>& parts,
+                                EventCounters& counters) {
   double t = from;
   bool isContact = start == TraceStart::Contact;
   if (!isContact) {

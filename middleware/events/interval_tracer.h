@@ -42,10 +42,13 @@ class IntervalTracer {
   ///   `from` and they were in contact before.
   /// - Unresolved: doubles cannot tell; goes on to the step's end.
   /// - Elsewhere they stay `floor` apart.
+  /// `witness`: the pair that held the two together last, if one did; it is tried first.
   void trace(MovingSides& sides, const IntervalTolerance& tolerance, double from, TraceStart start,
-             std::vector<StepPart>& parts, EventCounters& counters);
+             SidesPair& witness, std::vector<StepPart>& parts, EventCounters& counters);
 
  private:
+  void traceParts(double from, TraceStart start, std::vector<StepPart>& parts,
+                  EventCounters& counters);
   /// Where a search ends.
   enum class Found : std::uint8_t { Nothing, Contact, Unresolved };
   struct Search {

@@ -15,9 +15,21 @@ namespace foretouch::internal {
 struct BodyPair {
   BodyId a = 0, b = kStillScene;
 };
+[[nodiscard]] inline bool operator==(const BodyPair& x, const BodyPair& y) {
+  return x.a == y.a && x.b == y.b;
+}
+[[nodiscard]] inline bool operator<(const BodyPair& x, const BodyPair& y) {
+  return x.a != y.a ? x.a < y.a : x.b < y.b;
+}
 struct LinkPair {
   LinkId a = 0, b = 0;
 };
+[[nodiscard]] inline bool operator==(const LinkPair& x, const LinkPair& y) {
+  return x.a == y.a && x.b == y.b;
+}
+[[nodiscard]] inline bool operator<(const LinkPair& x, const LinkPair& y) {
+  return x.a != y.a ? x.a < y.a : x.b < y.b;
+}
 
 /// Errors: a world whose contacts cannot be followed: contacts are followed between LSS, and
 /// between LSS and the triangles of a mesh or of the scene.

@@ -22,11 +22,14 @@ namespace foretouch {
 using internal::AssumedContact;
 using internal::BodiesTracer;
 using internal::BodyMasses;
+using internal::BodyPair;
+using internal::FollowedBodies;
+using internal::FollowedSides;
+using internal::ListedPair;
 using internal::OpenParts;
 using internal::PairKey;
 using internal::TraceAnswer;
 using internal::TracedBodies;
-using internal::TracedPair;
 using internal::TraceWindow;
 using internal::WorldParts;
 
@@ -91,10 +94,12 @@ struct WorldFollower::Impl {
   std::optional<internal::WorldScratchParts> scratch{std::in_place};
   WorldContacts contacts;
   OpenParts open, openBefore;  // the latter: as it was before the call
+  /// Whatever of two bodies is open, and more of it: by bodies.
+  std::vector<std::unique_ptr<FollowedBodies>> followed, unused;
+  bool isFollowedLost = false;  // a call has failed: only what is open is known
   TraceWindow window;
   std::vector<TracedBodies> tasks;
-  std::vector<const WorldContact*> listed;  // by key
-  std::vector<BodyId> unknown;              // bodies that are silent and undecided, by number
+  std::vector<BodyId> unknown;  // bodies that are silent and undecided, by number
   std::vector<std::unique_ptr<Worker>> workers;
   std::vector<WorldEvent> own;  // of bodies altogether
   std::vector<const WorldEvent*> order;
@@ -156,7 +161,6 @@ struct WorldFollower::Impl {
     window.fromUs = untilUs;
     window.toUs = toUs;
     window.isFirst = untilUs == startUs;
-    window.open = &open.all();
     own.clear();
     tellUnknown();
     plan();
@@ -228,52 +232,100 @@ struct WorldFollower::Impl {
     own.push_back(event);
   }
 
-  /// Who is open or listed, by bodies and links.
+  /// Two bodies of which something is known or listed in the window are a task.
   void plan() {
-    listed.clear();
-    for (const WorldContact& contact : contacts.contacts) {
-      if (!isOfEveryLink(keyOf(contact))) listed.push_back(&contact);
-    }
-    std::sort(listed.begin(), listed.end(),
-              [](const WorldContact* x, const WorldContact* y) { return keyOf(*x) < keyOf(*y); });
-    window.pairs.clear();
+    if (std::exchange(isFollowedLost, false)) followOpen();
+    listPairs();
     tasks.clear();
-    const std::vector<OpenPart>& parts = open.all();
-    std::size_t nextOpen = 0, nextListed = 0;
-    const auto skip = [&] {
-      while (nextOpen < parts.size() &&
-             isOfEveryLink(internal::keyOf(parts[nextOpen], parts[nextOpen].object))) {
-        ++nextOpen;
-      }
+    std::vector<ListedPair>& listed = window.listed;
+    retire();
+    const std::size_t known = followed.size();
+    const auto isOther = [](const ListedPair& x, const ListedPair& y) {
+      return x.bodies < y.bodies;
     };
-    for (skip(); nextOpen < parts.size() || nextListed < listed.size(); skip()) {
-      PairKey key{};
-      bool isListed = nextListed < listed.size();
-      if (isListed) key = keyOf(*listed[nextListed]);
-      if (nextOpen < parts.size()) {
-        const PairKey ofOpen = internal::keyOf(parts[nextOpen], parts[nextOpen].object);
-        if (!isListed || ofOpen.links() < key.links()) {
-          isListed = false;
-          key = ofOpen;
-        }
+    std::size_t next = 0;
+    for (auto first = listed.begin(); first != listed.end();) {
+      const auto last = std::upper_bound(first, listed.end(), *first, isOther);
+      while (next < known && followed[next]->bodies < first->bodies) ++next;
+      if (next == known || first->bodies < followed[next]->bodies) followNew(first->bodies);
+      first = last;
+    }
+    if (followed.size() > known) std::sort(followed.begin(), followed.end(), comeFirst);
+    auto first = listed.begin();
+    for (const auto& both : followed) {
+      const auto isOf = [&](const ListedPair& pair) { return pair.bodies == both->bodies; };
+      const auto last = std::find_if_not(first, listed.end(), isOf);
+      if (last != first || both->isActive()) {
+        tasks.push_back({both.get(), static_cast<std::size_t>(first - listed.begin()),
+                         static_cast<std::size_t>(last - first)});
       }
-      TracedPair pair{{key.linkOfA, key.linkOfB}, nextOpen, 0, isListed, {}};
-      if (isListed) pair.listed = listed[nextListed++]->time;
-      while (nextOpen < parts.size() &&
-             internal::keyOf(parts[nextOpen], parts[nextOpen].object).links() == key.links()) {
-        ++nextOpen;
-        ++pair.numOpen;
-      }
-      addPair({key.bodyOfA, key.bodyOfB}, pair);
+      first = last;
     }
   }
 
-  void addPair(const internal::BodyPair& bodies, const TracedPair& pair) {
-    const bool isSame =
-        !tasks.empty() && tasks.back().bodies.a == bodies.a && tasks.back().bodies.b == bodies.b;
-    if (!isSame) tasks.push_back({bodies, window.pairs.size(), 0});
-    window.pairs.push_back(pair);
-    ++tasks.back().count;
+  void listPairs() {
+    std::vector<ListedPair>& listed = window.listed;
+    listed.clear();
+    for (const WorldContact& contact : contacts.contacts) {
+      const PairKey key = keyOf(contact);
+      if (isOfEveryLink(key)) continue;
+      listed.push_back({{key.bodyOfA, key.bodyOfB}, {key.linkOfA, key.linkOfB}, contact.time});
+    }
+    std::sort(listed.begin(), listed.end(), [](const ListedPair& x, const ListedPair& y) {
+      return x.bodies == y.bodies ? x.links < y.links : x.bodies < y.bodies;
+    });
+  }
+
+  static bool comeFirst(const std::unique_ptr<FollowedBodies>& x,
+                        const std::unique_ptr<FollowedBodies>& y) {
+    return x->bodies < y->bodies;
+  }
+
+  /// Nothing of the two is known any more.
+  void retire() {
+    const auto isOver = [this](const std::unique_ptr<FollowedBodies>& both) {
+      return both->endUs <= window.fromUs && !both->isActive();
+    };
+    std::size_t kept = 0;
+    for (auto& both : followed) {
+      if (isOver(both)) {
+        unused.push_back(std::move(both));
+      } else {
+        std::swap(followed[kept++], both);
+      }
+    }
+    followed.resize(kept);
+  }
+
+  FollowedBodies& followNew(const BodyPair& bodies) {
+    if (unused.empty()) unused.push_back(std::make_unique<FollowedBodies>());
+    followed.push_back(std::move(unused.back()));
+    unused.pop_back();
+    followed.back()->bodies = bodies;
+    followed.back()->clear();
+    return *followed.back();
+  }
+
+  /// What was found beyond what is open is lost.
+  void followOpen() {
+    followed.clear();
+    for (const OpenPart& part : open.all()) {
+      const PairKey key = internal::keyOf(part, part.object);
+      if (isOfEveryLink(key)) continue;
+      const BodyPair bodies{key.bodyOfA, key.bodyOfB};
+      const auto known = std::find_if(followed.begin(), followed.end(),
+                                      [&](const auto& both) { return both->bodies == bodies; });
+      FollowedBodies& both = known == followed.end() ? followNew(bodies) : **known;
+      FollowedSides side;
+      side.links = {key.linkOfA, key.linkOfB};
+      side.object = key.object;
+      side.isOpen = true;
+      side.kind = part.kind;
+      side.reason = part.reason;
+      side.since = part.since;
+      both.sides.push_back(side);
+    }
+    std::sort(followed.begin(), followed.end(), comeFirst);
   }
 
   Result<Done> traceAll(const WorldParts& parts) {
@@ -388,6 +440,7 @@ Result<Done> WorldFollower::follow(const World& world, std::int64_t untilUs, Wor
   const Result<Done> done = impl.attempt(world, endUs, answer);
   if (!done.ok()) {
     impl.open = impl.openBefore;
+    impl.isFollowedLost = true;
     impl.untilUs = answer.toUs = fromUs;
     answer.events.clear();
     answer.parts.clear();

@@ -1,6 +1,7 @@
 #include "middleware/world/body_system.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "lss/assert.h"
 #include "lss/rounding.h"
@@ -91,6 +92,20 @@ bool SystemSpans::widen(const PieceShare& share) {
   const std::int64_t begin = piece.beginUs + (beginUs_ - piece.beginUs) / partUs * partUs;
   const std::int64_t end = std::min(begin + partUs, piece.endUs);
   if (endUs_ > end) return false;
+  beginUs_ = begin;
+  endUs_ = end;
+  return true;
+}
+
+bool SystemSpans::widenToPieces() {
+  std::int64_t begin = std::numeric_limits<std::int64_t>::min();
+  std::int64_t end = std::numeric_limits<std::int64_t>::max();
+  for (const SystemMember& member : members_) {
+    if (member.piece.isHeld && !member.episode->isHeldFast()) return false;
+    begin = std::max(begin, member.piece.beginUs);
+    if (!member.piece.isHeld) end = std::min(end, member.piece.endUs);
+  }
+  FORETOUCH_ASSERT(begin <= beginUs_ && end >= endUs_);
   beginUs_ = begin;
   endUs_ = end;
   return true;

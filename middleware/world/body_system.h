@@ -72,6 +72,9 @@ class SystemSpans {
   /// piece that holds it, if a is asked alone, is not carried and goes on moving: what is found of
   /// it serves other windows too. False: stays. next() goes on behind the span.
   bool widen(const PieceShare& share);
+  /// Goes from the span to the whole motion that it is part of: as long as all members are in the
+  /// pieces of their tracks that they are in. False: stays, as the motion of one is assumed.
+  bool widenToPieces();
   /// Back to the span that next() went to.
   void narrow();
 
