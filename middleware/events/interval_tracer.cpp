@@ -1,6 +1,7 @@
 #include "middleware/events/interval_tracer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "lss/rounding.h"
 #include "middleware/events/contact_hold.h"
@@ -14,7 +15,7 @@ namespace {
 /// instants (events.md 1).
 constexpr double kLeaveShare = 1.5, kLimitShare = 2.0 - 0x1p-6;
 
-/// A search through more pairs at once is cut in halves of time.
+/// A search through more pairs at once is cut in halves of time, if that leaves fewer.
 constexpr std::size_t kMostPairs = 192;
 constexpr double kLeastPiece = 0x1p-10;
 
@@ -110,17 +111,27 @@ IntervalTracer::Search IntervalTracer::searchContact(double from, EventCounters&
   double begin = from, end = 1.0;
   while (begin < 1.0) {
     sides_->collect(begin, end, tolerance_.enter, near_);
-    if (near_.size() > kMostPairs && end - begin > kLeastPiece) {
-      end = 0.5 * (begin + end);
-      continue;
-    }
+    end = cutPiece(begin, end);
     const Search search = searchPiece(begin, end, counters);
     if (search.found != Found::Nothing) return search;
     const double span = end - begin;
     begin = end;
-    end = std::min(1.0, begin + span);
+    end = std::min(1.0, begin + 2.0 * span);
   }
   return {};
+}
+
+/// Halves the piece while that leaves half of its many pairs, or fewer: those that are near
+/// throughout would be looked at in every piece.
+double IntervalTracer::cutPiece(double begin, double end) {
+  while (near_.size() > kMostPairs && end - begin > kLeastPiece) {
+    const double middle = 0.5 * (begin + end);
+    sides_->collect(begin, middle, tolerance_.enter, fewer_);
+    if (2 * fewer_.size() > near_.size()) return end;
+    std::swap(near_, fewer_);
+    end = middle;
+  }
+  return end;
 }
 
 /// Among the pairs of near_: all others stay farther than `enter` apart in the piece.

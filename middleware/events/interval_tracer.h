@@ -66,12 +66,13 @@ class IntervalTracer {
   /// From an instant of contact to where it ends; false: it cannot be told from there on.
   [[nodiscard]] bool followContact(double& t, EventCounters& counters);
   [[nodiscard]] Search searchContact(double from, EventCounters& counters);
+  [[nodiscard]] double cutPiece(double begin, double end);
   [[nodiscard]] Search searchPiece(double from, double to, EventCounters& counters);
 
   MovingSides* sides_ = nullptr;
   IntervalTolerance tolerance_{};
   SidesPair last_;  // that held longest
-  std::vector<SidesPair> near_;
+  std::vector<SidesPair> near_, fewer_;
   struct Candidate {
     double freeUntil;
     SidesPair pair;

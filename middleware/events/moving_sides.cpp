@@ -4,6 +4,7 @@
 
 #include "lss/assert.h"
 #include "lss/index.h"
+#include "middleware/events/swept_tube.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/scene_parts.h"
 
@@ -109,13 +110,18 @@ void MovingSides::collectLinks(const States& begin, const States& end, double re
 void MovingSides::collectScene(const States& begin, const States& end, double reach,
                                std::vector<SidesPair>& pairs) {
   for (std::size_t i = 0; i < one_.bounds.size(); ++i) {
-    const Aabb box = sweptBoxOf(one_, i, begin.one, end.one, end.t - begin.t, reach);
+    const double span = end.t - begin.t;
+    const Aabb box = sweptBoxOf(one_, i, begin.one, end.one, span, reach);
+    const Lss& lss = (*one_.lss)[i];
+    const SweptTube tube(lss, one_.bounds[i], axisEnds(lss, begin.one), axisEnds(lss, end.one),
+                         span, reach);
     found_.clear();
     std::uint64_t visited = 0;
     scene_->parts().bvh.collect(box, found_, visited);
     for (const TriangleId id : found_) {
       if (object_ != kNoObject && scene_->object(id) != object_) continue;
-      if (!box.overlaps(boxOf(scene_->triangle(id)))) continue;
+      const Triangle& triangle = scene_->triangle(id);
+      if (!tube.mayMeet(triangle) || !box.overlaps(boxOf(triangle))) continue;
       pairs.push_back({static_cast<std::int32_t>(i), id});
     }
   }
