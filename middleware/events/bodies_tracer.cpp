@@ -30,12 +30,6 @@ double partAt(const SystemSpans& spans, const WorldTime& time) {
   return part > 0.0 ? std::nextafter(part, 0.0) : 0.0;
 }
 
-/// It meets the object, or any object, by triangles.
-bool isOfObjects(const WorldParts& world, const BodyPair& bodies) {
-  return bodies.b == kStillScene || !world.kindOf(bodies.a).avatar ||
-         !world.kindOf(bodies.b).avatar;
-}
-
 }  // namespace
 
 /// What one call is about.

@@ -15,6 +15,11 @@ SystemQuestion SpanSides::questionOf(const BodyPair& bodies) const {
   return areAvatars ? SystemQuestion::Pair : SystemQuestion::Mesh;
 }
 
+bool isOfObjects(const WorldParts& world, const BodyPair& bodies) {
+  return bodies.b == kStillScene || !world.kindOf(bodies.a).avatar ||
+         !world.kindOf(bodies.b).avatar;
+}
+
 Result<Done> checkedSides(const WorldParts& world) {
   if (world.options.askMeshes) {
     return Error::in(

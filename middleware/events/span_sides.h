@@ -31,6 +31,9 @@ struct LinkPair {
   return x.a != y.a ? x.a < y.a : x.b < y.b;
 }
 
+/// One of them is a mesh, or the scene: each of its objects is met by itself.
+[[nodiscard]] bool isOfObjects(const WorldParts& world, const BodyPair& bodies);
+
 /// Errors: a world whose contacts cannot be followed: contacts are followed between LSS, and
 /// between LSS and the triangles of a mesh or of the scene.
 [[nodiscard]] Result<Done> checkedSides(const WorldParts& world);

@@ -97,6 +97,7 @@ struct WorldFollower::Impl {
   /// Whatever of two bodies is open, and more of it: by bodies.
   std::vector<std::unique_ptr<FollowedBodies>> followed, unused;
   bool isFollowedLost = false;  // a call has failed: only what is open is known
+  internal::FollowedLinks followedLinks;
   TraceWindow window;
   std::vector<TracedBodies> tasks;
   std::vector<BodyId> unknown;  // bodies that are silent and undecided, by number
@@ -129,8 +130,9 @@ struct WorldFollower::Impl {
     open.beginTime(untilUs);
     while (untilUs < endUs) {
       const std::int64_t toUs = nextUs(of.parts(), endUs);
-      FORETOUCH_CHECK(
-          askWindow(of, untilUs, toUs, threads ? &*threads : nullptr, *scratch, contacts));
+      tellKnown(of.parts(), toUs);
+      FORETOUCH_CHECK(askWindow(of, untilUs, toUs, threads ? &*threads : nullptr, *scratch,
+                                contacts, &followedLinks));
       internal::addCounters(contacts.counters, answer.world);
       ++answer.counters.windows;
       FORETOUCH_CHECK(traceWindow(of.parts(), toUs));
@@ -154,6 +156,20 @@ struct WorldFollower::Impl {
       scratch.emplace();  // may be half written, and so may these
       for (const auto& worker : workers) *worker = Worker();
       return internal::brokenOff("window", broken);
+    }
+  }
+
+  /// Links of two bodies whose way through the window is known, or followed from its begin on.
+  void tellKnown(const WorldParts& parts, std::int64_t toUs) {
+    if (std::exchange(isFollowedLost, false)) followOpen();
+    followedLinks.pairs.clear();
+    for (const auto& both : followed) {
+      if (internal::isOfObjects(parts, both->bodies) || both->bodies.a == both->bodies.b) continue;
+      const bool isTraced = both->beginUs <= untilUs && toUs <= both->endUs;
+      for (const FollowedSides& side : both->sides) {
+        if (!side.isOpen && !(isTraced && side.isTraced)) continue;
+        followedLinks.pairs.push_back({both->bodies.a, both->bodies.b, side.links.a, side.links.b});
+      }
     }
   }
 
@@ -234,7 +250,6 @@ struct WorldFollower::Impl {
 
   /// Two bodies of which something is known or listed in the window are a task.
   void plan() {
-    if (std::exchange(isFollowedLost, false)) followOpen();
     listPairs();
     tasks.clear();
     std::vector<ListedPair>& listed = window.listed;

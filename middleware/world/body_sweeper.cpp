@@ -147,20 +147,38 @@ Result<Done> BodySweeper::keepOwn(BodyId body, SystemQuestion question, const Sp
     return Done{};
   }
   const WorldTime begin{part.beginUs, 0.0}, end{part.endUs, 0.0};
-  const auto isEarlier = [&](const WorldContact& contact) { return contact.time < begin; };
+  bool haveMet = false;
   for (const WorldContact& contact : span.own) {
-    if (!isEarlier(contact) && !(end < contact.time)) keep(contact, first, found);
+    if (end < contact.time) continue;
+    const bool isEarlier = contact.time < begin;
+    haveMet = haveMet || isEarlier;
+    if (!isEarlier) {
+      keep(contact, first, found);
+    } else if (window_.isFollowed) {
+      WorldContact again = contact;
+      again.time = begin;
+      keep(again, first, found);
+    }
   }
-  std::vector<WorldContact>& met = scratch_.met;
+  if (!haveMet || window_.isFollowed) return Done{};
+  return askAgain(body, question, part, span, first, found, counters);
+}
+
+/// Those who met before the part begins.
+Result<Done> BodySweeper::askAgain(BodyId body, SystemQuestion question, const SpanPart& part,
+                                   const SpanSweep& span, std::size_t first,
+                                   std::vector<WorldContact>& found, WorldCounters& counters) {
+  const WorldTime begin{part.beginUs, 0.0}, end{part.endUs, 0.0};
+  std::vector<WorldContact>&met = scratch_.met, &again = scratch_.again;
   met.clear();
-  std::copy_if(span.own.begin(), span.own.end(), std::back_inserter(met), isEarlier);
-  if (met.empty()) return Done{};
-  std::vector<WorldContact>& again = scratch_.again;
   again.clear();
+  std::copy_if(span.own.begin(), span.own.end(), std::back_inserter(met),
+               [&](const WorldContact& contact) { return contact.time < begin; });
   if (question == SystemQuestion::Self) {
-    // The piece's own motion, which is known to its last digit, from that instant on.
+    // The motion in which they met, from that instant on.
     FORETOUCH_TRY(const SystemPlan* const whole, query_.prepare(question, body, kStillScene));
-    if (query_.askAgainFrom(part.beginUs, *whole, body, met, 0, again, counters.queries)) {
+    if (query_.isResolved() &&
+        query_.askAgainFrom(part.beginUs, *whole, body, met, 0, again, counters.queries)) {
       ++counters.spans;
       for (const WorldContact& contact : again) {
         if (!(end < contact.time)) keep(contact, first, found);

@@ -18,6 +18,9 @@ struct Window {
   std::int64_t fromUs, toUs;
   std::uint64_t number;
   Eigen::Vector3d origin;  ///< Near the bodies, so that floats resolve them.
+  /// Who met before it, in a motion that it is part of, is told from its begin on, and not asked
+  /// again.
+  bool isFollowed = false;
 };
 
 /// For one thread and one window. What it refers to outlives it.
@@ -45,6 +48,9 @@ class BodySweeper {
   Result<Done> keepOwn(BodyId body, SystemQuestion question, const SpanPart& part,
                        const SpanSweep& span, std::size_t first, std::vector<WorldContact>& found,
                        WorldCounters& counters);
+  Result<Done> askAgain(BodyId body, SystemQuestion question, const SpanPart& part,
+                        const SpanSweep& span, std::size_t first,
+                        std::vector<WorldContact>& found, WorldCounters& counters);
 
   const WorldParts& world_;
   const Window& window_;

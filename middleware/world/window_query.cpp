@@ -46,10 +46,11 @@ constexpr std::size_t kFewNear = 8;
 /// Pairs of bodies whose boxes meet, for one thread.
 class PairAsker {
  public:
-  PairAsker(const WorldParts& world, const Window& window, WorldScratchParts& scratch,
-            WindowWorker& worker)
+  PairAsker(const WorldParts& world, const Window& window, const FollowedLinks* followed,
+            WorldScratchParts& scratch, WindowWorker& worker)
       : world_(world),
         window_(window),
+        followed_(followed),
         scratch_(scratch),
         worker_(worker),
         query_(world, scratch.plans, worker.system) {}
@@ -129,12 +130,32 @@ class PairAsker {
                          });
     };
     open.erase(std::remove_if(open.begin(), open.end(), haveMet), open.end());
+    leaveFollowed(a, b, open);
     // Pieces between nodes are those of the span, if it is the sweep's.
     const SystemSpans& spans = worker_.system.spans;
     if (spans.beginUs() != sweep.beginUs || spans.endUs() != sweep.endUs) {
       for (PlanePair& pair : open) pair.open = kEveryPiece;
     }
     return !open.empty();
+  }
+
+  /// If the span is the window: in one of several, whoever follows them may not know them any more.
+  void leaveFollowed(BodyId a, BodyId b, std::vector<PlanePair>& open) const {
+    const SystemSpans& spans = worker_.system.spans;
+    const bool isWindow = spans.beginUs() == window_.fromUs && spans.endUs() == window_.toUs;
+    if (followed_ == nullptr || !isWindow) return;
+    const std::vector<LinkId>&linkOfA = world_.kindOf(a).linkOf, &linkOfB = world_.kindOf(b).linkOf;
+    const auto comesBefore = [](const KnownLinks& x, const KnownLinks& y) {
+      return std::tie(x.a, x.b) < std::tie(y.a, y.b);
+    };
+    const auto known = std::equal_range(followed_->pairs.begin(), followed_->pairs.end(),
+                                        KnownLinks{a, b, 0, 0}, comesBefore);
+    const auto isKnown = [&](const PlanePair& pair) {
+      return std::any_of(known.first, known.second, [&](const KnownLinks& links) {
+        return links.linkOfA == linkOfA[slotOf(pair.i)] && links.linkOfB == linkOfB[slotOf(pair.j)];
+      });
+    };
+    open.erase(std::remove_if(open.begin(), open.end(), isKnown), open.end());
   }
 
   /// What is free stays so far apart, as it does by the queries (m).
@@ -144,6 +165,7 @@ class PairAsker {
 
   const WorldParts& world_;
   const Window& window_;
+  const FollowedLinks* followed_;
   WorldScratchParts& scratch_;
   WindowWorker& worker_;
   SystemQuery query_;
@@ -157,10 +179,12 @@ constexpr std::size_t kTasksAtOnce = 8;
 class WindowQuery {
  public:
   WindowQuery(const WorldParts& world, std::int64_t fromUs, std::int64_t toUs,
-              WorkerThreads* threads, WorldScratchParts& scratch, WorldContacts& answer)
+              WorkerThreads* threads, WorldScratchParts& scratch, WorldContacts& answer,
+              const FollowedLinks* followed)
       : world_(world),
-        window_{fromUs, toUs, ++scratch.windows, Eigen::Vector3d::Zero()},
+        window_{fromUs, toUs, ++scratch.windows, Eigen::Vector3d::Zero(), followed != nullptr},
         threads_(threads),
+        followed_(followed),
         scratch_(scratch),
         answer_(answer) {}
 
@@ -256,7 +280,7 @@ class WindowQuery {
   Result<Done> askPairs() {
     return forEach(scratch_.meeting.size(), [this](WindowWorker& worker, std::size_t i) {
       const MeetingBodies& pair = scratch_.meeting[i];
-      return PairAsker(world_, window_, scratch_, worker).ask(pair.a, pair.b);
+      return PairAsker(world_, window_, followed_, scratch_, worker).ask(pair.a, pair.b);
     });
   }
 
@@ -312,6 +336,7 @@ class WindowQuery {
   const WorldParts& world_;
   Window window_;
   WorkerThreads* threads_;
+  const FollowedLinks* followed_;
   WorldScratchParts& scratch_;
   WorldContacts& answer_;
 };
@@ -355,9 +380,10 @@ void addCounters(const WorldCounters& more, WorldCounters& sum) {
 }
 
 Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs,
-                       WorkerThreads* threads, WorldScratchParts& scratch, WorldContacts& answer) {
+                       WorkerThreads* threads, WorldScratchParts& scratch, WorldContacts& answer,
+                       const FollowedLinks* followed) {
   FORETOUCH_CHECK(checkedWindow(world, fromUs, toUs));
-  return WindowQuery(world.parts(), fromUs, toUs, threads, scratch, answer).run();
+  return WindowQuery(world.parts(), fromUs, toUs, threads, scratch, answer, followed).run();
 }
 
 }  // namespace foretouch::internal

@@ -38,6 +38,19 @@ struct ContactPlace {
   const WorldContact* contact;
 };
 
+/// Two links of different bodies, a's number the lower one.
+struct KnownLinks {
+  BodyId a = 0, b = 0;
+  LinkId linkOfA = 0, linkOfB = 0;
+};
+
+/// What whoever asks window after window knows by himself. Of those who met by themselves (own
+/// links, the static scene) before the window, in a motion that it is part of, he wants to hear
+/// that they may meet from its begin on, and nothing else.
+struct FollowedLinks {
+  std::vector<KnownLinks> pairs;  ///< He knows all of them in the window. By bodies.
+};
+
 struct WorldScratchParts {
   std::uint64_t world = 0;    // whose this is
   std::uint64_t windows = 0;  // asked so far
@@ -57,8 +70,10 @@ void addCounters(const WorldCounters& more, WorldCounters& sum);
 Result<Done> checkedWindow(const World& world, std::int64_t fromUs, std::int64_t toUs);
 
 /// As worldContacts(). `threads`: null, or those that share the work; the answer is the same.
-/// Errors besides: on several threads, memory ran out (DeviceFailed).
+/// `followed`: null, or what need not be told. Errors besides: on several threads, memory ran out
+/// (DeviceFailed).
 Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs,
-                       WorkerThreads* threads, WorldScratchParts& scratch, WorldContacts& answer);
+                       WorkerThreads* threads, WorldScratchParts& scratch, WorldContacts& answer,
+                       const FollowedLinks* followed = nullptr);
 
 }  // namespace foretouch::internal
