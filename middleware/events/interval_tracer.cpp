@@ -43,7 +43,7 @@ void IntervalTracer::traceParts(double from, TraceStart start, std::vector<StepP
   if (!isContact) {
     // Most often the begin is where a contact was found.
     ++counters.freeLooks;
-    isContact = holdAt(t, tolerance_.enter).isContact;
+    isContact = isWithin(t, tolerance_.enter);
   }
   for (;;) {
     if (!isContact) {
@@ -65,6 +65,18 @@ void IntervalTracer::traceParts(double from, TraceStart start, std::vector<StepP
     if (t >= 1.0) return;
     isContact = false;
   }
+}
+
+/// A pair that shows it is the one that is tried first from then on.
+bool IntervalTracer::isWithin(double t, double within) {
+  if (last_.lss >= 0 && sides_->at(last_, t).gapUpper <= within) return true;
+  sides_->collect(t, t, within, near_);
+  const auto found = std::find_if(near_.begin(), near_.end(), [&](const SidesPair& pair) {
+    return sides_->at(pair, t).gapUpper <= within;
+  });
+  if (found == near_.end()) return false;
+  last_ = *found;
+  return true;
 }
 
 bool IntervalTracer::tryHold(const SidesPair& pair, double t, double within, Hold& best) {
@@ -151,7 +163,10 @@ IntervalTracer::Search IntervalTracer::searchPiece(double from, double to,
     counters.freeLooks += t != looked ? 1 : 0;
     looked = t;
     const MovingPair pair = sides_->at(candidate.pair, t);
-    if (pair.gapUpper <= tolerance_.enter) return {Found::Contact, t};
+    if (pair.gapUpper <= tolerance_.enter) {
+      last_ = candidate.pair;
+      return {Found::Contact, t};
+    }
     const double next = timeAfter(t, pair.stepFrom(tolerance_.floor), to);
     if (!(next > t)) return {Found::Unresolved, t};
     candidate.freeUntil = next;

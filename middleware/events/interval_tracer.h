@@ -61,6 +61,7 @@ class IntervalTracer {
     double step = 0.0;       // for how long they are proven to stay within the limit
   };
 
+  [[nodiscard]] bool isWithin(double t, double within);
   [[nodiscard]] Hold holdAt(double t, double within);
   [[nodiscard]] bool tryHold(const SidesPair& pair, double t, double within, Hold& best);
   /// From an instant of contact to where it ends; false: it cannot be told from there on.

@@ -139,11 +139,17 @@ class PairAsker {
     return !open.empty();
   }
 
-  /// If the span is the window: in one of several, whoever follows them may not know them any more.
+  /// Nobody carries it in the window, and it is there throughout.
+  [[nodiscard]] bool isFree(BodyId id) const {
+    const WorldBody& body = world_.body(id);
+    const Episode* const episode = body.episodeAt(window_.fromUs);
+    return episode != nullptr && !episode->carrier &&
+           body.nextEpisodeUs(window_.fromUs) >= window_.toUs;
+  }
+
+  /// Whoever follows them knows them throughout, unless they are not asked in between.
   void leaveFollowed(BodyId a, BodyId b, std::vector<PlanePair>& open) const {
-    const SystemSpans& spans = worker_.system.spans;
-    const bool isWindow = spans.beginUs() == window_.fromUs && spans.endUs() == window_.toUs;
-    if (followed_ == nullptr || !isWindow) return;
+    if (followed_ == nullptr || !isFree(a) || !isFree(b)) return;
     const std::vector<LinkId>&linkOfA = world_.kindOf(a).linkOf, &linkOfB = world_.kindOf(b).linkOf;
     const auto comesBefore = [](const KnownLinks& x, const KnownLinks& y) {
       return std::tie(x.a, x.b) < std::tie(y.a, y.b);
