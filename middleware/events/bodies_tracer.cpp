@@ -54,7 +54,7 @@ Result<Done> BodiesTracer::trace(const WorldParts& world, SystemPlans& plans,
                                  const BodyMasses& masses, const TraceWindow& window,
                                  const TracedBodies& bodies, TraceAnswer& answer) {
   const Asked asked{world, masses, window, bodies, answer};
-  SpanSides span(world, plans, system_);
+  SpanSides span(world, plans, span_);
   const std::uint64_t looks = sides_.looks;
   const Result<Done> done = traceSpans(asked, span);
   answer.counters.pairs += sides_.looks - looks;

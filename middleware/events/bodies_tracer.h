@@ -61,7 +61,7 @@ class BodiesTracer {
   Result<Done> trace(const WorldParts& world, SystemPlans& plans, const BodyMasses& masses,
                      const TraceWindow& window, const TracedBodies& bodies, TraceAnswer& answer);
   /// Forgets what belongs to a world.
-  void clear() { system_.motions.clear(); }
+  void clear() { span_.system.motions.clear(); }
 
  private:
   struct Asked;
@@ -100,7 +100,7 @@ class BodiesTracer {
   void tell(const Asked& asked, EventKind kind, const WorldTime& time, const FollowedSides& side);
   [[nodiscard]] static bool isFresh(const TraceWindow& window, const SystemSpans& spans);
 
-  SystemScratch system_;
+  SpanScratch span_;
   MovingSides sides_;
   IntervalTracer tracer_;
   EventDetails details_;

@@ -38,11 +38,23 @@ struct LinkPair {
 /// between LSS and the triangles of a mesh or of the scene.
 [[nodiscard]] Result<Done> checkedSides(const WorldParts& world);
 
+/// One thread's memory for spans.
+struct SpanScratch {
+  SystemScratch system;
+  MotionEvaluator evaluator, ofSystem;
+  std::vector<LinkState> states;
+};
+
 /// For one thread. What it refers to outlives it.
 class SpanSides {
  public:
-  SpanSides(const WorldParts& world, SystemPlans& plans, SystemScratch& scratch)
-      : world_(world), scratch_(scratch), query_(world, plans, scratch) {}
+  SpanSides(const WorldParts& world, SystemPlans& plans, SpanScratch& scratch)
+      : world_(world),
+        scratch_(scratch.system),
+        query_(world, plans, scratch.system),
+        evaluator_(scratch.evaluator),
+        ofSystem_(scratch.ofSystem),
+        states_(scratch.states) {}
 
   /// The two bodies, for spans to come. False: nothing of the two is asked.
   [[nodiscard]] bool begin(const BodyPair& bodies, std::int64_t fromUs, std::int64_t toUs);
@@ -89,8 +101,8 @@ class SpanSides {
   bool isTurned_ = false;
   const SystemPlan* plan_ = nullptr;
   LinkId frame_ = kNoParent;
-  MotionEvaluator evaluator_, ofSystem_;
-  std::vector<LinkState> states_;
+  MotionEvaluator &evaluator_, &ofSystem_;
+  std::vector<LinkState>& states_;
 };
 
 }  // namespace foretouch::internal

@@ -100,7 +100,8 @@ struct WorldFollower::Impl {
   internal::FollowedLinks followedLinks;
   TraceWindow window;
   std::vector<TracedBodies> tasks;
-  std::vector<BodyId> unknown;  // bodies that are silent and undecided, by number
+  std::vector<BodyId> unknown, unknownBefore;  // silent and undecided, by number; as openBefore
+  bool isSaved = false;                        // what was before the call
   std::vector<std::unique_ptr<Worker>> workers;
   std::vector<WorldEvent> own;  // of bodies altogether
   std::vector<const WorldEvent*> order;
@@ -150,13 +151,28 @@ struct WorldFollower::Impl {
 
   /// As followTo(), but memory that runs out is an error like others.
   Result<Done> attempt(const World& of, std::int64_t endUs, WorldEvents& answer) {
+    isSaved = false;
     try {
-      return followTo(of, endUs, answer);
+      openBefore = open;
+      unknownBefore = unknown;
+      isSaved = true;
+      FORETOUCH_CHECK(followTo(of, endUs, answer));
+      answer.silent = contacts.silent;
+      return Done{};
     } catch (const std::exception& broken) {
       scratch.emplace();  // may be half written, and so may these
       for (const auto& worker : workers) *worker = Worker();
       return internal::brokenOff("window", broken);
     }
+  }
+
+  /// As if the call had not been.
+  void takeBack(std::int64_t fromUs) {
+    untilUs = fromUs;
+    if (!isSaved) return;
+    std::swap(open, openBefore);
+    std::swap(unknown, unknownBefore);
+    isFollowedLost = true;
   }
 
   /// Links of two bodies whose way through the window is known, or followed from its begin on.
@@ -443,7 +459,6 @@ Result<Done> WorldFollower::follow(const World& world, std::int64_t untilUs, Wor
     FORETOUCH_CHECK(impl.checkedCuts(endUs));
   }
   impl.world = parts.identity;
-  impl.openBefore = impl.open;
   answer.fromUs = fromUs;
   answer.toUs = std::max(fromUs, endUs);
   answer.events.clear();
@@ -454,14 +469,11 @@ Result<Done> WorldFollower::follow(const World& world, std::int64_t untilUs, Wor
   if (endUs <= fromUs) return Done{};
   const Result<Done> done = impl.attempt(world, endUs, answer);
   if (!done.ok()) {
-    impl.open = impl.openBefore;
-    impl.isFollowedLost = true;
-    impl.untilUs = answer.toUs = fromUs;
+    impl.takeBack(fromUs);
+    answer.toUs = fromUs;
     answer.events.clear();
     answer.parts.clear();
-    return done;
   }
-  answer.silent = impl.contacts.silent;
   return done;
 }
 
