@@ -16,18 +16,6 @@
 
 namespace foretouch::internal {
 
-/// Two links that may come near each other from the instant on.
-struct ListedPair {
-  BodyPair bodies;
-  LinkPair links;
-  WorldTime time;
-};
-/// Two bodies in a window.
-struct TracedBodies {
-  FollowedBodies* followed = nullptr;
-  std::size_t first = 0, count = 0;  ///< Of TraceWindow::listed.
-};
-
 struct TraceWindow {
   std::int64_t fromUs = 0, toUs = 0;
   bool isFirst = false;            ///< Nothing is known of what was before.

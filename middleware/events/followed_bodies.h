@@ -68,4 +68,16 @@ struct FollowedBodies {
   }
 };
 
+/// Two links that may come near each other from the instant on.
+struct ListedPair {
+  BodyPair bodies;
+  LinkPair links;
+  WorldTime time;
+};
+/// Two bodies in a window.
+struct TracedBodies {
+  FollowedBodies* followed = nullptr;
+  std::size_t first = 0, count = 0;  ///< Of TraceWindow::listed.
+};
+
 }  // namespace foretouch::internal

@@ -26,6 +26,11 @@ struct PairKey {
   return x.tied() == y.tied();
 }
 
+/// About a body altogether, or about two of which nothing is known.
+[[nodiscard]] inline bool isOfEveryLink(const PairKey& key) {
+  return key.linkOfA == kEveryLink || key.linkOfB == kEveryLink;
+}
+
 /// Of whatever has two sides.
 template <typename TwoSided>
 [[nodiscard]] PairKey keyOf(const TwoSided& of, ObjectId object) {

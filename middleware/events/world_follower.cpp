@@ -11,6 +11,7 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "middleware/events/bodies_tracer.h"
+#include "middleware/events/followed_list.h"
 #include "middleware/events/open_parts.h"
 #include "middleware/events/span_sides.h"
 #include "middleware/query/query_pool.h"
@@ -22,9 +23,6 @@ namespace foretouch {
 using internal::AssumedContact;
 using internal::BodiesTracer;
 using internal::BodyMasses;
-using internal::BodyPair;
-using internal::FollowedBodies;
-using internal::FollowedSides;
 using internal::ListedPair;
 using internal::OpenParts;
 using internal::PairKey;
@@ -72,10 +70,6 @@ PairKey keyOf(const WorldContact& contact) {
   return internal::keyOf(contact, internal::kNoObject);
 }
 
-bool isOfEveryLink(const PairKey& key) {
-  return key.linkOfA == kEveryLink || key.linkOfB == kEveryLink;
-}
-
 /// One thread's memory, and its part of a window's events.
 struct alignas(128) Worker {
   BodiesTracer tracer;
@@ -93,11 +87,10 @@ struct WorldFollower::Impl {
   BodyMasses masses;
   std::optional<internal::WorldScratchParts> scratch{std::in_place};
   WorldContacts contacts;
-  OpenParts open, openBefore;  // the latter: as it was before the call
-  /// Whatever of two bodies is open, and more of it: by bodies.
-  std::vector<std::unique_ptr<FollowedBodies>> followed, unused;
-  bool isFollowedLost = false;  // a call has failed: only what is open is known
-  internal::FollowedLinks followedLinks;
+  OpenParts open, openBefore;       // the latter: as it was before the call
+  internal::FollowedList followed;  // all that is open, and more about it
+  bool isFollowedLost = false;      // a call has failed: only what is open is known
+  internal::FollowedLinks known;
   TraceWindow window;
   std::vector<TracedBodies> tasks;
   std::vector<BodyId> unknown, unknownBefore;  // silent and undecided, by number; as openBefore
@@ -131,9 +124,10 @@ struct WorldFollower::Impl {
     open.beginTime(untilUs);
     while (untilUs < endUs) {
       const std::int64_t toUs = nextUs(of.parts(), endUs);
-      tellKnown(of.parts(), toUs);
-      FORETOUCH_CHECK(askWindow(of, untilUs, toUs, threads ? &*threads : nullptr, *scratch,
-                                contacts, &followedLinks));
+      if (std::exchange(isFollowedLost, false)) followed.assign(open.all());
+      followed.tellKnown(of.parts(), untilUs, toUs, known);
+      FORETOUCH_CHECK(
+          askWindow(of, untilUs, toUs, threads ? &*threads : nullptr, *scratch, contacts, &known));
       internal::addCounters(contacts.counters, answer.world);
       ++answer.counters.windows;
       FORETOUCH_CHECK(traceWindow(of.parts(), toUs));
@@ -175,27 +169,14 @@ struct WorldFollower::Impl {
     isFollowedLost = true;
   }
 
-  /// Links of two bodies whose way through the window is known, or followed from its begin on.
-  void tellKnown(const WorldParts& parts, std::int64_t toUs) {
-    if (std::exchange(isFollowedLost, false)) followOpen();
-    followedLinks.pairs.clear();
-    for (const auto& both : followed) {
-      if (internal::isOfObjects(parts, both->bodies) || both->bodies.a == both->bodies.b) continue;
-      const bool isTraced = both->beginUs <= untilUs && toUs <= both->endUs;
-      for (const FollowedSides& side : both->sides) {
-        if (!side.isOpen && !(isTraced && side.isTraced)) continue;
-        followedLinks.pairs.push_back({both->bodies.a, both->bodies.b, side.links.a, side.links.b});
-      }
-    }
-  }
-
   Result<Done> traceWindow(const WorldParts& parts, std::int64_t toUs) {
     window.fromUs = untilUs;
     window.toUs = toUs;
     window.isFirst = untilUs == startUs;
     own.clear();
     tellUnknown();
-    plan();
+    listPairs();
+    followed.plan(window.fromUs, window.listed, tasks);
     for (const auto& worker : workers) {
       worker->answer.clear();
       worker->failure.clear();
@@ -264,36 +245,7 @@ struct WorldFollower::Impl {
     own.push_back(event);
   }
 
-  /// Two bodies of which something is known or listed in the window are a task.
-  void plan() {
-    listPairs();
-    tasks.clear();
-    std::vector<ListedPair>& listed = window.listed;
-    retire();
-    const std::size_t known = followed.size();
-    const auto isOther = [](const ListedPair& x, const ListedPair& y) {
-      return x.bodies < y.bodies;
-    };
-    std::size_t next = 0;
-    for (auto first = listed.begin(); first != listed.end();) {
-      const auto last = std::upper_bound(first, listed.end(), *first, isOther);
-      while (next < known && followed[next]->bodies < first->bodies) ++next;
-      if (next == known || first->bodies < followed[next]->bodies) followNew(first->bodies);
-      first = last;
-    }
-    if (followed.size() > known) std::sort(followed.begin(), followed.end(), comeFirst);
-    auto first = listed.begin();
-    for (const auto& both : followed) {
-      const auto isOf = [&](const ListedPair& pair) { return pair.bodies == both->bodies; };
-      const auto last = std::find_if_not(first, listed.end(), isOf);
-      if (last != first || both->isActive()) {
-        tasks.push_back({both.get(), static_cast<std::size_t>(first - listed.begin()),
-                         static_cast<std::size_t>(last - first)});
-      }
-      first = last;
-    }
-  }
-
+  /// Links that may come near each other in the window.
   void listPairs() {
     std::vector<ListedPair>& listed = window.listed;
     listed.clear();
@@ -305,58 +257,6 @@ struct WorldFollower::Impl {
     std::sort(listed.begin(), listed.end(), [](const ListedPair& x, const ListedPair& y) {
       return x.bodies == y.bodies ? x.links < y.links : x.bodies < y.bodies;
     });
-  }
-
-  static bool comeFirst(const std::unique_ptr<FollowedBodies>& x,
-                        const std::unique_ptr<FollowedBodies>& y) {
-    return x->bodies < y->bodies;
-  }
-
-  /// Nothing of the two is known any more.
-  void retire() {
-    const auto isOver = [this](const std::unique_ptr<FollowedBodies>& both) {
-      return both->endUs <= window.fromUs && !both->isActive();
-    };
-    std::size_t kept = 0;
-    for (auto& both : followed) {
-      if (isOver(both)) {
-        unused.push_back(std::move(both));
-      } else {
-        std::swap(followed[kept++], both);
-      }
-    }
-    followed.resize(kept);
-  }
-
-  FollowedBodies& followNew(const BodyPair& bodies) {
-    if (unused.empty()) unused.push_back(std::make_unique<FollowedBodies>());
-    followed.push_back(std::move(unused.back()));
-    unused.pop_back();
-    followed.back()->bodies = bodies;
-    followed.back()->clear();
-    return *followed.back();
-  }
-
-  /// What was found beyond what is open is lost.
-  void followOpen() {
-    followed.clear();
-    for (const OpenPart& part : open.all()) {
-      const PairKey key = internal::keyOf(part, part.object);
-      if (isOfEveryLink(key)) continue;
-      const BodyPair bodies{key.bodyOfA, key.bodyOfB};
-      const auto known = std::find_if(followed.begin(), followed.end(),
-                                      [&](const auto& both) { return both->bodies == bodies; });
-      FollowedBodies& both = known == followed.end() ? followNew(bodies) : **known;
-      FollowedSides side;
-      side.links = {key.linkOfA, key.linkOfB};
-      side.object = key.object;
-      side.isOpen = true;
-      side.kind = part.kind;
-      side.reason = part.reason;
-      side.since = part.since;
-      both.sides.push_back(side);
-    }
-    std::sort(followed.begin(), followed.end(), comeFirst);
   }
 
   Result<Done> traceAll(const WorldParts& parts) {
