@@ -18,6 +18,9 @@ constexpr double kLeaveShare = 1.5, kLimitShare = 2.0 - 0x1p-6;
 /// A search through more pairs at once is cut in halves of time, if that leaves fewer.
 constexpr std::size_t kMostPairs = 192;
 constexpr double kLeastPiece = 0x1p-10;
+/// Of the rest of the motion: a proof for so long is taken, instead of looking for a longer one
+/// among all pairs that are near, of which there may be hundreds.
+constexpr double kEnoughShare = 0.25;
 
 }  // namespace
 
@@ -93,16 +96,17 @@ bool IntervalTracer::tryHold(const SidesPair& pair, double t, double within, Hol
   return true;
 }
 
-/// The longest proof of all pairs, unless one that served before is enough.
+/// A proof that is long enough, by the pair that served before if it can; else the longest one.
 IntervalTracer::Hold IntervalTracer::holdAt(double t, double within) {
+  const double enough = kEnoughShare * (1.0 - t);
   Hold best;
-  if (last_.lss >= 0 && tryHold(last_, t, within, best) && best.step >= 1.0 - t) return best;
+  if (last_.lss >= 0 && tryHold(last_, t, within, best) && best.step >= enough) return best;
   const SidesPair tried = last_;
   sides_->collect(t, t, within, near_);
   for (const SidesPair& pair : near_) {
     if (pair == tried) continue;
     (void)tryHold(pair, t, within, best);
-    if (best.step >= 1.0 - t) break;
+    if (best.step >= enough) break;
   }
   return best;
 }
