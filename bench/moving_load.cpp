@@ -29,10 +29,13 @@ constexpr double kUsPerS = 1e6;
 }  // namespace
 
 Result<std::string> writeLoadWorld(const BenchFolder& folder, const BenchFiles& files,
-                                   std::size_t avatars) {
-  FORETOUCH_TRY(const auto hall, folder.write("hall.obj", kHall));
+                                   std::size_t avatars, bool isFurnished) {
+  std::string scene = files.scenePath;
+  if (!isFurnished) {
+    FORETOUCH_TRY(scene, folder.write("hall.obj", kHall));
+  }
   std::string text =
-      fmt::format("format = \"foretouch-world\"\nversion = 1\n\n[scene]\nfile = \"{}\"\n", hall);
+      fmt::format("format = \"foretouch-world\"\nversion = 1\n\n[scene]\nfile = \"{}\"\n", scene);
   for (std::size_t i = 1; i <= avatars; ++i) {
     text += fmt::format("\n[[body]]\nname = \"dancer {}\"\navatar = \"{}\"\n", i, files.avatarPath);
   }

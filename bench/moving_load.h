@@ -15,13 +15,15 @@
 namespace foretouch::tools {
 
 struct MovingRequest {
-  int props = 0;         ///< Balls, each on a circle of its own; 0: there is no world.
-  double rateHz = 60.0;  ///< Of the message that has all of them.
+  int props = 0;             ///< Balls, each on a circle of its own; 0: there is no world.
+  double rateHz = 60.0;      ///< Of the message that has all of them.
+  bool isFurnished = false;  ///< They move in the scene of the files, and not in an empty hall.
 };
 
-/// The world file of a load: a hall, `avatars` of the same body, and the shape that all balls have.
+/// The world file of a load: a hall, or the scene of the files, `avatars` of the same body, and the
+/// shape that all balls have.
 [[nodiscard]] Result<std::string> writeLoadWorld(const BenchFolder& folder, const BenchFiles& files,
-                                                 std::size_t avatars);
+                                                 std::size_t avatars, bool isFurnished);
 
 /// Where the avatar of this index stands, beside the first one (m): people in rows.
 [[nodiscard]] Eigen::Vector3d placeInCrowd(std::size_t index);

@@ -311,7 +311,8 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   auto arguments = serviceArguments(inputs.files, load.senders.size() + (request.isCalm ? 0 : 1),
                                     request.workers, std::string());
   if (request.moving.props > 0) {
-    FORETOUCH_TRY(const auto world, writeLoadWorld(folder, inputs.files, load.senders.size()));
+    FORETOUCH_TRY(const auto world, writeLoadWorld(folder, inputs.files, load.senders.size(),
+                                                   request.moving.isFurnished));
     arguments = {"--world", world, "--workers", std::to_string(request.workers)};
   }
   if (!request.isCalm) {
@@ -386,7 +387,9 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   soak.report.date = dateNow();
   soak.report.machine = machineFacts();
   soak.report.workload = streamFacts(inputs, request.workers);
-  if (request.moving.props > 0) soak.report.workload.front() = {"scene", "a hall, 10 triangles"};
+  if (request.moving.props > 0 && !request.moving.isFurnished) {
+    soak.report.workload.front() = {"scene", "a hall, 10 triangles"};
+  }
   soak.report.tables.push_back(std::move(table));
   const std::string passing = watch.passingFiles();
   if (!passing.empty()) soak.report.notes = {"Open at the moment with most: also " + passing + "."};

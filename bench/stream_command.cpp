@@ -27,7 +27,7 @@ constexpr double kMostMbPerHour = 1.0, kNoGrowthMb = internal::kUnderSanitizer ?
 struct StreamTexts {
   std::string crowds, seconds = "10", workers = "1", place = "0,0,0,0", json, csv;
   std::string minutes = "2", garbage = "0.01", disk, props = "0", propsRate = "60";
-  bool isCalm = false;
+  bool isCalm = false, isFurnished = false;
 };
 
 ExitCode runStream(const StreamTexts& texts) {
@@ -65,6 +65,7 @@ ExitCode runSoak(const StreamTexts& texts) {
   }
   if (settle.error()) return failed(*settle.error());
   request.isCalm = texts.isCalm;
+  request.moving.isFurnished = texts.isFurnished;
   if (request.moving.props > 0 && !request.isCalm) {
     return failed(Error::in("--props", ErrorCode::OutOfRange,
                             "expected --calm beside it: the senders of trouble know no world"));
@@ -159,6 +160,9 @@ void addBenchStreamCommands(CLI::App& bench, ExitCode& exit) {
   soakCommand->add_option("--props-rate", soak->propsRate, "Poses of all balls per second")
       ->type_name("HZ")
       ->capture_default_str();
+  soakCommand->add_flag("--furniture", soak->isFurnished,
+                        "With --props: in the bundled room, deep in its furniture, instead of an "
+                        "empty hall");
   soakCommand->footer("Example:\n  foretouch-bench soak --minutes 150 --disk /mnt/small");
   soakCommand->callback([soak, &exit] { exit = runSoak(*soak); });
 }
