@@ -10,6 +10,11 @@
 namespace foretouch::internal {
 namespace {
 
+/// Of a longer motion (us) so much is traced at once: of seconds, a live window would wait for what
+/// only later ones tell. Shorter, and people who are tracked 10 times per second are looked at more
+/// than once per pose.
+constexpr std::int64_t kMostMotionUs = 100'000;
+
 /// As worldTimeAt(), rounded up: never earlier than it is.
 WorldTime latestTimeAt(const SystemSpans& spans, double t) {
   const auto length = static_cast<double>(spans.endUs() - spans.beginUs());
@@ -72,7 +77,7 @@ Result<Done> BodiesTracer::traceSpans(const Asked& asked, SpanSides& span) {
   SystemSpans& spans = span.spans();
   while (spans.next()) {
     part_ = {spans.beginUs(), spans.endUs(), isFresh(window, spans), spans.isAssumed()};
-    static_cast<void>(spans.widenToPieces());
+    static_cast<void>(spans.widenToPieces(kMostMotionUs));
     enterMotion(asked, spans);
     FORETOUCH_TRY(const bool isResolved, traceSpan(asked, span));
     if (!isResolved) return Done{};

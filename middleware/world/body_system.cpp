@@ -88,16 +88,10 @@ bool SystemSpans::widen(const PieceShare& share) {
   const TrackPiece& piece = members_.front().piece;
   const std::int64_t length = piece.endUs - piece.beginUs;
   if (piece.isHeld || (length > share.wholeUs && share.partUs == 0)) return false;
-  const std::int64_t partUs = length > share.wholeUs ? share.partUs : length;
-  const std::int64_t begin = piece.beginUs + (beginUs_ - piece.beginUs) / partUs * partUs;
-  const std::int64_t end = std::min(begin + partUs, piece.endUs);
-  if (endUs_ > end) return false;
-  beginUs_ = begin;
-  endUs_ = end;
-  return true;
+  return widenTo(piece.beginUs, piece.endUs, length > share.wholeUs ? share.partUs : length);
 }
 
-bool SystemSpans::widenToPieces() {
+bool SystemSpans::widenToPieces(std::int64_t mostUs) {
   std::int64_t begin = std::numeric_limits<std::int64_t>::min();
   std::int64_t end = std::numeric_limits<std::int64_t>::max();
   for (const SystemMember& member : members_) {
@@ -105,9 +99,17 @@ bool SystemSpans::widenToPieces() {
     begin = std::max(begin, member.piece.beginUs);
     if (!member.piece.isHeld) end = std::min(end, member.piece.endUs);
   }
+  return widenTo(begin, end, mostUs);
+}
+
+/// Parts of that length, from `begin` on; the last one may be shorter.
+bool SystemSpans::widenTo(std::int64_t begin, std::int64_t end, std::int64_t partUs) {
   FORETOUCH_ASSERT(begin <= beginUs_ && end >= endUs_);
-  beginUs_ = begin;
-  endUs_ = end;
+  const std::int64_t from = begin + (beginUs_ - begin) / partUs * partUs;
+  const std::int64_t to = end - from > partUs ? from + partUs : end;
+  if (endUs_ > to) return false;
+  beginUs_ = from;
+  endUs_ = to;
   return true;
 }
 

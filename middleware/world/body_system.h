@@ -73,8 +73,10 @@ class SystemSpans {
   /// it serves other windows too. False: stays. next() goes on behind the span.
   bool widen(const PieceShare& share);
   /// Goes from the span to the whole motion that it is part of: as long as all members are in the
-  /// pieces of their tracks that they are in. False: stays, as the motion of one is assumed.
-  bool widenToPieces();
+  /// pieces of their tracks that they are in; of one that is longer than `mostUs`, to the part of
+  /// that length that holds the span. False: stays, as no part does, or as the motion of a member
+  /// is assumed.
+  bool widenToPieces(std::int64_t mostUs);
   /// Back to the span that next() went to.
   void narrow();
 
@@ -92,6 +94,7 @@ class SystemSpans {
  private:
   [[nodiscard]] bool addMember(BodyId body);
   [[nodiscard]] bool findEnd();
+  bool widenTo(std::int64_t begin, std::int64_t end, std::int64_t partUs);
   [[nodiscard]] double reachOfCarried() const;
   void appendPart(const SystemMember& member, PieceMotions& motions, SystemPoses& poses) const;
 

@@ -1,5 +1,7 @@
 // What a follower knows of a motion serves all windows that cut it: others' clocks neither change
 // what it tells of two, nor cost looks at them.
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -133,6 +135,31 @@ TEST(FollowedMotions, LooksOncePerMotionWhateverCutsTime) {
   EXPECT_GT(beside.windows, 3 * alone.windows);
   EXPECT_LE(beside.contactLooks, alone.contactLooks * 11 / 10);
   EXPECT_LE(beside.stretches, alone.stretches * 11 / 10);
+}
+
+// Two needles that cross and slide along each other for two seconds: no call traces all of it.
+TEST(FollowedMotions, TraceLongOnesInParts) {
+  World world = World::build(std::nullopt, {1e-5}).value();
+  const BodyId lying = world.add(bodyOf({{Vector3d(0, 0, 0), Vector3d(1, 0, 0), 0.0}})).value();
+  const BodyId sliding = world.add(bodyOf({{Vector3d(0, 0, -1), Vector3d(0, 0, 1), 0.0}})).value();
+  stand(world, world.add(ball(0.1)).value(), at(50), 2'000 * kMs, kMs);
+  stand(world, lying, at(0), 2'000 * kMs, 2'000 * kMs);
+  ASSERT_TRUE(world.push(sliding, 0, at(-0.1)).ok());
+  ASSERT_TRUE(world.push(sliding, 2'000 * kMs, at(0.9)).ok());
+  WorldFollower follower = WorldFollower::start(0).value();
+  WorldEvents answer;
+  std::uint64_t most = 0, all = 0, calls = 0;
+  for (std::int64_t us = 5 * kMs; us <= 2'000 * kMs; us += 5 * kMs) {
+    ASSERT_TRUE(follower.follow(world, us, answer).ok());
+    most = std::max(most, answer.counters.contactLooks);
+    all += answer.counters.contactLooks;
+    calls += answer.counters.contactLooks > 0 ? 1 : 0;
+  }
+  EXPECT_EQ(follower.open().size(), 1u);
+  EXPECT_GT(all, 10'000u);
+  EXPECT_LT(most, all / 10);
+  EXPECT_GE(calls, 18u);
+  EXPECT_LE(calls, 21u);
 }
 
 // A ball would leave the wall at 15 ms, but somebody takes it at 10 ms and holds it where it is.
