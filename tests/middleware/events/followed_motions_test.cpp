@@ -137,6 +137,29 @@ TEST(FollowedMotions, LooksOncePerMotionWhateverCutsTime) {
   EXPECT_LE(beside.stretches, alone.stretches * 11 / 10);
 }
 
+// Thirty balls whose boxes the other one's box meets, and one that is deep in it: that one is tried
+// first on every motion.
+TEST(FollowedMotions, BeginWithWhatHeldThemTogetherLast) {
+  constexpr int kBeside = 30, kMotions = 40;
+  std::vector<Lss> balls;
+  for (int i = 0; i < kBeside; ++i) {
+    const Vector3d beside(0.08 + 1e-4 * i, 0.08, 0);
+    balls.push_back({beside, beside, 0.05});
+  }
+  balls.push_back({Vector3d(0, 0, 0.02), Vector3d(0, 0, 0.02), 0.05});
+  World world = World::build(std::nullopt).value();
+  const BodyId many = world.add(bodyOf(balls)).value(), one = world.add(ball(0.05)).value();
+  for (int k = 0; k <= kMotions; ++k) {
+    const std::int64_t us = 10 * kMs * k;
+    ASSERT_TRUE(world.push(many, us, at(k % 2 == 0 ? 0.0 : 0.001)).ok());
+    ASSERT_TRUE(world.push(one, us, at(0)).ok());
+  }
+  const Followed told = follow(world, 10 * kMs * kMotions);
+  EXPECT_EQ(told.kinds, "starts_inside ");
+  EXPECT_GE(told.counters.pairs, 1u * kMotions + kBeside);
+  EXPECT_LE(told.counters.pairs, 2u * kMotions + 4 * kBeside);
+}
+
 // Two needles that cross and slide along each other for two seconds: no call traces all of it.
 TEST(FollowedMotions, TraceLongOnesInParts) {
   World world = World::build(std::nullopt, {1e-5}).value();
