@@ -39,13 +39,16 @@ TEST(EventOracle, SamplesAvatarsWithClocksOfTheirOwn) {
         random.chance(0.3) ? Vector3d(1e4 * random.direction()) : Vector3d::Zero();
     for (int k = 0; k < 3; ++k) {
       Walker walker = randomWalker(random, place + random.inBox(0.4), 0.15);
-      BodyOptions options;
+      BodyOptions ofBody;
       if (const auto rules = PairRules::derive(walker.avatar); rules.ok()) {
-        options.self = rules.value();
+        ofBody.self = rules.value();
       }
-      walk(both, both.add(walker.avatar, options), walker, randomPeriod(random), kUntilUs, random);
+      walk(both, both.add(walker.avatar, ofBody), walker, randomPeriod(random), kUntilUs, random);
     }
-    JudgedEvents judged(both, 0);
+    // At every pose, or so that windows hold several poses of all.
+    FollowOptions options;
+    options.cutUs = i % 3 == 0 ? 0 : i % 3 == 1 ? kUntilUs / 12 : kUntilUs / 3;
+    JudgedEvents judged(both, 0, options);
     judged.follow(kUntilUs / 3);
     judged.follow(kUntilUs);
     judged.judge(kInstants);

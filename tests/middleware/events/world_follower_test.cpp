@@ -246,18 +246,22 @@ TEST(WorldFollower, EndsWhatIsNotAskedAnyMore) {
   World world = worldOf();
   const BodyId hand = world.add(ball(0.1)).value(), cup = world.add(ball(0.1)).value();
   for (const int i : {0, 1, 2, 3, 4}) ASSERT_TRUE(world.push(hand, 10'000 * i, at(0.0)).ok());
-  ASSERT_TRUE(world.push(cup, 0, at(0.15)).ok());
-  ASSERT_TRUE(world.push(cup, 10'000, at(0.15)).ok());
-  ASSERT_TRUE(world.attach(cup, {hand, 0}, 10'000, at(0.15)).ok());
-  ASSERT_TRUE(world.detach(cup, 30'000, at(0.15)).ok());
+  for (const int i : {0, 1, 2, 3}) ASSERT_TRUE(world.push(cup, 10'000 * i, at(0.15)).ok());
+  ASSERT_TRUE(world.attach(cup, {hand, 0}, 25'000, at(0.15)).ok());
+  ASSERT_TRUE(world.detach(cup, 35'000, at(0.15)).ok());
   ASSERT_TRUE(world.push(cup, 40'000, at(0.5)).ok());
-  WorldFollower follower = followerFrom(0);
-  const WorldEvents answer = followed(follower, world, 40'000);
-  EXPECT_EQ(kindsOf(answer), "starts_inside leave starts_inside leave ");
-  EXPECT_EQ(answer.events[1].cause, LeaveCause::NotAsked);
-  EXPECT_EQ(answer.events[1].time.us, 10'000);
-  EXPECT_EQ(answer.events[2].time.us, 30'000);
-  EXPECT_EQ(answer.events[3].cause, LeaveCause::Apart);
+  // At every change, all between two cuts, and all from the begin on.
+  for (const std::int64_t cutUs : {0, 20'000, 40'000}) {
+    FollowOptions options;
+    options.cutUs = cutUs;
+    WorldFollower follower = followerFrom(0, options);
+    const WorldEvents answer = followed(follower, world, 40'000);
+    ASSERT_EQ(kindsOf(answer), "starts_inside leave starts_inside leave ") << cutUs;
+    EXPECT_EQ(answer.events[1].cause, LeaveCause::NotAsked);
+    EXPECT_EQ(answer.events[1].time.us, 25'000);
+    EXPECT_EQ(answer.events[2].time.us, 35'000);
+    EXPECT_EQ(answer.events[3].cause, LeaveCause::Apart);
+  }
 }
 
 // It leaves the one before it enters the other, which are a millimetre apart.
