@@ -104,6 +104,46 @@ TEST(FollowedMotions, TellsWhatHappensLaterInItsWindow) {
   }
 }
 
+/// Triangles of many metres across x, each an object of its own.
+Scene sheets(const std::vector<double>& places) {
+  RawScene raw;
+  for (const double x : places) {
+    raw.objectOf.push_back(static_cast<ObjectId>(raw.objectNames.size()));
+    raw.objectNames.push_back("sheet " + std::to_string(raw.objectNames.size()));
+    raw.triangles.push_back({{Vector3d(x, -9, -9), Vector3d(x, 9, -9), Vector3d(x, 0, 9)}});
+  }
+  return Scene::build(std::move(raw)).value();
+}
+
+// One object after the other, still or moving, of which windows list the link, and not the object.
+// With a longer motion than is traced at once, and one whose parts are looked at, too.
+TEST(FollowedMotions, TellEveryObjectInItsWindow) {
+  const std::vector<double> places = {0.1, 0.2, 0.3, 0.4, 0.5};
+  for (const std::int64_t motionUs : {30 * kMs, 300 * kMs}) {
+    for (const bool isStill : {true, false}) {
+      World world =
+          World::build(isStill ? std::optional<Scene>(sheets(places)) : std::nullopt, {1e-4})
+              .value();
+      const BodyId flying = world.add(ball(0.02)).value();
+      ASSERT_TRUE(world.push(flying, 0, at(0)).ok());
+      ASSERT_TRUE(world.push(flying, motionUs, at(0.6)).ok());
+      stand(world, world.add(ball(0.01)).value(), at(50), motionUs, kMs);
+      if (!isStill) stand(world, world.add(sheets(places)).value(), at(0), motionUs, motionUs);
+      const Followed told = follow(world, motionUs);
+      ASSERT_EQ(told.events.size(), 2 * places.size());
+      for (std::size_t i = 0; i < told.events.size(); ++i) {
+        const WorldEvent& event = told.events[i];
+        EXPECT_EQ(event.kind, i % 2 == 0 ? EventKind::Enter : EventKind::Leave);
+        EXPECT_EQ(event.object, static_cast<ObjectId>(i / 2));
+        const double metres = places[i / 2] + (i % 2 == 0 ? -0.02 : 0.02);
+        const double usPerTolerance = 1e-4 / 0.6 * static_cast<double>(motionUs);
+        EXPECT_NEAR(microsecondsAfter(0, event.time), metres / 0.6 * static_cast<double>(motionUs),
+                    2.0 * usPerTolerance);
+      }
+    }
+  }
+}
+
 // Two who touch on and off, and a third far away whose clock cuts their motions into many windows.
 TEST(FollowedMotions, LooksOncePerMotionWhateverCutsTime) {
   EventCounters alone, beside;
