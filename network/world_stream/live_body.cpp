@@ -4,6 +4,15 @@
 
 namespace foretouch::internal {
 
+void LiveBody::ripen(std::int64_t nowUs) {
+  while (!announced.empty() && announced.front().sinceUs <= nowUs) {
+    const LiveChange& due = announced.front();
+    isAwaited = due.awaitsPoses();
+    if (due.isPresent) stateUs = std::max(stateUs, due.sinceUs);
+    announced.pop_front();
+  }
+}
+
 void LiveBody::addUnknown(LinkId link, UndecidedReason reason, std::int64_t fromUs,
                           std::int64_t toUs) {
   for (UnknownSpan& span : unknown) {

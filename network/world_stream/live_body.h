@@ -31,6 +31,11 @@ struct LiveChange {
   LinkId link = 0;
   bool movesInFrame = false;
   RigidPose pose;
+
+  /// Held fast, a body has no poses.
+  [[nodiscard]] bool awaitsPoses() const {
+    return isPresent && (carrier == kNoBody || movesInFrame);
+  }
 };
 
 /// A time in which links are not known.
@@ -58,7 +63,10 @@ struct LiveBody {
   std::int64_t session = 0, sequence = 0, knownUntilUs = -1, heardUs = 0;
   std::int64_t stateSession = 0, stateSequence = -1;  ///< Of the last accepted body_t.
   LiveChange state;                                   ///< That was accepted last.
-  std::int64_t stateUs = -1;                          ///< Until when that says where it is.
+  /// What was announced and is not due; states count from their instants on.
+  std::deque<LiveChange> announced;
+  bool isAwaited = true;      ///< As awaitsPoses(), of the last state that was due.
+  std::int64_t stateUs = -1;  ///< Until when states that were due say where it is.
   bool skips = false;  ///< Something between its last accepted pose and the next one is missing.
   std::deque<LiveKnot> knots;      ///< Not told to the world.
   std::deque<LiveChange> changes;  ///< Likewise, by time.
@@ -74,10 +82,8 @@ struct LiveBody {
 
   /// Until when it is known where it is; -1: it is not there yet.
   [[nodiscard]] std::int64_t saidUntilUs() const { return std::max(knownUntilUs, stateUs); }
-  /// Its announced state: held fast, it has no poses.
-  [[nodiscard]] bool awaitsPoses() const {
-    return state.isPresent && (state.carrier == kNoBody || state.movesInFrame);
-  }
+  /// Lets states take effect that are due at `nowUs`.
+  void ripen(std::int64_t nowUs);
   /// Marks the links as unknown from `fromUs` to `toUs`; goes on with a span that ends there.
   void addUnknown(LinkId link, UndecidedReason reason, std::int64_t fromUs, std::int64_t toUs);
   /// Lets go of what is over.

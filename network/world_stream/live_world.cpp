@@ -53,7 +53,9 @@ void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, i
                           (!hasKnot || body.changes.front().sinceUs < body.knots.front().utimeUs);
     if (isChange) {
       LiveChange& change = body.changes.front();
-      if (change.sinceUs > untilUs && !(isShort && hasKnot)) return;
+      // No pose comes before a change that is due, nor before one with a pose behind it.
+      const bool isNext = hasKnot || body.stateUs >= change.sinceUs;
+      if (change.sinceUs > untilUs && !(isShort && isNext)) return;
       if (!takeChange(bodies, body, change, untilUs, depth)) return;
       body.changes.pop_front();
       continue;
@@ -173,7 +175,11 @@ void LiveWorld::letGo(LiveBody& body, const LiveChange& change) {
   const bool isCarried = !body.carriers.empty() && body.carriers.back().carrier != kNoBody;
   const Pose pose = poseOf(change.pose);
   if (!body.slot || !isCarried) {
-    if (!body.slot || change.sinceUs > body.toldUntilUs) push(body, change.sinceUs, pose);
+    if (body.slot && change.sinceUs <= body.toldUntilUs) return;
+    // Nobody carries it since then: so somebody did before, and that was not heard.
+    if (body.slot)
+      body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, change.sinceUs);
+    push(body, change.sinceUs, pose);
     return;
   }
   holdUntil(body, change.sinceUs);

@@ -135,8 +135,10 @@ void WorldRoster::change(LiveBody& body, const BodyMessage& message) {
   if (!body.changes.empty()) {
     change.sinceUs = std::max(change.sinceUs, body.changes.back().sinceUs + 1);
   }
-  if (change.isPresent) body.stateUs = std::max(body.stateUs, change.sinceUs);
   body.changes.push_back(change);
+  // Until then its poses go on as before, and are waited for.
+  body.announced.push_back(change);
+  body.ripen(nowUs_);
 }
 
 // Poses.
@@ -191,7 +193,7 @@ Reject WorldRoster::take(const RigidPoseMessage& message, std::int64_t receiveUt
 Reject WorldRoster::take(LiveBody& body, const BodyPose& told, const RigidPoseMessage& message,
                          std::int64_t receiveUtimeUs) {
   if (!body.state.isPresent && message.utimeUs >= body.state.sinceUs) return Reject::UnknownBody;
-  if (!body.awaitsPoses() && message.utimeUs > body.state.sinceUs) return Reject::HeldFast;
+  if (!body.state.awaitsPoses() && message.utimeUs > body.state.sinceUs) return Reject::HeldFast;
   bool isGap = false;
   const RigidPlace place{message.session, message.sequence, message.utimeUs};
   Reject reason = rigidPlaceFault(body, place, receiveUtimeUs, kRestartUs, isGap);
@@ -257,11 +259,12 @@ void WorldRoster::received(std::int64_t receiveUtimeUs) {
 }
 
 bool WorldRoster::isWaitedFor(const LiveBody& body) const {
-  if (body.saidUntilUs() < 0 || !body.awaitsPoses()) return false;
+  if (body.saidUntilUs() < 0 || !body.isAwaited) return false;
   return policy_.whenSilent == WhenSilent::Wait || body.saidUntilUs() >= nowUs_ - policy_.waitUs;
 }
 
 std::optional<std::int64_t> WorldRoster::watermark() {
+  for (auto& [number, body] : bodies_) body.ripen(nowUs_);
   forgetSilent();
   std::optional<std::int64_t> slowest, latest;
   waitsFor_ = kNoBody;
@@ -286,10 +289,13 @@ void WorldRoster::forgetSilent() {
     LiveChange gone = body.state;
     gone.isPresent = false;
     gone.sinceUs = std::max(body.saidUntilUs(), answeredUs_.value_or(0)) + 1;
-    if (!body.changes.empty())
+    if (!body.changes.empty()) {
       gone.sinceUs = std::max(gone.sinceUs, body.changes.back().sinceUs + 1);
+    }
     body.state = gone;
     body.changes.push_back(gone);
+    body.announced.push_back(gone);
+    body.ripen(nowUs_);
   }
 }
 
@@ -297,7 +303,7 @@ void WorldRoster::noteSilence(std::int64_t utimeUs) {
   counts_.silent = 0;
   for (auto& [number, body] : bodies_) {
     const std::int64_t saidUs = body.saidUntilUs();
-    const bool isBehind = saidUs >= 0 && body.awaitsPoses() && saidUs < utimeUs;
+    const bool isBehind = saidUs >= 0 && body.isAwaited && saidUs < utimeUs;
     if (isBehind && !body.isSilent) ++counts_.silences;
     body.isSilent = isBehind;
     if (isBehind) ++counts_.silent;
@@ -321,6 +327,7 @@ void WorldRoster::beginAnew(std::int64_t fromUs, bool keepsBodies) {
     if (!keepsBodies) {
       body.knots.clear();
       body.changes.clear();
+      body.announced.clear();
       body.unknown.clear();
       body.hasStream = false;
       body.knownUntilUs = body.stateUs = -1;

@@ -416,7 +416,8 @@ void Judging::judgeContact(const Pair& pair, const TimeSpans& contact,
       const double us = span.from + (span.to - span.from) * i / kInstants;
       if (isIn(notClaimed, us, kSlackUs)) continue;
       ++tally_.touching;
-      const Real gap = gapAt(pair, us, false);
+      // Where a body changes its carrier a contact ends, or begins, at one of the two places.
+      const Real gap = std::min(gapAt(pair, us, false), gapAt(pair, us, true));
       if (gap <= static_cast<Real>(2 * tolerance_ + kPlaces)) continue;
       say(pair, us, "in contact at a distance of " + std::to_string(static_cast<double>(gap)));
     }
