@@ -27,7 +27,7 @@ void LiveBody::addUnknown(LinkId link, UndecidedReason reason, std::int64_t from
 void LiveBody::forgetBefore(std::int64_t utimeUs) {
   const auto isOver = [&](const UnknownSpan& span) { return span.toUs < utimeUs; };
   unknown.erase(std::remove_if(unknown.begin(), unknown.end(), isOver), unknown.end());
-  while (carriers.size() > 1 && carriers[1].sinceUs <= utimeUs) carriers.erase(carriers.begin());
+  while (carriers.size() > 1 && carriers[1].sinceUs < utimeUs) carriers.erase(carriers.begin());
 }
 
 bool LiveBody::isUnknown(LinkId link, std::int64_t fromUs, std::int64_t toUs) const {
@@ -39,8 +39,9 @@ bool LiveBody::isUnknown(LinkId link, std::int64_t fromUs, std::int64_t toUs) co
 
 Reject rigidPlaceFault(const LiveBody& body, const RigidPlace& place, std::int64_t receiveUtimeUs,
                        std::int64_t restartUs, bool& isGap) {
-  isGap = false;
-  if (!body.hasStream) return Reject::None;
+  // Nobody knows whether the first pose that is heard is the first one.
+  isGap = !body.hasStream;
+  if (isGap) return Reject::None;
   if (place.utimeUs <= body.knownUntilUs) {
     const bool isCopy = place.session == body.session && place.sequence == body.sequence &&
                         place.utimeUs == body.knownUntilUs;

@@ -31,7 +31,10 @@ struct LiveChange {
   LinkId link = 0;
   bool movesInFrame = false;
   RigidPose pose;
+  std::int64_t poseUs = 0;  ///< The pose is that of this instant; `sinceUs` may have to be later.
 
+  /// Where it is from `sinceUs` on is known then.
+  [[nodiscard]] bool hasPlace() const { return !awaitsPoses() || poseUs == sinceUs; }
   /// Held fast, a body has no poses.
   [[nodiscard]] bool awaitsPoses() const {
     return isPresent && (carrier == kNoBody || movesInFrame);
@@ -78,7 +81,8 @@ struct LiveBody {
   Pose told;                                   ///< The last one.
   std::vector<LiveCarrier> carriers;           ///< By time.
   bool isHeldFast = false;
-  bool isSilent = false;  ///< The watermark has gone on without it.
+  bool isElsewhere = false;  ///< It was not where the world was told last.
+  bool isSilent = false;     ///< The watermark has gone on without it.
 
   /// Until when it is known where it is; -1: it is not there yet.
   [[nodiscard]] std::int64_t saidUntilUs() const { return std::max(knownUntilUs, stateUs); }

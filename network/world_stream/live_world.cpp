@@ -16,6 +16,11 @@ Pose poseOf(const RigidPose& rigid) {
   return {{rigid.rotation}, {rigid.translation}};
 }
 
+/// The world knows nothing of its place at `untilUs`.
+bool isShort(const LiveBody& body, std::int64_t untilUs) {
+  return body.slot && !body.isHeldFast && body.toldUntilUs < untilUs;
+}
+
 }  // namespace
 
 Result<LiveWorld> LiveWorld::make(const WorldSetup& setup, bool holdsStill, std::int64_t fromUs) {
@@ -38,15 +43,14 @@ std::optional<BodyNumber> LiveWorld::numberOf(BodyId slot, std::int64_t utimeUs)
 
 void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs) {
   tell(bodies, body, untilUs, 0);
-  const bool isBehind = body.slot && !body.isHeldFast && body.toldUntilUs < untilUs;
-  if (!isBehind || !holdsStill_) return;
+  if (!isShort(body, untilUs) || !holdsStill_) return;
   const Pose still = body.told;
   push(body, untilUs, still);
 }
 
 void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, int depth) {
   for (;;) {
-    const bool isShort = body.slot && !body.isHeldFast && body.toldUntilUs < untilUs;
+    const bool needsMore = isShort(body, untilUs);
     const bool hasKnot = !body.knots.empty();
     // A pose at the very instant of a change is in the frame before it.
     const bool isChange = !body.changes.empty() &&
@@ -55,12 +59,12 @@ void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, i
       LiveChange& change = body.changes.front();
       // No pose comes before a change that is due, nor before one with a pose behind it.
       const bool isNext = hasKnot || body.stateUs >= change.sinceUs;
-      if (change.sinceUs > untilUs && !(isShort && isNext)) return;
+      if (change.sinceUs > untilUs && !(needsMore && isNext)) return;
       if (!takeChange(bodies, body, change, untilUs, depth)) return;
       body.changes.pop_front();
       continue;
     }
-    if (!hasKnot || (body.knots.front().utimeUs > untilUs && !isShort)) return;
+    if (!hasKnot || (body.knots.front().utimeUs > untilUs && !needsMore)) return;
     takeKnot(body, body.knots.front());
     body.knots.pop_front();
   }
@@ -95,6 +99,10 @@ void LiveWorld::push(LiveBody& body, std::int64_t utimeUs, const Pose& pose) {
     return;
   }
   if (isNew) body.beginUs = utimeUs;
+  if (body.isElsewhere) {
+    body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, utimeUs);
+  }
+  body.isElsewhere = false;
   body.toldUntilUs = utimeUs;
   body.told = pose;
 }
@@ -146,7 +154,7 @@ bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, s
   tell(bodies, carrier->second, untilUs, depth + 1);
   if (!carrier->second.slot) return false;
   change.sinceUs = std::max(change.sinceUs, carrier->second.beginUs);
-  if (change.sinceUs > untilUs && body.knots.empty()) return false;
+  if (change.sinceUs > untilUs && !isShort(body, untilUs)) return false;
   holdUntil(body, change.sinceUs);
   const bool isNew = !body.slot;
   if (!addTo(body)) return true;
@@ -165,6 +173,7 @@ bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, s
   if (isNew) body.beginUs = change.sinceUs;
   body.toldUntilUs = change.sinceUs;
   body.told = pose;
+  body.isElsewhere = !change.hasPlace();
   body.isHeldFast = !change.movesInFrame;
   body.carriers.push_back({change.sinceUs, change.carrier, change.link});
   return true;
@@ -174,14 +183,12 @@ bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, s
 void LiveWorld::letGo(LiveBody& body, const LiveChange& change) {
   const bool isCarried = !body.carriers.empty() && body.carriers.back().carrier != kNoBody;
   const Pose pose = poseOf(change.pose);
-  if (!body.slot || !isCarried) {
-    if (body.slot && change.sinceUs <= body.toldUntilUs) return;
-    // Nobody carries it since then: so somebody did before, and that was not heard.
-    if (body.slot)
-      body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, change.sinceUs);
+  if (!body.slot) {
     push(body, change.sinceUs, pose);
+    body.isElsewhere = !change.hasPlace();
     return;
   }
+  if (!isCarried) return letGoUnheard(body, change);
   holdUntil(body, change.sinceUs);
   if (!world_.detach(*body.slot, change.sinceUs, pose).ok()) {
     ++failures_;
@@ -194,8 +201,18 @@ void LiveWorld::letGo(LiveBody& body, const LiveChange& change) {
   }
   body.toldUntilUs = change.sinceUs;
   body.told = pose;
+  body.isElsewhere = !change.hasPlace();
   body.isHeldFast = false;
   body.carriers.push_back({change.sinceUs, kNoBody, 0});
+}
+
+/// Nobody carries it since then: so somebody did before, which was not heard.
+void LiveWorld::letGoUnheard(LiveBody& body, const LiveChange& change) {
+  const std::int64_t untilUs = body.toldUntilUs;
+  body.addUnknown(kEveryLink, UndecidedReason::Gap, std::min(untilUs, change.sinceUs),
+                  std::max(untilUs, change.sinceUs));
+  if (change.sinceUs > untilUs) push(body, change.sinceUs, poseOf(change.pose));
+  body.isElsewhere = change.sinceUs <= untilUs || !change.hasPlace();
 }
 
 void LiveWorld::retire(LiveBody& body, std::int64_t utimeUs) {

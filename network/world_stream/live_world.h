@@ -72,6 +72,7 @@ class LiveWorld {
   bool attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, std::int64_t untilUs,
               int depth);
   void letGo(LiveBody& body, const LiveChange& change);
+  void letGoUnheard(LiveBody& body, const LiveChange& change);
   void retire(LiveBody& body, std::int64_t utimeUs);
 
   const WorldSetup* setup_;

@@ -113,8 +113,8 @@ Reject WorldRoster::carrierFault(const BodyMessage& message) const {
 
 /// A state that is repeated changes nothing.
 void WorldRoster::change(LiveBody& body, const BodyMessage& message) {
-  LiveChange change{message.sinceUs,     message.isPresent,    message.carrier,
-                    message.carrierLink, message.movesInFrame, message.pose};
+  LiveChange change{message.sinceUs,      message.isPresent, message.carrier, message.carrierLink,
+                    message.movesInFrame, message.pose,      message.sinceUs};
   const bool isFirst = body.state.sinceUs == 0 && body.changes.empty() && !body.slot;
   if (!isFirst && isSameState(change, body.state)) return;
   const bool isChanged = change.isPresent != body.state.isPresent ||
@@ -345,18 +345,23 @@ void WorldRoster::beginAnew(std::int64_t fromUs, bool keepsBodies) {
 
 bool WorldRoster::isUnknown(BodyNumber number, LinkId link, std::int64_t fromUs,
                             std::int64_t toUs) const {
-  for (int depth = 0; number >= 0; ++depth) {
-    const auto found = bodies_.find(number);
-    if (found == bodies_.end() || depth > 2 * kMostCarriers) return true;
-    const LiveBody& body = found->second;
-    if (body.isUnknown(link, fromUs, toUs)) return true;
-    if (!body.isHeldFast && body.saidUntilUs() < toUs) return true;
-    number = kNoBody;
-    for (const LiveCarrier& carrier : body.carriers) {
-      if (carrier.sinceUs > toUs) break;
-      number = carrier.carrier;
-      link = carrier.link;
-    }
+  return isUnknown(number, link, fromUs, toUs, 0);
+}
+
+bool WorldRoster::isUnknown(BodyNumber number, LinkId link, std::int64_t fromUs, std::int64_t toUs,
+                            int depth) const {
+  if (number < 0) return false;  // the scene, everybody
+  const auto found = bodies_.find(number);
+  if (found == bodies_.end() || depth > 2 * kMostCarriers) return true;
+  const LiveBody& body = found->second;
+  if (body.isUnknown(link, fromUs, toUs)) return true;
+  if (!body.isHeldFast && body.saidUntilUs() < toUs) return true;
+  // At the instant of a change, by whoever carried it until then as well.
+  for (std::size_t i = 0; i < body.carriers.size(); ++i) {
+    const LiveCarrier& by = body.carriers[i];
+    const bool isOver = i + 1 < body.carriers.size() && body.carriers[i + 1].sinceUs < fromUs;
+    if (isOver || by.sinceUs > toUs) continue;
+    if (isUnknown(by.carrier, by.link, fromUs, toUs, depth + 1)) return true;
   }
   return false;
 }

@@ -50,6 +50,8 @@ class WorldRoster {
   [[nodiscard]] BodyNumber waitsFor() const { return waitsFor_; }
 
  private:
+  [[nodiscard]] bool isUnknown(BodyNumber body, LinkId link, std::int64_t fromUs, std::int64_t toUs,
+                               int depth) const;
   [[nodiscard]] Reject refuse(Reject reason);
   [[nodiscard]] Reject whyNot(const BodyMessage& message) const;
   [[nodiscard]] Reject carrierFault(const BodyMessage& message) const;

@@ -90,6 +90,10 @@ class Judging {
 
   // What is not claimed.
   [[nodiscard]] TimeSpans lateOf(BodyNumber body) const;
+  [[nodiscard]] static bool isOtherFrame(const CrowdState& one, const CrowdState& other) {
+    return one.carrier != other.carrier || one.link != other.link;
+  }
+  [[nodiscard]] const CrowdState* stateAhead(BodyNumber body, double us) const;
   [[nodiscard]] bool isLate(BodyNumber body, double us) const;
   [[nodiscard]] TimeSpans absentOf(BodyNumber body) const;
   [[nodiscard]] TimeSpans unknownOf(BodyNumber body, LinkId link) const;
@@ -192,19 +196,35 @@ TimeSpan Judging::spanOf(BodyNumber body, std::size_t state) const {
           state + 1 < states.size() ? after(states[state + 1].sinceUs) : kEver};
 }
 
+/// The state of the first pose at or after that instant; a motion goes on to there.
+const CrowdState* Judging::stateAhead(BodyNumber body, double us) const {
+  for (const oracle::OracleEpisode& episode : world_.bodies[slotOf(body)].episodes) {
+    if (after(episode.times.back()) < us) continue;
+    return truth_.stateAt(body, static_cast<double>(episode.beginUs));
+  }
+  return nullptr;
+}
+
 /// What the world had been told of the body when it answered that instant, beside the truth.
 bool Judging::isLate(BodyNumber body, double us) const {
   const CrowdState* believed = nullptr;
+  std::int64_t heardUs = 0;
   for (const HeardState& heard : told_.heard[slotOf(body)]) {
     if (heard.answeredUs >= 0 && after(heard.answeredUs) >= us) break;
+    heardUs = heard.state.sinceUs;
     if (after(heard.state.sinceUs) <= us) believed = &heard.state;
   }
   if (believed == nullptr || !believed->isPresent) return false;
   const CrowdState* const truth = truth_.stateAt(body, us + static_cast<double>(kBaseUs));
+  // The next pose that comes may be one in a frame that was not told.
+  const CrowdState* const ahead = stateAhead(body, us);
+  if (believed->hasPoses() && ahead != nullptr && ahead->hasPoses() && ahead->sinceUs > heardUs &&
+      isOtherFrame(*ahead, *believed)) {
+    return true;
+  }
   if (truth != nullptr && truth->sinceUs == believed->sinceUs) return false;
   if (!believed->hasPoses()) return true;
-  return truth != nullptr && truth->hasPoses() &&
-         (truth->carrier != believed->carrier || truth->link != believed->link);
+  return truth != nullptr && truth->hasPoses() && isOtherFrame(*truth, *believed);
 }
 
 TimeSpans Judging::lateOf(BodyNumber body) const {
@@ -214,6 +234,9 @@ TimeSpans Judging::lateOf(BodyNumber body) const {
     if (heard.answeredUs >= 0) changes.insert(after(heard.answeredUs));
   }
   for (const CrowdState& state : truth_.states[slotOf(body)]) changes.insert(after(state.sinceUs));
+  for (const oracle::OracleEpisode& episode : world_.bodies[slotOf(body)].episodes) {
+    changes.insert(after(episode.times.back()));
+  }
   TimeSpans late;
   for (auto next = std::next(changes.begin()); next != changes.end(); ++next) {
     const TimeSpan span{*std::prev(next), *next};
