@@ -77,9 +77,9 @@ struct LiveBody {
 
   // What the world knows.
   std::optional<BodyId> slot;
-  std::int64_t beginUs = 0, toldUntilUs = -1;  ///< First and last pose that it was told.
-  Pose told;                                   ///< The last one.
-  std::vector<LiveCarrier> carriers;           ///< By time.
+  std::int64_t beginUs = 0, toldFromUs = -1, toldUntilUs = -1;  ///< First, last but one, last pose.
+  Pose told;                                                    ///< The last one.
+  std::vector<LiveCarrier> carriers;                            ///< By time.
   bool isHeldFast = false;
   bool isElsewhere = false;  ///< It was not where the world was told last.
   bool isSilent = false;     ///< The watermark has gone on without it.

@@ -103,6 +103,7 @@ void LiveWorld::push(LiveBody& body, std::int64_t utimeUs, const Pose& pose) {
     body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, utimeUs);
   }
   body.isElsewhere = false;
+  body.toldFromUs = body.toldUntilUs;
   body.toldUntilUs = utimeUs;
   body.told = pose;
 }
@@ -167,7 +168,7 @@ bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, s
   }
   // What was told beyond the change was said in another frame.
   if (body.toldUntilUs > change.sinceUs) {
-    body.addUnknown(kEveryLink, UndecidedReason::Gap, change.sinceUs, body.toldUntilUs);
+    body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldFromUs, body.toldUntilUs);
     body.skips = true;
   }
   if (isNew) body.beginUs = change.sinceUs;
@@ -196,7 +197,7 @@ void LiveWorld::letGo(LiveBody& body, const LiveChange& change) {
     return;
   }
   if (!body.isHeldFast && body.toldUntilUs > change.sinceUs) {
-    body.addUnknown(kEveryLink, UndecidedReason::Gap, change.sinceUs, body.toldUntilUs);
+    body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldFromUs, body.toldUntilUs);
     body.skips = true;
   }
   body.toldUntilUs = change.sinceUs;

@@ -1,5 +1,6 @@
 #include "tests/network/world_stream/crowd_judge.h"
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -90,10 +91,7 @@ class Judging {
 
   // What is not claimed.
   [[nodiscard]] TimeSpans lateOf(BodyNumber body) const;
-  [[nodiscard]] static bool isOtherFrame(const CrowdState& one, const CrowdState& other) {
-    return one.carrier != other.carrier || one.link != other.link;
-  }
-  [[nodiscard]] const CrowdState* stateAhead(BodyNumber body, double us) const;
+  [[nodiscard]] std::array<const CrowdState*, 2> statesBeside(BodyNumber body, double us) const;
   [[nodiscard]] bool isLate(BodyNumber body, double us) const;
   [[nodiscard]] TimeSpans absentOf(BodyNumber body) const;
   [[nodiscard]] TimeSpans unknownOf(BodyNumber body, LinkId link) const;
@@ -196,35 +194,37 @@ TimeSpan Judging::spanOf(BodyNumber body, std::size_t state) const {
           state + 1 < states.size() ? after(states[state + 1].sinceUs) : kEver};
 }
 
-/// The state of the first pose at or after that instant; a motion goes on to there.
-const CrowdState* Judging::stateAhead(BodyNumber body, double us) const {
+/// The states of the last pose before that instant and of the first one after it, between which a
+/// motion goes. What a change itself says of its place has to be heard first.
+std::array<const CrowdState*, 2> Judging::statesBeside(BodyNumber body, double us) const {
+  std::array<const CrowdState*, 2> beside{};
   for (const oracle::OracleEpisode& episode : world_.bodies[slotOf(body)].episodes) {
-    if (after(episode.times.back()) < us) continue;
-    return truth_.stateAt(body, static_cast<double>(episode.beginUs));
+    const CrowdState* const state = truth_.stateAt(body, static_cast<double>(episode.beginUs));
+    if (!state->hasPoses() || episode.times.size() < 2) continue;
+    if (after(episode.times[1]) <= us) beside[0] = state;
+    if (beside[1] == nullptr && after(episode.times.back()) >= us) beside[1] = state;
   }
-  return nullptr;
+  return beside;
 }
 
 /// What the world had been told of the body when it answered that instant, beside the truth.
 bool Judging::isLate(BodyNumber body, double us) const {
   const CrowdState* believed = nullptr;
-  std::int64_t heardUs = 0;
-  for (const HeardState& heard : told_.heard[slotOf(body)]) {
-    if (heard.answeredUs >= 0 && after(heard.answeredUs) >= us) break;
-    heardUs = heard.state.sinceUs;
-    if (after(heard.state.sinceUs) <= us) believed = &heard.state;
+  std::set<std::int64_t> heard;
+  for (const HeardState& next : told_.heard[slotOf(body)]) {
+    if (next.answeredUs >= 0 && after(next.answeredUs) >= us) break;
+    heard.insert(next.state.sinceUs);
+    if (after(next.state.sinceUs) <= us) believed = &next.state;
   }
   if (believed == nullptr || !believed->isPresent) return false;
   const CrowdState* const truth = truth_.stateAt(body, us + static_cast<double>(kBaseUs));
-  // The next pose that comes may be one in a frame that was not told.
-  const CrowdState* const ahead = stateAhead(body, us);
-  if (believed->hasPoses() && ahead != nullptr && ahead->hasPoses() && ahead->sinceUs > heardUs &&
-      isOtherFrame(*ahead, *believed)) {
-    return true;
-  }
-  if (truth != nullptr && truth->sinceUs == believed->sinceUs) return false;
-  if (!believed->hasPoses()) return true;
-  return truth != nullptr && truth->hasPoses() && isOtherFrame(*truth, *believed);
+  if (!believed->hasPoses()) return truth == nullptr || truth->sinceUs != believed->sinceUs;
+  // Poses in a frame that was not told.
+  const auto beside = statesBeside(body, us);
+  return std::any_of(beside.begin(), beside.end(), [&](const CrowdState* state) {
+    return state != nullptr && heard.count(state->sinceUs) == 0 &&
+           (state->carrier != believed->carrier || state->link != believed->link);
+  });
 }
 
 TimeSpans Judging::lateOf(BodyNumber body) const {
@@ -235,7 +235,8 @@ TimeSpans Judging::lateOf(BodyNumber body) const {
   }
   for (const CrowdState& state : truth_.states[slotOf(body)]) changes.insert(after(state.sinceUs));
   for (const oracle::OracleEpisode& episode : world_.bodies[slotOf(body)].episodes) {
-    changes.insert(after(episode.times.back()));
+    changes.insert(
+        {after(episode.times[episode.times.size() > 1 ? 1 : 0]), after(episode.times.back())});
   }
   TimeSpans late;
   for (auto next = std::next(changes.begin()); next != changes.end(); ++next) {
