@@ -43,7 +43,12 @@ std::optional<BodyNumber> LiveWorld::numberOf(BodyId slot, std::int64_t utimeUs)
 
 void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs) {
   tell(bodies, body, untilUs, 0);
-  if (!isShort(body, untilUs) || !holdsStill_) return;
+  if (!isShort(body, untilUs)) return;
+  // Its messages say more than the world could be told.
+  if (body.saidUntilUs() >= untilUs) {
+    body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, untilUs);
+  }
+  if (!holdsStill_) return;
   const Pose still = body.told;
   push(body, untilUs, still);
 }
@@ -60,7 +65,7 @@ void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, i
       // No pose comes before a change that is due, nor before one with a pose behind it.
       const bool isNext = hasKnot || body.stateUs >= change.sinceUs;
       if (change.sinceUs > untilUs && !(needsMore && isNext)) return;
-      if (!takeChange(bodies, body, change, untilUs, depth)) return;
+      if (!takeChange(bodies, body, change, untilUs, depth) && !isOver(body, untilUs)) return;
       body.changes.pop_front();
       continue;
     }
@@ -68,6 +73,16 @@ void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, i
     takeKnot(body, body.knots.front());
     body.knots.pop_front();
   }
+}
+
+/// Whether the body's next change, which nobody could follow, has ended by the one after it. What
+/// was said in between is of no use.
+bool LiveWorld::isOver(LiveBody& body, std::int64_t untilUs) {
+  if (body.changes.size() < 2 || body.changes[1].sinceUs > untilUs) return false;
+  const std::int64_t endUs = body.changes[1].sinceUs;
+  body.addUnknown(kEveryLink, UndecidedReason::Gap, body.changes[0].sinceUs, endUs);
+  while (!body.knots.empty() && body.knots.front().utimeUs <= endUs) body.knots.pop_front();
+  return true;
 }
 
 /// False if the world does not take it.

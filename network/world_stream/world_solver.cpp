@@ -236,7 +236,10 @@ struct WorldSolver::Impl {
                                   std::max(span.fromUs, answer.fromUs),
                                   std::min(span.toUs, answer.toUs)});
       }
-      const std::int64_t saidUs = body.saidUntilUs();
+      // A body may be there, and its carrier is not.
+      const bool isStuck =
+          !body.slot && !body.changes.empty() && body.changes.front().sinceUs < answer.toUs;
+      const std::int64_t saidUs = isStuck ? body.changes.front().sinceUs : body.saidUntilUs();
       if (body.isHeldFast || saidUs < 0 || saidUs >= answer.toUs) continue;
       answer.unknown.push_back(
           {number, kEveryLink, UndecidedReason::Gap, std::max(saidUs, answer.fromUs), answer.toUs});

@@ -12,6 +12,7 @@
 
 #include "tests/network/stream/stream_attack.h"
 #include "tests/network/stream/stream_simulation.h"
+#include "tests/network/world_stream/crowd_simulation.h"
 
 namespace {
 
@@ -21,6 +22,9 @@ using foretouch::Verdict;
 using foretouch::test::attack;
 using foretouch::test::AttackRun;
 using foretouch::test::AttackTally;
+using foretouch::test::CrowdMutation;
+using foretouch::test::CrowdRun;
+using foretouch::test::CrowdTally;
 using foretouch::test::Mutation;
 using foretouch::test::SimulationOptions;
 using foretouch::test::SimulationRun;
@@ -84,21 +88,24 @@ void printCounts(const SimulationTally& all) {
 
 struct Arguments {
   std::uint64_t seeds = 1000, first = 0;
-  bool isAttacked = false;
+  bool isAttacked = false, isWorld = false;
   SimulationOptions options;
+  CrowdMutation crowdMutation = CrowdMutation::None;
 };
 
-std::optional<Mutation> mutationOf(const std::string& name) {
-  for (const Mutation mutation : foretouch::test::kMutations) {
-    if (name == toString(mutation)) return mutation;
+/// The rule of that name; `none` if there is no such rule.
+template <typename Rule, std::size_t N>
+Rule ruleOf(const std::string& name, const Rule (&rules)[N], Rule none) {
+  for (const Rule rule : rules) {
+    if (name == toString(rule)) return rule;
   }
-  return std::nullopt;
+  return none;
 }
 
-std::vector<std::string> mutationNames() {
-  std::vector<std::string> names;
-  for (const Mutation mutation : foretouch::test::kMutations)
-    names.emplace_back(toString(mutation));
+template <typename Rule, std::size_t N>
+std::string namesOf(const Rule (&rules)[N]) {
+  std::string names;
+  for (const Rule rule : rules) names += (names.empty() ? "" : ", ") + std::string(toString(rule));
   return names;
 }
 
@@ -116,8 +123,14 @@ std::optional<Arguments> parse(int argc, char** argv, int& code) {
       app.add_option("--loss", loss, "Share of messages lost; drawn by the seed if not given")
           ->check(CLI::Range(0.0, 1.0))
           ->excludes(adversary);
-  app.add_option("--break", mutation, "Break this rule on purpose, which must be found")
-      ->check(CLI::IsMember(mutationNames()))
+  app.add_flag("--world", a.isWorld,
+               "A moving world: avatars, and props that they carry, of which all events are judged")
+      ->excludes(adversary)
+      ->excludes("--loss");
+  app.add_option("--break", mutation,
+                 "Break this rule on purpose, which must be found: " +
+                     namesOf(foretouch::test::kMutations) +
+                     "; with --world: " + namesOf(foretouch::test::kCrowdMutations))
       ->excludes(adversary);
   try {
     app.parse(argc, argv);
@@ -126,7 +139,15 @@ std::optional<Arguments> parse(int argc, char** argv, int& code) {
     return std::nullopt;
   }
   if (lossOption->count() > 0) a.options.loss = loss;
-  a.options.mutation = mutationOf(mutation).value_or(Mutation::None);
+  a.options.mutation = ruleOf(mutation, foretouch::test::kMutations, Mutation::None);
+  a.crowdMutation = ruleOf(mutation, foretouch::test::kCrowdMutations, CrowdMutation::None);
+  const bool isBroken =
+      a.isWorld ? a.crowdMutation != CrowdMutation::None : a.options.mutation != Mutation::None;
+  if (!mutation.empty() && !isBroken) {
+    std::fprintf(stderr, "--break: there is no rule '%s' here\n", mutation.c_str());
+    code = 2;
+    return std::nullopt;
+  }
   return a;
 }
 
@@ -182,6 +203,52 @@ int runAttacks(const Arguments& arguments) {
   return failed == 0 ? 0 : 1;
 }
 
+void printCrowds(const CrowdTally& all) {
+  const auto count = [](std::uint64_t number) { return static_cast<unsigned long long>(number); };
+  std::printf(
+      "%llu events of two sides, %llu of them marked; unmarked ones: %llu of two avatars, %llu of "
+      "an "
+      "avatar and a prop, %llu of two props, %llu of own links, %llu of the scene; %llu of a prop "
+      "that was carried\n",
+      count(all.events), count(all.marked), count(all.ofAvatars), count(all.ofAvatarAndProp),
+      count(all.ofProps), count(all.ofOwnLinks), count(all.ofScene), count(all.ofCarried));
+  std::printf(
+      "%llu spans of two links proven free (%.0f s), of which %llu were given up; %llu "
+      "instants of contact judged\n",
+      count(all.freeSpans), all.freeSeconds, count(all.unproved), count(all.touching));
+  std::printf(
+      "%.0f s of two links were told to be unknown, %.0f s answered before a change of "
+      "carrier was heard; %llu refused, %llu silences, %llu gaps, %llu late changes, %llu "
+      "failures\n",
+      all.unknownSeconds, all.lateSeconds, count(all.refused), count(all.silences), count(all.gaps),
+      count(all.lateChanges), count(all.failures));
+}
+
+/// Returns the exit code.
+int runCrowds(const Arguments& arguments) {
+  constexpr std::uint64_t kMostShown = 10;
+  const auto start = std::chrono::steady_clock::now();
+  CrowdTally all;
+  std::uint64_t failed = 0;
+  for (std::uint64_t i = 0; i < arguments.seeds; ++i) {
+    const auto seed = static_cast<unsigned long long>(arguments.first + i);
+    const CrowdRun run = foretouch::test::simulateCrowd(seed, arguments.crowdMutation);
+    all.add(run.tally);
+    if (run.violations.empty() || ++failed > kMostShown) continue;
+    for (const std::string& violation : run.violations) {
+      std::printf("seed %llu: %s\n", seed, violation.c_str());
+    }
+    std::printf("  again: ./run simulate --world --first %llu --seeds 1\n", seed);
+  }
+  printCrowds(all);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::printf("%llu seeds in %.1f s: %llu with a broken promise\n",
+              static_cast<unsigned long long>(arguments.seeds), seconds,
+              static_cast<unsigned long long>(failed));
+  return failed == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -189,6 +256,7 @@ int main(int argc, char** argv) {
   const auto arguments = parse(argc, argv, code);
   if (!arguments) return code;
   if (arguments->isAttacked) return runAttacks(*arguments);
+  if (arguments->isWorld) return runCrowds(*arguments);
   constexpr std::uint64_t kMostShown = 10;
   const auto start = std::chrono::steady_clock::now();
   Rows rows;

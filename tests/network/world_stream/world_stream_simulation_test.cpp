@@ -36,9 +36,9 @@ TEST(WorldStreamSimulation, EveryEventIsTrueOrMarkedAndAReplayTellsTheSame) {
   EXPECT_GT(all.gaps, 500U);
   EXPECT_GT(all.lateChanges, 10U);
   // Neither is everything unknown: nothing is, where nothing is lost, but beside changes.
-  EXPECT_GT(all.freeSeconds, all.unknownSeconds);
+  EXPECT_GT(2 * all.freeSeconds, all.unknownSeconds);
   EXPECT_GT(calm.freeSeconds, 10 * calm.unknownSeconds);
-  EXPECT_GT(all.freeSeconds, 50 * all.lateSeconds);
+  EXPECT_GT(all.freeSeconds, 20 * all.lateSeconds);
 }
 
 class BrokenWorlds : public testing::TestWithParam<CrowdMutation> {};
