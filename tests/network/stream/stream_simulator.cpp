@@ -94,18 +94,19 @@ struct Arguments {
 };
 
 /// The rule of that name; `none` if there is no such rule.
-template <typename Rule, std::size_t N>
-Rule ruleOf(const std::string& name, const Rule (&rules)[N], Rule none) {
-  for (const Rule rule : rules) {
+template <typename Rules>
+typename Rules::value_type ruleOf(const std::string& name, const Rules& rules,
+                                  typename Rules::value_type none) {
+  for (const auto rule : rules) {
     if (name == toString(rule)) return rule;
   }
   return none;
 }
 
-template <typename Rule, std::size_t N>
-std::string namesOf(const Rule (&rules)[N]) {
+template <typename Rules>
+std::string namesOf(const Rules& rules) {
   std::string names;
-  for (const Rule rule : rules) names += (names.empty() ? "" : ", ") + std::string(toString(rule));
+  for (const auto rule : rules) names += (names.empty() ? "" : ", ") + std::string(toString(rule));
   return names;
 }
 

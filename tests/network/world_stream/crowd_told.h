@@ -2,6 +2,7 @@
 // service does it, and what that tells. One rule of it can be broken on purpose.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -22,7 +23,7 @@ enum class CrowdMutation {
   EntersAreLost,
   UnknownIsSilent,  ///< Lists of what is not known are empty, and nothing is marked.
 };
-inline constexpr CrowdMutation kCrowdMutations[] = {
+inline constexpr std::array kCrowdMutations{
     CrowdMutation::OtherLinkCarries, CrowdMutation::CarriersStay,   CrowdMutation::BadJointsAreGood,
     CrowdMutation::EntersAreLate,    CrowdMutation::LeavesAreEarly, CrowdMutation::EntersAreLost,
     CrowdMutation::UnknownIsSilent};
