@@ -44,10 +44,7 @@ std::optional<BodyNumber> LiveWorld::numberOf(BodyId slot, std::int64_t utimeUs)
 void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs) {
   tell(bodies, body, untilUs, 0);
   if (!isShort(body, untilUs)) return;
-  // Its messages say more than the world could be told.
-  if (body.saidUntilUs() >= untilUs) {
-    body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, untilUs);
-  }
+  body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, untilUs);
   if (!holdsStill_) return;
   const Pose still = body.told;
   push(body, untilUs, still);
@@ -143,6 +140,7 @@ void LiveWorld::holdUntil(LiveBody& body, std::int64_t utimeUs) {
 
 bool LiveWorld::takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& change,
                            std::int64_t untilUs, int depth) {
+  const std::int64_t saidUs = change.sinceUs;
   // Nothing changes where it has only just begun.
   if (body.slot) {
     const std::int64_t begunUs =
@@ -152,10 +150,14 @@ bool LiveWorld::takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& chang
   if (!change.isPresent) {
     holdUntil(body, change.sinceUs);
     retire(body, change.sinceUs);
-    return true;
+  } else if (change.carrier == kNoBody) {
+    letGo(body, change);
+  } else if (!attach(bodies, body, change, untilUs, depth)) {
+    return false;
   }
-  if (change.carrier != kNoBody) return attach(bodies, body, change, untilUs, depth);
-  letGo(body, change);
+  if (change.sinceUs > saidUs) {
+    body.addUnknown(kEveryLink, UndecidedReason::Gap, saidUs, change.sinceUs);
+  }
   return true;
 }
 

@@ -117,16 +117,13 @@ void WorldRoster::change(LiveBody& body, const BodyMessage& message) {
                     message.movesInFrame, message.pose,      message.sinceUs};
   const bool isFirst = body.state.sinceUs == 0 && body.changes.empty() && !body.slot;
   if (!isFirst && isSameState(change, body.state)) return;
-  const bool isChanged = change.isPresent != body.state.isPresent ||
-                         change.carrier != body.state.carrier || change.link != body.state.link ||
-                         change.movesInFrame != body.state.movesInFrame;
   body.state = change;
   // As early as anything can still take effect.
   const std::int64_t floorUs =
       std::max(nowUs_ - policy_.waitUs, answeredUs_ ? *answeredUs_ + 1 : 0);
   const bool isLate = change.sinceUs < floorUs;
   // Where a body without a carrier was long ago says nothing of where it is.
-  if (isLate && !isChanged) return;
+  if (isLate && isFirst && change.isPresent && change.carrier == kNoBody) return;
   if (isLate) {
     ++counts_.lateChanges;
     body.addUnknown(kEveryLink, UndecidedReason::Gap, change.sinceUs, floorUs);

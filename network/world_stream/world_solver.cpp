@@ -236,11 +236,11 @@ struct WorldSolver::Impl {
                                   std::max(span.fromUs, answer.fromUs),
                                   std::min(span.toUs, answer.toUs)});
       }
-      // A body may be there, and its carrier is not.
-      const bool isStuck =
-          !body.slot && !body.changes.empty() && body.changes.front().sinceUs < answer.toUs;
+      // Who is not in the world yet has no carrier there, or has only said that he is silent.
+      if (body.slot) continue;
+      const bool isStuck = !body.changes.empty() && body.changes.front().sinceUs < answer.toUs;
       const std::int64_t saidUs = isStuck ? body.changes.front().sinceUs : body.saidUntilUs();
-      if (body.isHeldFast || saidUs < 0 || saidUs >= answer.toUs) continue;
+      if (saidUs < 0 || saidUs >= answer.toUs) continue;
       answer.unknown.push_back(
           {number, kEveryLink, UndecidedReason::Gap, std::max(saidUs, answer.fromUs), answer.toUs});
     }

@@ -18,6 +18,8 @@
 namespace foretouch::test {
 
 inline constexpr std::int64_t kCrowdBeginUs = 1'000'000'000, kCrowdLengthUs = 1'000'000;
+/// How long anybody is waited for.
+inline constexpr std::int64_t kCrowdWaitUs = 100'000;
 inline constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 /// Who truly carries a body since when: as body_t tells it.

@@ -91,7 +91,8 @@ class Judging {
 
   // What is not claimed.
   [[nodiscard]] TimeSpans lateOf(BodyNumber body) const;
-  [[nodiscard]] std::array<const CrowdState*, 2> statesBeside(BodyNumber body, double us) const;
+  [[nodiscard]] bool isMisread(BodyNumber body, double us, const CrowdState& believed,
+                               const std::set<std::int64_t>& heard) const;
   [[nodiscard]] bool isLate(BodyNumber body, double us) const;
   [[nodiscard]] TimeSpans absentOf(BodyNumber body) const;
   [[nodiscard]] TimeSpans unknownOf(BodyNumber body, LinkId link) const;
@@ -194,17 +195,37 @@ TimeSpan Judging::spanOf(BodyNumber body, std::size_t state) const {
           state + 1 < states.size() ? after(states[state + 1].sinceUs) : kEver};
 }
 
-/// The states of the last pose before that instant and of the first one after it, between which a
-/// motion goes. What a change itself says of its place has to be heard first.
-std::array<const CrowdState*, 2> Judging::statesBeside(BodyNumber body, double us) const {
+/// Whether the poses beside that instant, between which a motion goes, are in other frames than
+/// was believed, or something that was not heard lies between them. What a change itself says of
+/// its place has to be heard first.
+bool Judging::isMisread(BodyNumber body, double us, const CrowdState& believed,
+                        const std::set<std::int64_t>& heard) const {
+  double fromUs = -kEver, toUs = kEver;
   std::array<const CrowdState*, 2> beside{};
   for (const oracle::OracleEpisode& episode : world_.bodies[slotOf(body)].episodes) {
     const CrowdState* const state = truth_.stateAt(body, static_cast<double>(episode.beginUs));
-    if (!state->hasPoses() || episode.times.size() < 2) continue;
-    if (after(episode.times[1]) <= us) beside[0] = state;
-    if (beside[1] == nullptr && after(episode.times.back()) >= us) beside[1] = state;
+    for (std::size_t i = 1; state->hasPoses() && i < episode.times.size(); ++i) {
+      const double poseUs = after(episode.times[i]);
+      if (poseUs <= us) {
+        fromUs = poseUs;
+        beside[0] = state;
+      } else if (toUs == kEver) {
+        toUs = poseUs;
+        beside[1] = state;
+      }
+    }
   }
-  return beside;
+  const auto isUnheard = [&](const CrowdState& state) { return heard.count(state.sinceUs) == 0; };
+  const bool isOtherFrame = std::any_of(beside.begin(), beside.end(), [&](const CrowdState* state) {
+    return state != nullptr && isUnheard(*state) &&
+           (state->carrier != believed.carrier || state->link != believed.link);
+  });
+  // Beyond that the body is silent.
+  if (isOtherFrame || toUs - fromUs > kCrowdWaitUs) return isOtherFrame;
+  const std::vector<CrowdState>& states = truth_.states[slotOf(body)];
+  return std::any_of(states.begin(), states.end(), [&](const CrowdState& state) {
+    return isUnheard(state) && after(state.sinceUs) >= fromUs && after(state.sinceUs) < toUs;
+  });
 }
 
 /// What the world had been told of the body when it answered that instant, beside the truth.
@@ -217,14 +238,9 @@ bool Judging::isLate(BodyNumber body, double us) const {
     if (after(next.state.sinceUs) <= us) believed = &next.state;
   }
   if (believed == nullptr || !believed->isPresent) return false;
+  if (believed->hasPoses()) return isMisread(body, us, *believed, heard);
   const CrowdState* const truth = truth_.stateAt(body, us + static_cast<double>(kBaseUs));
-  if (!believed->hasPoses()) return truth == nullptr || truth->sinceUs != believed->sinceUs;
-  // Poses in a frame that was not told.
-  const auto beside = statesBeside(body, us);
-  return std::any_of(beside.begin(), beside.end(), [&](const CrowdState* state) {
-    return state != nullptr && heard.count(state->sinceUs) == 0 &&
-           (state->carrier != believed->carrier || state->link != believed->link);
-  });
+  return truth == nullptr || truth->sinceUs != believed->sinceUs;
 }
 
 TimeSpans Judging::lateOf(BodyNumber body) const {
@@ -235,8 +251,7 @@ TimeSpans Judging::lateOf(BodyNumber body) const {
   }
   for (const CrowdState& state : truth_.states[slotOf(body)]) changes.insert(after(state.sinceUs));
   for (const oracle::OracleEpisode& episode : world_.bodies[slotOf(body)].episodes) {
-    changes.insert(
-        {after(episode.times[episode.times.size() > 1 ? 1 : 0]), after(episode.times.back())});
+    for (const std::int64_t poseUs : episode.times) changes.insert(after(poseUs));
   }
   TimeSpans late;
   for (auto next = std::next(changes.begin()); next != changes.end(); ++next) {

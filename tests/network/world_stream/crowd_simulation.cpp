@@ -36,7 +36,7 @@ CrowdRun simulateCrowd(std::uint64_t seed, CrowdMutation mutation) {
   CrowdRun run;
   run.isFaulty = crowd.isFaulty;
   WorldPolicy policy;
-  policy.waitUs = 100'000;
+  policy.waitUs = kCrowdWaitUs;
   policy.whenSilent = seed % 2 == 0 ? WhenSilent::Undecided : WhenSilent::HoldStill;
   const CrowdTold told = tellCrowd(crowd.setup, bodies, crowd.arrivals, policy, mutation);
   judgeCrowd(crowd, told, run.tally, run.violations);
