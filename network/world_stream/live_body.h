@@ -81,7 +81,7 @@ struct LiveBody {
   Pose told;                                                    ///< The last one.
   std::vector<LiveCarrier> carriers;                            ///< By time.
   bool isHeldFast = false;
-  bool isElsewhere = false;  ///< It was not where the world was told last.
+  bool isElsewhere = false;  ///< Until its next pose nothing says where it is.
   bool isSilent = false;     ///< The watermark has gone on without it.
 
   /// Until when it is known where it is; -1: it is not there yet.

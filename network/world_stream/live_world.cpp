@@ -48,6 +48,7 @@ void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs) {
   if (!holdsStill_) return;
   const Pose still = body.told;
   push(body, untilUs, still);
+  body.isElsewhere = true;
 }
 
 void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, int depth) {
@@ -62,7 +63,9 @@ void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, i
       // No pose comes before a change that is due, nor before one with a pose behind it.
       const bool isNext = hasKnot || body.stateUs >= change.sinceUs;
       if (change.sinceUs > untilUs && !(needsMore && isNext)) return;
-      if (!takeChange(bodies, body, change, untilUs, depth) && !isOver(body, untilUs)) return;
+      if (!takeChange(bodies, body, change, untilUs, depth) && !isOver(body, untilUs)) {
+        return markSince(body, change, untilUs);
+      }
       body.changes.pop_front();
       continue;
     }
@@ -70,6 +73,13 @@ void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, i
     takeKnot(body, body.knots.front());
     body.knots.pop_front();
   }
+}
+
+/// The change cannot be followed; poses beyond it may have been told as if it were none.
+void LiveWorld::markSince(LiveBody& body, const LiveChange& change, std::int64_t untilUs) {
+  const bool isBeyond = body.slot && body.toldUntilUs > change.sinceUs;
+  const std::int64_t fromUs = isBeyond ? body.toldFromUs : change.sinceUs;
+  if (fromUs < untilUs) body.addUnknown(kEveryLink, UndecidedReason::Gap, fromUs, untilUs);
 }
 
 /// Whether the body's next change, which nobody could follow, has ended by the one after it. What
@@ -191,7 +201,7 @@ bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, s
   if (isNew) body.beginUs = change.sinceUs;
   body.toldUntilUs = change.sinceUs;
   body.told = pose;
-  body.isElsewhere = !change.hasPlace();
+  body.isElsewhere = !change.hasPlace() || (isNew && change.movesInFrame);
   body.isHeldFast = !change.movesInFrame;
   body.carriers.push_back({change.sinceUs, change.carrier, change.link});
   return true;
@@ -203,7 +213,7 @@ void LiveWorld::letGo(LiveBody& body, const LiveChange& change) {
   const Pose pose = poseOf(change.pose);
   if (!body.slot) {
     push(body, change.sinceUs, pose);
-    body.isElsewhere = !change.hasPlace();
+    body.isElsewhere = true;  // nobody knows which of its poses is heard first
     return;
   }
   if (!isCarried) return letGoUnheard(body, change);

@@ -62,6 +62,7 @@ class LiveWorld {
         world_(std::move(world)),
         follower_(std::move(follower)) {}
   void tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, int depth);
+  static void markSince(LiveBody& body, const LiveChange& change, std::int64_t untilUs);
   [[nodiscard]] static bool isOver(LiveBody& body, std::int64_t untilUs);
   [[nodiscard]] bool addTo(LiveBody& body);
   void push(LiveBody& body, std::int64_t utimeUs, const Pose& pose);

@@ -236,11 +236,8 @@ struct WorldSolver::Impl {
                                   std::max(span.fromUs, answer.fromUs),
                                   std::min(span.toUs, answer.toUs)});
       }
-      // Who is not in the world yet has no carrier there, or has only said that he is silent.
-      if (body.slot) continue;
-      const bool isStuck = !body.changes.empty() && body.changes.front().sinceUs < answer.toUs;
-      const std::int64_t saidUs = isStuck ? body.changes.front().sinceUs : body.saidUntilUs();
-      if (saidUs < 0 || saidUs >= answer.toUs) continue;
+      const std::int64_t saidUs = body.saidUntilUs();
+      if (body.slot || saidUs < 0 || saidUs >= answer.toUs) continue;
       answer.unknown.push_back(
           {number, kEveryLink, UndecidedReason::Gap, std::max(saidUs, answer.fromUs), answer.toUs});
     }
