@@ -117,7 +117,7 @@ void LiveWorld::push(LiveBody& body, std::int64_t utimeUs, const Pose& pose) {
   if (!world_.push(*body.slot, utimeUs, pose).ok()) {
     ++failures_;
     body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, utimeUs);
-    body.skips = true;
+    body.isElsewhere = true;
     return;
   }
   if (isNew) body.beginUs = utimeUs;
@@ -176,7 +176,7 @@ bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, s
   const auto carrier = bodies.find(change.carrier);
   if (carrier == bodies.end() || depth > kMostCarriers) {
     ++failures_;
-    body.skips = true;
+    body.isElsewhere = true;
     return true;
   }
   tell(bodies, carrier->second, untilUs, depth + 1);
@@ -190,21 +190,28 @@ bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, s
   const Pose pose = poseOf(change.pose);
   if (!world_.attach(*body.slot, by, change.sinceUs, pose).ok()) {
     ++failures_;
-    body.skips = true;
+    body.isElsewhere = true;
     return true;
   }
-  // What was told beyond the change was said in another frame.
-  if (body.toldUntilUs > change.sinceUs) {
-    body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldFromUs, body.toldUntilUs);
-    body.skips = true;
-  }
   if (isNew) body.beginUs = change.sinceUs;
-  body.toldUntilUs = change.sinceUs;
-  body.told = pose;
-  body.isElsewhere = !change.hasPlace() || (isNew && change.movesInFrame);
-  body.isHeldFast = !change.movesInFrame;
-  body.carriers.push_back({change.sinceUs, change.carrier, change.link});
+  changed(body, change);
+  // Nobody knows which of its poses is heard first.
+  if (isNew && change.movesInFrame) body.isElsewhere = true;
   return true;
+}
+
+/// The world was told so.
+void LiveWorld::changed(LiveBody& body, const LiveChange& change) {
+  // What was told beyond the change was said in another frame.
+  const bool isBeyond = !body.isHeldFast && body.toldUntilUs > change.sinceUs;
+  if (isBeyond) {
+    body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldFromUs, body.toldUntilUs);
+  }
+  body.isElsewhere = isBeyond || !change.hasPlace();
+  body.toldUntilUs = change.sinceUs;
+  body.told = poseOf(change.pose);
+  body.isHeldFast = !change.awaitsPoses();
+  body.carriers.push_back({change.sinceUs, change.carrier, change.link});
 }
 
 /// Nobody carries it from here on; or it is told to be here.
@@ -220,18 +227,10 @@ void LiveWorld::letGo(LiveBody& body, const LiveChange& change) {
   holdUntil(body, change.sinceUs);
   if (!world_.detach(*body.slot, change.sinceUs, pose).ok()) {
     ++failures_;
-    body.skips = true;
+    body.isElsewhere = true;
     return;
   }
-  if (!body.isHeldFast && body.toldUntilUs > change.sinceUs) {
-    body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldFromUs, body.toldUntilUs);
-    body.skips = true;
-  }
-  body.toldUntilUs = change.sinceUs;
-  body.told = pose;
-  body.isElsewhere = !change.hasPlace();
-  body.isHeldFast = false;
-  body.carriers.push_back({change.sinceUs, kNoBody, 0});
+  changed(body, change);
 }
 
 /// Nobody carries it since then: so somebody did before, which was not heard.

@@ -73,6 +73,7 @@ class LiveWorld {
                   int depth);
   bool attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, std::int64_t untilUs,
               int depth);
+  static void changed(LiveBody& body, const LiveChange& change);
   void letGo(LiveBody& body, const LiveChange& change);
   void letGoUnheard(LiveBody& body, const LiveChange& change);
   void retire(LiveBody& body, std::int64_t utimeUs);

@@ -34,6 +34,11 @@ double after(const WorldTime& time) {
   return after(time.us) + time.fraction;
 }
 
+/// What goes on ends there.
+void endLast(TimeSpans& spans, double us) {
+  if (!spans.empty() && spans.back().to == kEver) spans.back().to = us;
+}
+
 class Judging {
  public:
   Judging(const Crowd& crowd, const CrowdTold& told, CrowdTally& tally,
@@ -88,6 +93,7 @@ class Judging {
   void gather(const ToldEvent& told);
   [[nodiscard]] Pair pairOf(const WorldEvent& event) const;
   void endAll(BodyNumber body, double us);
+  void beginAnew(double us);
 
   // What is not claimed.
   [[nodiscard]] TimeSpans lateOf(BodyNumber body) const;
@@ -137,7 +143,10 @@ void Judging::say(const Pair& pair, double us, const std::string& what) {
 // What was told.
 
 void Judging::gather() {
+  std::int64_t timeline = told_.answers.front().timeline;
   for (const EventsMessage& answer : told_.answers) {
+    if (answer.timeline != timeline) beginAnew(after(answer.fromUs));
+    timeline = answer.timeline;
     for (const UnknownPart& part : answer.unknown) {
       unknown_[part.body].push_back({part.link, {after(part.fromUs), after(part.toUs)}});
     }
@@ -157,33 +166,38 @@ Judging::Pair Judging::pairOf(const WorldEvent& event) const {
 void Judging::endAll(BodyNumber body, double us) {
   for (auto& [pair, parts] : parts_) {
     if (pair.a != body && pair.b != body) continue;
-    if (!parts.contact.empty()) parts.contact.back().to = std::min(parts.contact.back().to, us);
+    endLast(parts.contact, us);
   }
+}
+
+/// Of another timeline: all contacts begin anew.
+void Judging::beginAnew(double us) {
+  for (auto& [pair, parts] : parts_) {
+    for (TimeSpans* const spans : {&parts.contact, &parts.unresolved}) endLast(*spans, us);
+  }
+  for (auto& [body, spans] : unresolved_) endLast(spans, us);
 }
 
 void Judging::gather(const ToldEvent& told) {
   const WorldEvent& event = told.event;
   const double us = after(event.time);
-  const auto end = [us](TimeSpans& spans) {
-    if (!spans.empty() && spans.back().to == kEver) spans.back().to = us;
-  };
   if (told.cause == ToldCause::BodyGone) return endAll(event.a.body, us);
   if (event.b.body == kEveryBody) {
     TimeSpans& spans = unresolved_[event.a.body];
     if (event.kind == EventKind::UnresolvedFrom) spans.push_back({us, kEver});
-    if (event.kind == EventKind::UnresolvedTo) end(spans);
+    if (event.kind == EventKind::UnresolvedTo) endLast(spans, us);
     return;
   }
   Parts& parts = parts_[pairOf(event)];
   switch (event.kind) {
     case EventKind::Enter:
     case EventKind::StartsInside: parts.contact.push_back({us, kEver}); break;
-    case EventKind::Leave: end(parts.contact); break;
+    case EventKind::Leave: endLast(parts.contact, us); break;
     case EventKind::UnresolvedFrom:
-      end(parts.contact);
+      endLast(parts.contact, us);
       parts.unresolved.push_back({us, kEver});
       break;
-    case EventKind::UnresolvedTo: end(parts.unresolved); break;
+    case EventKind::UnresolvedTo: endLast(parts.unresolved, us); break;
   }
 }
 

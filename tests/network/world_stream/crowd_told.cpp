@@ -88,9 +88,9 @@ void Telling::hear(const BodyMessage& message, const CrowdArrival& arrival) {
   }
   const bool isLetGo = message.carrier == kNoBody && !told_.heard[slotOf(message.body)].empty() &&
                        told_.heard[slotOf(message.body)].back().state.carrier != kNoBody;
-  if (mutation_ == CrowdMutation::CarriersStay && message.isPresent && isLetGo) return;
+  const bool isKept = mutation_ == CrowdMutation::CarriersStay && message.isPresent && isLetGo;
   const std::int64_t answeredUs = solver_.counts().answeredUntilUs;
-  if (solver_.take(given, arrival.timeUs) != Reject::None) return;
+  if (!isKept && solver_.take(given, arrival.timeUs) != Reject::None) return;
   told_.accepted.push_back(arrival);
   const CrowdState state{message.sinceUs, message.isPresent, message.carrier, message.carrierLink,
                          message.movesInFrame};
