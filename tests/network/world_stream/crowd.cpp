@@ -385,10 +385,10 @@ void Drawing::tellStates(BodyNumber body, std::size_t shape, Sender& from) {
 
 }  // namespace
 
-const CrowdState* CrowdTruth::stateAt(BodyNumber body, double us) const {
+const CrowdState* CrowdTruth::stateAt(BodyNumber body, std::int64_t us) const {
   const CrowdState* at = nullptr;
   for (const CrowdState& state : states[static_cast<std::size_t>(body)]) {
-    if (static_cast<double>(state.sinceUs) <= us) at = &state;
+    if (state.sinceUs <= us) at = &state;
   }
   return at != nullptr && at->isPresent ? at : nullptr;
 }

@@ -40,8 +40,8 @@ struct CrowdTruth {
   std::vector<std::optional<PairRules>> self;   ///< Per body: its own links are asked.
   std::optional<oracle::OracleBody> still;      ///< The static scene.
 
-  /// Nothing: not there.
-  [[nodiscard]] const CrowdState* stateAt(BodyNumber body, double us) const;
+  /// At or before the instant; nothing: it is not there.
+  [[nodiscard]] const CrowdState* stateAt(BodyNumber body, std::int64_t us) const;
 };
 
 struct CrowdArrival {

@@ -1,15 +1,13 @@
 #include "tests/network/world_stream/crowd_judge.h"
 
-#include <array>
 #include <cmath>
 #include <map>
-#include <set>
 #include <sstream>
 #include <tuple>
 #include <utility>
 
 #include "lss/index.h"
-#include "tests/network/world_stream/crowd_spans.h"
+#include "tests/network/world_stream/crowd_late.h"
 #include "tests/support/judged.h"
 
 namespace foretouch::test {
@@ -20,19 +18,10 @@ using oracle::OracleTouch;
 using oracle::OracleWorld;
 using oracle::Real;
 
-/// Times here are microseconds after it.
-constexpr std::int64_t kBaseUs = kCrowdBeginUs - 1'000'000;
-constexpr double kEver = 1e9, kSlackUs = 1.0;
+constexpr double kSlackUs = 1.0;
 /// The judge's places and the product's, in metres.
 constexpr double kPlaces = 1e-9;
 constexpr std::size_t kMostShown = 5;
-
-double after(std::int64_t us) {
-  return static_cast<double>(us - kBaseUs);
-}
-double after(const WorldTime& time) {
-  return after(time.us) + time.fraction;
-}
 
 /// What goes on ends there.
 void endLast(TimeSpans& spans, double us) {
@@ -57,7 +46,7 @@ class Judging {
   void judge() {
     gather();
     for (BodyNumber body = 0; body < numBodies_; ++body) {
-      late_.push_back(lateOf(body));
+      late_.push_back(lateSpans(truth_, told_.heard[slotOf(body)], body, whole_));
       absent_.push_back(absentOf(body));
     }
     for (const EventsMessage& answer : told_.answers) {
@@ -96,10 +85,6 @@ class Judging {
   void beginAnew(double us);
 
   // What is not claimed.
-  [[nodiscard]] TimeSpans lateOf(BodyNumber body) const;
-  [[nodiscard]] bool isMisread(BodyNumber body, double us, const CrowdState& believed,
-                               const std::set<std::int64_t>& heard) const;
-  [[nodiscard]] bool isLate(BodyNumber body, double us) const;
   [[nodiscard]] TimeSpans absentOf(BodyNumber body) const;
   [[nodiscard]] TimeSpans unknownOf(BodyNumber body, LinkId link) const;
   [[nodiscard]] TimeSpans joinedOf(const Pair& pair) const;
@@ -209,72 +194,6 @@ TimeSpan Judging::spanOf(BodyNumber body, std::size_t state) const {
           state + 1 < states.size() ? after(states[state + 1].sinceUs) : kEver};
 }
 
-/// Whether the poses beside that instant, between which a motion goes, are in other frames than
-/// was believed, or something that was not heard lies between them. What a change itself says of
-/// its place has to be heard first.
-bool Judging::isMisread(BodyNumber body, double us, const CrowdState& believed,
-                        const std::set<std::int64_t>& heard) const {
-  double fromUs = -kEver, toUs = kEver;
-  std::array<const CrowdState*, 2> beside{};
-  for (const oracle::OracleEpisode& episode : world_.bodies[slotOf(body)].episodes) {
-    const CrowdState* const state = truth_.stateAt(body, static_cast<double>(episode.beginUs));
-    for (std::size_t i = 1; state->hasPoses() && i < episode.times.size(); ++i) {
-      const double poseUs = after(episode.times[i]);
-      if (poseUs <= us) {
-        fromUs = poseUs;
-        beside[0] = state;
-      } else if (toUs == kEver) {
-        toUs = poseUs;
-        beside[1] = state;
-      }
-    }
-  }
-  const auto isUnheard = [&](const CrowdState& state) { return heard.count(state.sinceUs) == 0; };
-  const bool isOtherFrame = std::any_of(beside.begin(), beside.end(), [&](const CrowdState* state) {
-    return state != nullptr && isUnheard(*state) &&
-           (state->carrier != believed.carrier || state->link != believed.link);
-  });
-  // Beyond that the body is silent.
-  if (isOtherFrame || toUs - fromUs > kCrowdWaitUs) return isOtherFrame;
-  const std::vector<CrowdState>& states = truth_.states[slotOf(body)];
-  return std::any_of(states.begin(), states.end(), [&](const CrowdState& state) {
-    return isUnheard(state) && after(state.sinceUs) >= fromUs && after(state.sinceUs) < toUs;
-  });
-}
-
-/// What the world had been told of the body when it answered that instant, beside the truth.
-bool Judging::isLate(BodyNumber body, double us) const {
-  const CrowdState* believed = nullptr;
-  std::set<std::int64_t> heard;
-  for (const HeardState& next : told_.heard[slotOf(body)]) {
-    if (next.answeredUs >= 0 && after(next.answeredUs) >= us) break;
-    heard.insert(next.state.sinceUs);
-    if (after(next.state.sinceUs) <= us) believed = &next.state;
-  }
-  if (believed == nullptr || !believed->isPresent) return false;
-  if (believed->hasPoses()) return isMisread(body, us, *believed, heard);
-  const CrowdState* const truth = truth_.stateAt(body, us + static_cast<double>(kBaseUs));
-  return truth == nullptr || truth->sinceUs != believed->sinceUs;
-}
-
-TimeSpans Judging::lateOf(BodyNumber body) const {
-  std::set<double> changes{whole_.from, whole_.to};
-  for (const HeardState& heard : told_.heard[slotOf(body)]) {
-    changes.insert(after(heard.state.sinceUs));
-    if (heard.answeredUs >= 0) changes.insert(after(heard.answeredUs));
-  }
-  for (const CrowdState& state : truth_.states[slotOf(body)]) changes.insert(after(state.sinceUs));
-  for (const oracle::OracleEpisode& episode : world_.bodies[slotOf(body)].episodes) {
-    for (const std::int64_t poseUs : episode.times) changes.insert(after(poseUs));
-  }
-  TimeSpans late;
-  for (auto next = std::next(changes.begin()); next != changes.end(); ++next) {
-    const TimeSpan span{*std::prev(next), *next};
-    if (isLate(body, 0.5 * (span.from + span.to))) late.push_back(span);
-  }
-  return late;
-}
-
 TimeSpans Judging::absentOf(BodyNumber body) const {
   const std::optional<std::int64_t> since = told_.presentUs[slotOf(body)];
   if (!since) return {{-kEver, kEver}};
@@ -327,8 +246,8 @@ TimeSpans Judging::joinedOf(const Pair& pair) const {
 // Judgements.
 
 Real Judging::gapAt(const Pair& pair, double us, bool isFromLeft) const {
-  const std::vector<Real> gaps =
-      world_.separationsAt(pair.a, pair.b, kBaseUs, static_cast<Real>(us), isFromLeft, Real(1));
+  const std::vector<Real> gaps = world_.separationsAt(pair.a, pair.b, kCrowdBaseUs,
+                                                      static_cast<Real>(us), isFromLeft, Real(1));
   const std::size_t linksOfB = world_.bodies[slotOf(pair.b)].parents.size();
   return gaps[slotOf(pair.linkOfA) * linksOfB + slotOf(pair.linkOfB)];
 }
@@ -339,7 +258,7 @@ void Judging::count(const Pair& pair, double us) {
   };
   const auto isCarried = [&](BodyNumber body) {
     if (body == numBodies_) return false;
-    const CrowdState* const state = truth_.stateAt(body, us + static_cast<double>(kBaseUs));
+    const CrowdState* const state = truth_.stateAt(body, microsecond(us));
     return state != nullptr && state->carrier != kNoBody;
   };
   if (isCarried(pair.a) || isCarried(pair.b)) ++tally_.ofCarried;
@@ -403,8 +322,8 @@ void Judging::judgePlace(const WorldEvent& event, const Pair& pair, double us) {
   const ContactSide &one = isSwapped ? event.b : event.a, &other = isSwapped ? event.a : event.b;
   const auto at = static_cast<Real>(us);
   const Real off =
-      std::max(world_.distanceToSurface(pair.a, pair.linkOfA, plain(one.p_W), kBaseUs, at),
-               world_.distanceToSurface(pair.b, pair.linkOfB, plain(other.p_W), kBaseUs, at));
+      std::max(world_.distanceToSurface(pair.a, pair.linkOfA, plain(one.p_W), kCrowdBaseUs, at),
+               world_.distanceToSurface(pair.b, pair.linkOfB, plain(other.p_W), kCrowdBaseUs, at));
   if (off > static_cast<Real>(kPlaces)) say(pair, us, "its points are not where the two are");
 }
 
@@ -446,8 +365,7 @@ void Judging::judgeLinks(const Pair& pair) {
   judgeContact(pair, parts.contact, notClaimed);
   add(notClaimed, parts.contact);
   for (const TimeSpan& span : rest(std::move(notClaimed), whole_)) {
-    const auto fromUs = kBaseUs + static_cast<std::int64_t>(std::ceil(span.from));
-    const auto toUs = kBaseUs + static_cast<std::int64_t>(std::floor(span.to));
+    const std::int64_t fromUs = microsecond(std::ceil(span.from)), toUs = microsecond(span.to);
     if (fromUs >= toUs) continue;
     ++tally_.freeSpans;
     tally_.freeSeconds += 1e-6 * static_cast<double>(toUs - fromUs);

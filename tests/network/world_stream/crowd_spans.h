@@ -1,10 +1,31 @@
-// tests/network/world_stream/crowd_spans.h: sets of spans of a timeline, in microseconds.
+// tests/network/world_stream/crowd_spans.h: sets of spans of a timeline, in microseconds after
+// kCrowdBaseUs.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
+#include "middleware/world/world_time.h"
+#include "tests/network/world_stream/crowd.h"
+
 namespace foretouch::test {
+
+inline constexpr std::int64_t kCrowdBaseUs = kCrowdBeginUs - 1'000'000;
+inline constexpr double kEver = 1e9;
+
+[[nodiscard]] inline double after(std::int64_t us) {
+  return static_cast<double>(us - kCrowdBaseUs);
+}
+[[nodiscard]] inline double after(const WorldTime& time) {
+  return microsecondsAfter(kCrowdBaseUs, time);
+}
+
+/// The other way, rounded down.
+[[nodiscard]] inline std::int64_t microsecond(double us) {
+  return kCrowdBaseUs + static_cast<std::int64_t>(std::floor(us));
+}
 
 struct TimeSpan {
   double from = 0.0, to = 0.0;
