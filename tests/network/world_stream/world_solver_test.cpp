@@ -1,6 +1,7 @@
 #include "network/world_stream/world_solver.h"
 
 #include <algorithm>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -238,6 +239,105 @@ TEST(WorldSolver, BodiesComeAndGoAndAreCarried) {
   EXPECT_TRUE(isTold);
   EXPECT_FALSE(solver.isThere(2));
   EXPECT_EQ(solver.counts().failures, 0U);
+}
+
+BodyMessage heldBy(BodyNumber carrier, BodyNumber body, std::int64_t sequence,
+                   std::int64_t sinceUs) {
+  BodyMessage message = ballMessage(body, sequence, 2);
+  message.carrier = carrier;
+  message.pose.translation = {0.5, 0.0, 0.0};
+  message.sinceUs = sinceUs;
+  return message;
+}
+
+/// What was listed as unknown of a body.
+std::vector<UnknownPart> unknownOf(const ToldWorld& told, BodyNumber body) {
+  std::vector<UnknownPart> parts;
+  for (const EventsMessage& answer : told.answers) {
+    for (const UnknownPart& part : answer.unknown) {
+      if (part.body == body) parts.push_back(part);
+    }
+  }
+  return parts;
+}
+
+/// Balls one and two with senders of their own; `n` ticks.
+class TwoSenders : public testing::Test {
+ protected:
+  TwoSenders() {
+    EXPECT_EQ(solver_.take(ballMessage(1), kStart), Reject::None);
+    EXPECT_EQ(solver_.take(ballMessage(2, 0, 2), kStart), Reject::None);
+  }
+  void move(BodyNumber body, std::int64_t n, double x) {
+    const std::int64_t sequence = sequences_[body]++;
+    ASSERT_EQ(say(solver_, rigidPoses(sequence, tick(n), {ballAt(body, {x, 0.0, 0.0})}, body)),
+              Reject::None);
+    told_.hear(solver_);
+  }
+
+  WorldSolver solver_ = solverOf();
+  ToldWorld told_;
+  std::map<BodyNumber, std::int64_t> sequences_;
+};
+
+TEST_F(TwoSenders, AnAnnouncedChangeHurriesNobody) {
+  for (std::int64_t n = 0; n <= 3; ++n) {
+    move(1, n, 0.0);
+    move(2, n, 1.0);
+  }
+  ASSERT_EQ(solver_.take(heldBy(1, 2, 1, tick(8)), tick(3) + 200), Reject::None);
+  for (std::int64_t n = 4; n <= 7; ++n) {
+    move(1, n, 0.0);
+    EXPECT_EQ(solver_.counts().answeredUntilUs, tick(n - 1)) << "two goes on until then";
+    move(2, n, 1.0);
+  }
+  for (std::int64_t n = 8; n <= 12; ++n) move(1, n, 0.0);
+  EXPECT_EQ(solver_.counts().answeredUntilUs, tick(12)) << "held fast, it is not waited for";
+  for (const UnknownPart& part : unknownOf(told_, 2)) {
+    EXPECT_GE(part.fromUs, tick(7));
+    EXPECT_LE(part.toUs, tick(8));
+  }
+}
+
+TEST_F(TwoSenders, WhatWasCarriedUnheardIsUnknown) {
+  for (std::int64_t n = 0; n <= 3; ++n) {
+    move(1, n, 0.0);
+    move(2, n, 1.0);
+  }
+  // Two was held from tick 3 to tick 6, and nobody said so; its numbers go on.
+  BodyMessage free = ballMessage(2, 2, 2);
+  free.pose.translation = {0.4, 0.0, 0.0};
+  free.sinceUs = tick(6);
+  for (std::int64_t n = 4; n <= 6; ++n) move(1, n, 0.0);
+  ASSERT_EQ(solver_.take(free, tick(6) + 200), Reject::None);
+  for (std::int64_t n = 7; n <= 9; ++n) {
+    move(1, n, 0.0);
+    move(2, n, 0.4);
+  }
+  const std::vector<UnknownPart> parts = unknownOf(told_, 2);
+  ASSERT_FALSE(parts.empty());
+  EXPECT_EQ(parts.front().fromUs, tick(3));
+  EXPECT_EQ(parts.back().toUs, tick(6));
+}
+
+TEST_F(TwoSenders, AfterALateChangeTheNextPoseTellsWhereItIs) {
+  for (std::int64_t n = 0; n <= 5; ++n) {
+    move(1, n, 0.0);
+    move(2, n, 1.0);
+  }
+  // It has hung on one since tick 4, and moves there.
+  BodyMessage late = heldBy(1, 2, 1, tick(4));
+  late.movesInFrame = true;
+  ASSERT_EQ(solver_.take(late, tick(5) + 200), Reject::None);
+  for (std::int64_t n = 6; n <= 8; ++n) {
+    move(1, n, 0.0);
+    move(2, n, 0.5);
+  }
+  EXPECT_EQ(solver_.counts().lateChanges, 1U);
+  const std::vector<UnknownPart> parts = unknownOf(told_, 2);
+  ASSERT_FALSE(parts.empty());
+  EXPECT_EQ(parts.front().fromUs, tick(5));
+  EXPECT_EQ(parts.back().toUs, tick(6));
 }
 
 }  // namespace
