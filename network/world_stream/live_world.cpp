@@ -16,6 +16,13 @@ Pose poseOf(const RigidPose& rigid) {
   return {{rigid.rotation}, {rigid.translation}};
 }
 
+bool isSamePose(const Pose& x, const Pose& y) {
+  return x.translations == y.translations &&
+         std::equal(
+             x.rotations.begin(), x.rotations.end(), y.rotations.begin(), y.rotations.end(),
+             [](const Quaternion& p, const Quaternion& q) { return p.coeffs() == q.coeffs(); });
+}
+
 /// The world knows nothing of its place at `untilUs`.
 bool isShort(const LiveBody& body, std::int64_t untilUs) {
   return body.slot && !body.isHeldFast && body.toldUntilUs < untilUs;
@@ -131,7 +138,14 @@ void LiveWorld::push(LiveBody& body, std::int64_t utimeUs, const Pose& pose) {
 }
 
 void LiveWorld::takeKnot(LiveBody& body, const LiveKnot& knot) {
-  if (body.isHeldFast || (body.slot && knot.utimeUs <= body.toldUntilUs)) return;
+  if (body.isHeldFast) return;
+  if (body.slot && knot.utimeUs <= body.toldUntilUs) {
+    // Its state said where it is, and its poses go on from there.
+    if (knot.pose && knot.utimeUs == body.toldUntilUs && isSamePose(*knot.pose, body.told)) {
+      body.isElsewhere = false;
+    }
+    return;
+  }
   if (knot.pose) {
     push(body, knot.utimeUs, *knot.pose);
   } else if (body.slot) {
@@ -151,6 +165,9 @@ void LiveWorld::holdUntil(LiveBody& body, std::int64_t utimeUs) {
 bool LiveWorld::takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& change,
                            std::int64_t untilUs, int depth) {
   const std::int64_t saidUs = change.sinceUs;
+  const bool isFree = change.isPresent && change.carrier == kNoBody;
+  // A pose of that instant has said so.
+  if (body.slot && isFree && body.carriers.empty() && saidUs <= body.beginUs) return true;
   // Nothing changes where it has only just begun.
   if (body.slot) {
     const std::int64_t begunUs =

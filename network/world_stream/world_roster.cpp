@@ -156,9 +156,9 @@ void WorldRoster::keep(LiveBody& body, LiveKnot knot, bool isGap, std::int64_t r
   const bool wasSilent =
       policy_.whenSilent != WhenSilent::Wait && knot.utimeUs - saidUs > policy_.waitUs;
   const bool isPassed = answeredUs_ && saidUs < *answeredUs_;
-  if (saidUs >= 0 && (isGap || wasSilent || isPassed)) {
+  const std::int64_t fromUs = body.hasStream ? body.knownUntilUs : saidUs;
+  if (saidUs >= 0 && fromUs != knot.utimeUs && (isGap || wasSilent || isPassed)) {
     ++counts_.gaps;
-    const std::int64_t fromUs = body.hasStream ? body.knownUntilUs : saidUs;
     body.addUnknown(kEveryLink, UndecidedReason::Gap, std::min(fromUs, knot.utimeUs), knot.utimeUs);
   }
   body.skips = !isKnown;

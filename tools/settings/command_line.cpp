@@ -112,6 +112,10 @@ Result<Done> takeProject(Subcommand& subcommand) {
 
 /// "--scene and --output are required" or "expected a scene file"; empty: nothing is missing.
 std::string missingIn(const Subcommand& subcommand) {
+  const auto stands = [](const Typed& typed) {
+    return typed.setting->standsForRequired && typed.setting->isGiven;
+  };
+  if (std::any_of(subcommand.typed.begin(), subcommand.typed.end(), stands)) return "";
   std::vector<std::string> names;
   for (const Typed& typed : subcommand.typed) {
     const Setting& setting = *typed.setting;

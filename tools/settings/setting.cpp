@@ -64,6 +64,11 @@ Setting& Setting::required(const char* what) {
   return *this;
 }
 
+Setting& Setting::standingForRequired() {
+  standsForRequired = true;
+  return *this;
+}
+
 Setting& Setting::needing(const char* other) {
   needs = other;
   return *this;

@@ -68,6 +68,7 @@ struct Setting {
   std::string group;  ///< In help. Empty: "Options".
   bool isRequired = false;
   std::string noun;         ///< Of a required argument, for its error: "a scene file".
+  bool standsForRequired = false;  ///< Where it is given, nothing else is required.
   std::string needs;        ///< Another option that this one requires.
   bool isPath = false;      ///< In a configuration, relative to that file's folder.
   bool takesFiles = false;  ///< Paths, for a shell that completes them.
@@ -90,6 +91,7 @@ struct Setting {
   Setting& namedIf(std::function<bool()> condition);
   /// `what`: of an argument, for the error of a user who gives none.
   Setting& required(const char* what = "");
+  Setting& standingForRequired();
   Setting& in(const char* helpGroup);
   Setting& needing(const char* other);
   Setting& notEmpty();

@@ -60,6 +60,7 @@ struct PublishReport {
   std::int64_t session = 0;     ///< The first one.
   std::int64_t poses = 0;       ///< Sent, or tried.
   std::int64_t skeletons = 0;   ///< The same.
+  std::int64_t states = 0;      ///< The same: of props of a world.
   std::int64_t failures = 0;    ///< Messages that the sink lost.
   std::int64_t late = 0;        ///< Poses sent more than kLateUs after their time.
   std::int64_t mostLateUs = 0;  ///< Of all poses.

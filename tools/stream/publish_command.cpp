@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "tools/settings/stream_settings.h"
 #include "tools/settings/world_settings.h"
 #include "tools/stream/stop_signal.h"
+#include "tools/stream/world_publisher.h"
 
 namespace foretouch::tools {
 namespace {
@@ -28,15 +30,24 @@ namespace {
 struct PublishJob {
   ClipRequest request;
   PublishOptions options;
+  std::string worldPath;  ///< Of a world whose bodies are sent in place of a clip.
   std::string url, suffix, outputPath, keyPath;
   std::optional<std::int64_t> startUtimeUs;  ///< Of a log's first pose.
 };
 
 /// Options of live sending make no sense with a log, and vice versa.
-Result<Done> checkTogether(const PublishJob& job) {
+Result<Done> checkTogether(const Settings& settings, const PublishJob& job) {
   const auto refuse = [](const char* option, const char* why) {
     return Error::in(option, ErrorCode::Mismatch, why);
   };
+  if (!job.worldPath.empty()) {
+    for (const char* option : {"CLIP", "--avatar", "--id", "--rate"}) {
+      if (settings.isGiven(option)) {
+        return refuse(option, "is of a clip; --world sends the bodies of its file");
+      }
+    }
+    if (job.options.speed <= 0.0) return refuse("--speed", "expected above 0 for a world");
+  }
   constexpr char kNotWithLog[] = "applies to sending over a network, not to --output";
   if (job.outputPath.empty()) {
     if (!job.startUtimeUs) return Done{};
@@ -55,7 +66,8 @@ Result<Done> settle(PublishJob& job) {
   job.url = urlOrDefault(job.url);
   job.options.sender.startUtimeUs = job.startUtimeUs.value_or(utimeNow());
   std::string& source = job.options.sender.source;
-  source = "foretouch publish " + std::filesystem::path(job.request.motionPath).filename().string();
+  const std::string& path = job.worldPath.empty() ? job.request.motionPath : job.worldPath;
+  source = "foretouch publish " + std::filesystem::path(path).filename().string();
   source.resize(std::min(source.size(), kMaxTextBytes / 2));
   return Done{};
 }
@@ -79,8 +91,11 @@ Result<PlayedClip> loadWithRemarks(const ClipRequest& request) {
   return played;
 }
 
-Result<PublishReport> publishLive(const PublishJob& job) {
-  FORETOUCH_TRY(const auto played, loadWithRemarks(job.request));
+/// Sends all of it.
+using Sending =
+    std::function<Result<PublishReport>(const PublishOptions&, Pace&, const MessageSink&)>;
+
+Result<PublishReport> sendLive(const PublishJob& job, const Sending& sendAll) {
   const auto url = parseUdpmUrl(job.url);
   if (!url.ok()) return inFile(url.error(), "--url");
   FORETOUCH_CHECK(testMulticast(url.value()));
@@ -102,7 +117,7 @@ Result<PublishReport> publishLive(const PublishJob& job) {
   LivePace pace([&stop] { return stop.wait(std::chrono::milliseconds(0)); });
   PublishOptions options = job.options;
   options.sender.startUtimeUs = pace.utimeUs();
-  auto sent = publishClip(placedIn(played, job.request), played.steps, options, pace, send);
+  auto sent = sendAll(options, pace, send);
   if (sent.ok() && sent.value().late > 0) {
     printNote(fmt::format("{} of {} poses were sent more than {} ms late, the latest by {:.1f} ms",
                           sent.value().late, sent.value().poses, PublishReport::kLateUs / 1000,
@@ -114,17 +129,62 @@ Result<PublishReport> publishLive(const PublishJob& job) {
   return sent;
 }
 
-ExitCode run(PublishJob job) {
-  FORETOUCH_CHECK_OR(failed, checkTogether(job));
+Result<PublishReport> sendToLog(const PublishOptions& options, const std::string& logPath,
+                                const Sending& sendAll) {
+  FORETOUCH_TRY(auto log, EventLogWriter::create(logPath));
+  RecordedPace pace(options.sender.startUtimeUs);
+  auto sent = sendAll(
+      options, pace,
+      [&](const std::string& channel, ByteView payload, std::int64_t utimeUs) -> Result<bool> {
+        FORETOUCH_CHECK(log.write(utimeUs, channel, payload));
+        return true;
+      });
+  const auto closed = log.close();
+  if (sent.ok() && !closed.ok()) return inFile(closed.error(), logPath);
+  return sent;
+}
+
+Sending sendingOf(const PlayedClip& played, const ClipRequest& request) {
+  return [&](const PublishOptions& options, Pace& pace, const MessageSink& sink) {
+    return publishClip(placedIn(played, request), played.steps, options, pace, sink);
+  };
+}
+
+Sending sendingOf(const LoadedWorld& world) {
+  return [&](const PublishOptions& options, Pace& pace, const MessageSink& sink) {
+    return publishWorld(world, options, pace, sink);
+  };
+}
+
+Result<PublishReport> sendClip(const PublishJob& job) {
+  if (!job.outputPath.empty()) return publishToLog(job.request, job.options, job.outputPath);
+  FORETOUCH_TRY(const auto played, loadWithRemarks(job.request));
+  return sendLive(job, sendingOf(played, job.request));
+}
+
+Result<PublishReport> sendWorld(const PublishJob& job) {
+  FORETOUCH_TRY(auto file, readWorldFile(job.worldPath));
+  FORETOUCH_TRY(const auto world, loadWorld(std::move(file)));
+  for (const std::string& remark : world.remarks) printNote(remark);
+  FORETOUCH_CHECK(checkPublished(world));
+  const Sending sending = sendingOf(world);
+  return job.outputPath.empty() ? sendLive(job, sending)
+                                : sendToLog(job.options, job.outputPath, sending);
+}
+
+ExitCode run(const Settings& settings, PublishJob job) {
+  FORETOUCH_CHECK_OR(failed, checkTogether(settings, job));
   FORETOUCH_CHECK_OR(failed, settle(job));
-  const bool isLog = !job.outputPath.empty();
-  const auto report =
-      isLog ? publishToLog(job.request, job.options, job.outputPath) : publishLive(job);
+  const bool isWorld = !job.worldPath.empty();
+  const auto report = isWorld ? sendWorld(job) : sendClip(job);
   if (!report.ok()) return failed(report.error());
-  printOut(fmt::format("{}: {} poses and {} skeletons of avatar {}, session {}\n",
-                       isLog ? job.outputPath : job.url, report.value().poses,
-                       report.value().skeletons, job.options.sender.avatar,
-                       report.value().session));
+  const PublishReport& sent = report.value();
+  const std::string where = job.outputPath.empty() ? job.url : job.outputPath;
+  printOut(isWorld
+               ? fmt::format("{}: {} poses, {} skeletons and {} states of {}, session {}\n", where,
+                             sent.poses, sent.skeletons, sent.states, job.worldPath, sent.session)
+               : fmt::format("{}: {} poses and {} skeletons of avatar {}, session {}\n", where,
+                             sent.poses, sent.skeletons, job.options.sender.avatar, sent.session));
   return ExitCode::Done;
 }
 
@@ -132,16 +192,25 @@ constexpr char kPublishExamples[] = R"(Examples:
   foretouch publish dancer.bvh --avatar dancer.avatar.json --rate 30 --loop
   foretouch publish walk.bvh --avatar a.avatar.json --clip-scale 0.01 --place 1.5,0,-2,90 --id 2
   foretouch publish dancer.bvh --avatar dancer.avatar.json --output dancer.lcmlog
+  foretouch publish --world stage.toml
 
-A service (foretouch serve) that knows the avatar answers as foretouch replay does.)";
+A service (foretouch serve) that knows the avatar answers as foretouch replay does. With --world the
+bodies of a world file are sent: avatars and props, who carries them, and where they are; a service
+with the same --world tells what happens between them.)";
 
 void addSendingSettings(Settings& settings, PublishJob& job) {
+  settings
+      .path("--world", "FILE", job.worldPath,
+            "World file whose bodies are sent, in place of a clip (docs/formats.md)")
+      .files("toml")
+      .standingForRequired();
   settings.whole("--id", "N", job.options.sender.avatar, 0,
                  std::numeric_limits<std::int32_t>::max(), "ID of the avatar in messages");
   addRateSetting(settings, job.request);
-  settings.number(
-      "--speed", "S", job.options.speed, kZeroOrAbove,
-      "Factor on the clip's own speed; 0: as fast as the system accepts, which may lose poses");
+  settings.number("--speed", "S", job.options.speed, kZeroOrAbove,
+                  "Factor on the clip's own speed; 0: as fast as the system accepts, which may "
+                  "lose poses. Of a "
+                  "world: it all happens so much faster, stamps as well; above 0");
   settings.flag("--loop", job.options.loop, "Repeat the clip for ever, each time as a new session");
   settings.text("--url", "URL", job.url,
                 "Network to send to; by default LCM_DEFAULT_URL, else this machine only");
@@ -167,17 +236,7 @@ std::int64_t utimeNow() {
 Result<PublishReport> publishToLog(const ClipRequest& request, const PublishOptions& options,
                                    const std::string& logPath) {
   FORETOUCH_TRY(const auto played, loadWithRemarks(request));
-  FORETOUCH_TRY(auto log, EventLogWriter::create(logPath));
-  RecordedPace pace(options.sender.startUtimeUs);
-  auto sent = publishClip(
-      placedIn(played, request), played.steps, options, pace,
-      [&](const std::string& channel, ByteView payload, std::int64_t utimeUs) -> Result<bool> {
-        FORETOUCH_CHECK(log.write(utimeUs, channel, payload));
-        return true;
-      });
-  const auto closed = log.close();
-  if (sent.ok() && !closed.ok()) return inFile(closed.error(), logPath);
-  return sent;
+  return sendToLog(options, logPath, sendingOf(played, request));
 }
 
 Command publishCommand() {
@@ -190,7 +249,7 @@ Command publishCommand() {
   Command command{"publish", "Send a recorded clip as a live stream of poses", kPublishExamples,
                   std::move(settings)};
   command.takesProject = true;
-  command.run = [job](const Settings&) { return run(*job); };
+  command.run = [job](const Settings& given) { return run(given, *job); };
   return command;
 }
 

@@ -331,6 +331,7 @@ void Drawing::moveProp(BodyNumber body, Sender& from) {
     Vector3d velocity = random_.inBox(speed);
     const Quaternion turn = random_.turn(random_.uniform(0.0, 0.8));
     const bool isClosed = random_.chance(0.5);  // its last pose is that of the change
+    if (i == 0 && random_.chance(0.5)) sayPose(body, from, state.sinceUs, pose);
     for (std::int64_t us = state.sinceUs; us < toUs;) {
       std::int64_t stepUs = from.periodUs;
       if (us + stepUs >= toUs && isClosed) stepUs = toUs - us;

@@ -340,5 +340,27 @@ TEST_F(TwoSenders, AfterALateChangeTheNextPoseTellsWhereItIs) {
   EXPECT_EQ(parts.back().toUs, tick(6));
 }
 
+TEST(WorldSolver, AFirstPoseOfTheStatesInstantLeavesNothingUnknown) {
+  for (const bool isPoseThere : {true, false}) {
+    WorldSolver solver = solverOf();
+    ToldWorld told;
+    for (const BodyNumber body : {1, 2}) {
+      BodyMessage state = ballMessage(body);
+      state.sinceUs = tick(0);
+      state.pose.translation = {0.0, static_cast<double>(body), 0.0};
+      ASSERT_EQ(solver.take(state, tick(0) + 50), Reject::None);
+    }
+    for (std::int64_t n = isPoseThere ? 0 : 1; n <= 3; ++n) {
+      ASSERT_EQ(say(solver, rigidPoses(n, tick(n),
+                                       {ballAt(1, {0.0, 1.0, 0.0}), ballAt(2, {0.0, 2.0, 0.0})})),
+                Reject::None);
+      told.hear(solver);
+    }
+    EXPECT_EQ(told.answers.front().fromUs, tick(0));
+    EXPECT_EQ(unknownOf(told, 1).empty(), isPoseThere);
+    EXPECT_EQ(solver.counts().gaps, isPoseThere ? 0U : 2U);
+  }
+}
+
 }  // namespace
 }  // namespace foretouch::test
