@@ -4,6 +4,16 @@
 
 namespace foretouch::internal {
 
+bool isSamePose(const RigidPose& x, const RigidPose& y) {
+  return x.translation == y.translation && x.rotation.coeffs() == y.rotation.coeffs();
+}
+
+/// A pose at the very instant of a change is in the frame before it: of the first one that is heard
+/// it must be the same pose.
+bool LiveBody::hasFrameOf(std::int64_t utimeUs, const RigidPose& pose) const {
+  return utimeUs > firstUs || (utimeUs == firstUs && isSamePose(pose, firstPose));
+}
+
 void LiveBody::ripen(std::int64_t nowUs) {
   while (!announced.empty() && announced.front().sinceUs <= nowUs) {
     const LiveChange& due = announced.front();

@@ -66,6 +66,8 @@ struct LiveBody {
   std::int64_t session = 0, sequence = 0, knownUntilUs = -1, heardUs = 0;
   std::int64_t stateSession = 0, stateSequence = -1;  ///< Of the last accepted body_t.
   LiveChange state;                                   ///< That was accepted last.
+  std::int64_t firstUs = -1;  ///< Since when its first state holds; before it no frame is known.
+  RigidPose firstPose;        ///< Then.
   /// What was announced and is not due; states count from their instants on.
   std::deque<LiveChange> announced;
   bool isAwaited = true;      ///< As awaitsPoses(), of the last state that was due.
@@ -86,6 +88,8 @@ struct LiveBody {
 
   /// Until when it is known where it is; -1: it is not there yet.
   [[nodiscard]] std::int64_t saidUntilUs() const { return std::max(knownUntilUs, stateUs); }
+  /// Whether a frame is known that such a pose is in.
+  [[nodiscard]] bool hasFrameOf(std::int64_t utimeUs, const RigidPose& pose) const;
   /// Lets states take effect that are due at `nowUs`.
   void ripen(std::int64_t nowUs);
   /// Marks the links as unknown from `fromUs` to `toUs`; goes on with a span that ends there.
@@ -95,6 +99,9 @@ struct LiveBody {
   /// Whether the link (kEveryLink: any of them) is unknown at an instant in [fromUs, toUs].
   [[nodiscard]] bool isUnknown(LinkId link, std::int64_t fromUs, std::int64_t toUs) const;
 };
+
+/// To the last bit.
+[[nodiscard]] bool isSamePose(const RigidPose& x, const RigidPose& y);
 
 /// Where a pose is in a stream of rigid_pose_t.
 struct RigidPlace {

@@ -16,11 +16,8 @@ Pose poseOf(const RigidPose& rigid) {
   return {{rigid.rotation}, {rigid.translation}};
 }
 
-bool isSamePose(const Pose& x, const Pose& y) {
-  return x.translations == y.translations &&
-         std::equal(
-             x.rotations.begin(), x.rotations.end(), y.rotations.begin(), y.rotations.end(),
-             [](const Quaternion& p, const Quaternion& q) { return p.coeffs() == q.coeffs(); });
+RigidPose rigidPoseOf(const Pose& pose) {
+  return {pose.rotations[0], pose.translations[0]};
 }
 
 /// The world knows nothing of its place at `untilUs`.
@@ -141,7 +138,8 @@ void LiveWorld::takeKnot(LiveBody& body, const LiveKnot& knot) {
   if (body.isHeldFast) return;
   if (body.slot && knot.utimeUs <= body.toldUntilUs) {
     // Its state said where it is, and its poses go on from there.
-    if (knot.pose && knot.utimeUs == body.toldUntilUs && isSamePose(*knot.pose, body.told)) {
+    if (knot.pose && !body.isAvatar && knot.utimeUs == body.toldUntilUs &&
+        isSamePose(rigidPoseOf(*knot.pose), rigidPoseOf(body.told))) {
       body.isElsewhere = false;
     }
     return;

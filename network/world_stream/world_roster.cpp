@@ -56,6 +56,8 @@ Reject WorldRoster::take(const BodyMessage& message, std::int64_t receiveUtimeUs
   if (isNew) {
     body.number = message.body;
     body.shape = shapeOf_.at(message.shape);
+    body.firstUs = message.sinceUs;
+    body.firstPose = message.pose;
   }
   if (body.isAvatar) return Reject::None;
   body.heardUs = nowUs_;
@@ -190,6 +192,7 @@ Reject WorldRoster::take(const RigidPoseMessage& message, std::int64_t receiveUt
 Reject WorldRoster::take(LiveBody& body, const BodyPose& told, const RigidPoseMessage& message,
                          std::int64_t receiveUtimeUs) {
   if (!body.state.isPresent && message.utimeUs >= body.state.sinceUs) return Reject::UnknownBody;
+  if (!body.hasFrameOf(message.utimeUs, told.pose)) return Reject::UnknownBody;
   if (!body.state.awaitsPoses() && message.utimeUs > body.state.sinceUs) return Reject::HeldFast;
   bool isGap = false;
   const RigidPlace place{message.session, message.sequence, message.utimeUs};
