@@ -25,6 +25,7 @@
 #include "tools/stream/solid_text.h"
 #include "tools/stream/stop_signal.h"
 #include "tools/stream/stream_touches.h"
+#include "tools/stream/told_events.h"
 #include "tools/stream/touch_lines.h"
 
 namespace foretouch::tools {
@@ -40,6 +41,7 @@ struct ListenJob {
   std::string url, suffix, keyPath;
   std::optional<MessageKey> key;
   ChannelNames channels;  ///< With the suffix.
+  std::string worldPath;  ///< Of a moving world, whose events are heard in place of verdicts.
   bool json = false, status = false, each = false;
   int count = 0;                   ///< Ends after so many verdicts; 0: never.
   std::optional<double> timeoutS;  ///< Ends after so long without a verdict.
@@ -50,6 +52,7 @@ Result<std::unique_ptr<Receiver>> receiverFor(const ListenJob& job) {
   if (!url.ok()) return inFile(url.error(), "--url");
   FORETOUCH_CHECK(testMulticast(url.value()));
   std::vector<std::string> channels{job.channels.contacts, job.channels.solid};
+  if (!job.worldPath.empty()) channels = {job.channels.events, job.channels.body};
   if (job.status) channels.push_back(job.channels.status);
   auto receiver = openUdpmReceiver(url.value(), channels);
   if (!receiver.ok()) return inFile(receiver.error(), "--url");
@@ -57,30 +60,27 @@ Result<std::unique_ptr<Receiver>> receiverFor(const ListenJob& job) {
 }
 
 /// What a sender's messages are guarded by, each with its avatar.
-enum Topic : std::uint8_t { kStatusTopic, kContactsTopic, kSolidTopic };
+enum Topic : std::uint8_t { kStatusTopic, kContactsTopic, kSolidTopic, kEventsTopic, kBodyTopic };
 constexpr std::size_t kMostGuards = 2 * kMostAvatars + 1;
 
 /// Prints messages as they arrive, line by line.
 class Listener {
  public:
-  explicit Listener(const ListenJob& job) : job_(job) {}
+  Listener(const ListenJob& job, std::optional<LoadedWorld> world) : job_(job) {
+    if (world) events_ = std::make_unique<ToldEvents>(*std::move(world));
+  }
 
   void take(const WireMessage& message) {
     if (isDone()) return;
-    const bool isStatus = message.channel == job_.channels.status;
-    const bool isSolid = message.channel == job_.channels.solid;
-    const Reject reject = isStatus  ? read(message, status_, kStatusTopic)
-                          : isSolid ? read(message, shown_, kSolidTopic)
-                                    : read(message, contacts_, kContactsTopic);
-    if (reject != Reject::None) {
-      if (rejected_++ == 0) {
-        printNote(fmt::format("{}: a message that cannot be read ({})", message.channel,
-                              toString(reject)));
-      }
-      return;
+    const Reject reject = hear(message);
+    if (reject != Reject::None && rejected_++ == 0) {
+      printNote(
+          fmt::format("{}: a message that cannot be read ({})", message.channel, toString(reject)));
     }
-    if (isStatus) return print(job_.json ? statusLine(status_) : statusText(status_));
-    isSolid ? printSolid() : printContacts();
+  }
+  /// Nothing more is heard.
+  void end() {
+    if (events_ && job_.json) print(events_->summary());
   }
 
   [[nodiscard]] bool isDone() const { return job_.count > 0 && verdicts_ >= job_.count; }
@@ -94,10 +94,34 @@ class Listener {
   [[nodiscard]] std::int64_t rejected() const { return rejected_; }
 
  private:
+  [[nodiscard]] Reject hear(const WireMessage& message) {
+    const ChannelNames& channels = job_.channels;
+    if (message.channel == channels.status) {
+      return read(message, status_, kStatusTopic,
+                  [this] { print(job_.json ? statusLine(status_) : statusText(status_)); });
+    }
+    if (message.channel == channels.solid) {
+      return read(message, shown_, kSolidTopic, [this] { printSolid(); });
+    }
+    if (!events_) return read(message, contacts_, kContactsTopic, [this] { printContacts(); });
+    if (message.channel == channels.body) {
+      return read(message, body_, kBodyTopic, [this] { events_->take(body_); });
+    }
+    return read(message, told_, kEventsTopic, [this] { printEvents(); });
+  }
   [[nodiscard]] static std::int32_t avatarOf(const StatusMessage& /*message*/) { return -1; }
+  [[nodiscard]] static std::int32_t avatarOf(const EventsMessage& /*message*/) { return -1; }
+  [[nodiscard]] static std::int32_t avatarOf(const BodyMessage& message) { return message.body; }
   template <typename Message>
   [[nodiscard]] static std::int32_t avatarOf(const Message& message) {
     return message.avatar;
+  }
+  template <typename Message, typename Use>
+  [[nodiscard]] Reject read(const WireMessage& arrived, Message& message, Topic topic,
+                            const Use& use) {
+    const Reject reject = read(arrived, message, topic);
+    if (reject == Reject::None) use();
+    return reject;
   }
   template <typename Message>
   [[nodiscard]] Reject read(const WireMessage& arrived, Message& message, Topic topic) {
@@ -117,6 +141,13 @@ class Listener {
     if (job_.json) return print(solidLine(shown_, Stamps::With));
     const bool isNews = news_.isNews(shown_);
     if (job_.each || isNews) print(solidText(shown_));
+  }
+  void printEvents() {
+    const ToldEvents::Lines lines = events_->take(told_);
+    if (lines.missing) printNote(*lines.missing);
+    ++verdicts_;
+    heardAt_ = Clock::now();
+    print(job_.json ? lines.json : lines.text);
   }
   void printContacts() {
     if (const auto missing = tracker_.take(contacts_)) printNote(*missing);
@@ -149,6 +180,9 @@ class Listener {
   SolidMessage shown_;
   SolidNews news_;
   StatusMessage status_;
+  std::unique_ptr<ToldEvents> events_;  // of a moving world, if it is heard
+  EventsMessage told_;
+  BodyMessage body_;
   Clock::time_point heardAt_ = Clock::now();
   std::int64_t verdicts_ = 0, rejected_ = 0;
   bool isHeard_ = true;
@@ -158,8 +192,14 @@ Result<ExitCode> listen(const ListenJob& job) {
   constexpr int kWaitMs = 50;  // longest delay in noticing a signal or a timeout
   StopSignal stop;
   bool isStopped = false;
+  std::optional<LoadedWorld> world;
+  if (!job.worldPath.empty()) {
+    FORETOUCH_TRY(auto file, readWorldFile(job.worldPath));
+    FORETOUCH_TRY(auto loaded, loadWorld(std::move(file)));
+    world.emplace(std::move(loaded));
+  }
   FORETOUCH_TRY(const auto receiver, receiverFor(job));
-  Listener listener(job);
+  Listener listener(job, std::move(world));
   std::vector<WireMessage> messages;
   while (!listener.isDone() && !listener.isSilent() && listener.isHeard() && !isStopped) {
     messages.clear();
@@ -167,6 +207,7 @@ Result<ExitCode> listen(const ListenJob& job) {
     for (const WireMessage& message : messages) listener.take(message);
     isStopped = stop.wait(std::chrono::milliseconds(0));
   }
+  listener.end();
   const std::uint64_t drops = receiver->counts().kernelDrops;
   if (listener.rejected() > 1) {
     printNote(fmt::format("{} messages could not be read", listener.rejected()));
@@ -179,6 +220,10 @@ Result<ExitCode> listen(const ListenJob& job) {
 }
 
 ExitCode run(ListenJob job) {
+  if (job.each && !job.worldPath.empty()) {
+    return failed(Error::in("--each", ErrorCode::Mismatch,
+                            "is of verdicts; --world hears the events of a moving world"));
+  }
   FORETOUCH_TRY_OR(failed, job.channels, channelNames(job.suffix));
   job.url = urlOrDefault(job.url);
   if (!job.keyPath.empty()) {
@@ -193,7 +238,10 @@ constexpr char kListenExamples[] = R"(Examples:
   foretouch listen --each
   foretouch listen --json --status > verdicts.jsonl
   foretouch listen --count 100 --timeout 5
+  foretouch listen --world stage.toml --json > events.jsonl
 
+With --world it prints what happens in the moving world of a service (serve --world) in place of
+verdicts, and --count and --timeout are about its messages; --json writes an events file.
 Of a solid avatar (serve --solid) it also prints where the state of what is shown changes. The lines
 of --json are described in docs/formats.md. With --count, exit code 1 says that so many verdicts did
 not come.)";
@@ -208,6 +256,11 @@ Command listenCommand() {
   addSuffixSetting(settings, job->suffix);
   addKeySetting(settings, job->keyPath,
                 "Key of 32 hexadecimal digits: refuse messages that are not signed with it");
+  settings
+      .path(
+          "--world", "FILE", job->worldPath,
+          "World file of the service: hear what happens in its moving world, in place of verdicts")
+      .files("toml");
   settings.flag("--json", job->json, "Lines of JSON instead of text");
   settings.flag("--each", job->each,
                 "One line per verdict instead of one where a touch begins or ends");

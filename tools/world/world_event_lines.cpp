@@ -21,6 +21,11 @@ bool isTold(EventKind kind) {
   return kind != EventKind::UnresolvedFrom && kind != EventKind::UnresolvedTo;
 }
 
+/// Where two are, at an instant.
+bool isOfTwo(const WorldEvent& event) {
+  return isTold(event.kind) && event.b.body != kEveryBody;
+}
+
 bool ends(EventKind kind) {
   return kind == EventKind::Leave || kind == EventKind::UnresolvedTo;
 }
@@ -38,7 +43,7 @@ void writeWho(const LoadedWorld& world, const ContactSide& side, ObjectId object
 
 void writeEventSide(const LoadedWorld& world, const ContactSide& side, const WorldEvent& event,
                     JsonWriter& out) {
-  if (isTold(event.kind)) return writeContactSide(world, side, true, out);
+  if (isOfTwo(event)) return writeContactSide(world, side, true, out);
   out.beginObject();
   writeWho(world, side, event.object, out);
   out.endObject();
@@ -63,7 +68,7 @@ void writeContactFields(const WorldEvent& event, JsonWriter& out) {
   out.endArray();
 }
 
-void write(const LoadedWorld& world, const WorldEvent& event, JsonWriter& out) {
+void write(const LoadedWorld& world, const WorldEvent& event, const char* cause, JsonWriter& out) {
   out.beginObject();
   out.field("event", toString(event.kind));
   writeInstant("time", event.time, out);
@@ -72,14 +77,12 @@ void write(const LoadedWorld& world, const WorldEvent& event, JsonWriter& out) {
   writeEventSide(world, event.a, event, out);
   out.key("b");
   writeEventSide(world, event.b, event, out);
-  if (isTold(event.kind)) {
-    writeContactFields(event, out);
-  } else {
-    out.field("reason", toString(event.reason));
-  }
+  if (isOfTwo(event)) writeContactFields(event, out);
+  if (!isTold(event.kind)) out.field("reason", toString(event.reason));
   if (event.kind == EventKind::Leave && event.cause == LeaveCause::NotAsked) {
     out.field("cause", "not_asked");
   }
+  if (cause != nullptr) out.field("cause", cause);
   if (event.isAssumed) out.field("assumed", true);
   out.endObject();
 }
@@ -124,15 +127,6 @@ void writeTrigger(const LoadedWorld& world, TriggerId trigger, JsonWriter& out) 
   out.endObject();
 }
 
-void writeCounts(const char* name, const std::int64_t (&counts)[kNumEventKinds], JsonWriter& out) {
-  out.key(name);
-  out.beginObject();
-  for (std::size_t kind = 0; kind < kNumEventKinds; ++kind) {
-    out.field(toString(static_cast<EventKind>(kind)), counts[kind]);
-  }
-  out.endObject();
-}
-
 /// How it begins and ends.
 template <typename Interval>
 void writeCourse(const Interval& of, bool startsInside, JsonWriter& out) {
@@ -145,17 +139,37 @@ void writeCourse(const Interval& of, bool startsInside, JsonWriter& out) {
 
 }  // namespace
 
-std::string eventsHeader(const LoadedWorld& world, std::int64_t fromUs, std::int64_t untilUs) {
+void writeEventCounts(const char* name, const std::int64_t (&counts)[kNumEventKinds],
+                      JsonWriter& out) {
+  out.key(name);
+  out.beginObject();
+  for (std::size_t kind = 0; kind < kNumEventKinds; ++kind) {
+    out.field(toString(static_cast<EventKind>(kind)), counts[kind]);
+  }
+  out.endObject();
+}
+
+std::string eventLine(const LoadedWorld& world, const WorldEvent& event, const char* cause) {
+  std::string text;
+  JsonWriter out(text);
+  write(world, event, cause, out);
+  return text + "\n";
+}
+
+std::string eventsHeader(const LoadedWorld& world, std::int64_t fromUs,
+                         std::optional<std::int64_t> untilUs) {
   std::string text;
   JsonWriter out(text);
   beginResults(out, "foretouch-events");
   writeWorldFields(world, out);
   out.field("from", LoadedWorld::secondsOf(fromUs));
-  out.field("until", LoadedWorld::secondsOf(untilUs));
+  out.key("until");
+  untilUs ? out.value(LoadedWorld::secondsOf(*untilUs)) : out.null();
   writeBodies(world, out);
   out.key("triggers");
   out.beginArray();
-  for (TriggerId trigger = 0; trigger < world.triggers.numTriggers(); ++trigger) {
+  const std::int32_t triggers = untilUs ? world.triggers.numTriggers() : 0;
+  for (TriggerId trigger = 0; trigger < triggers; ++trigger) {
     writeTrigger(world, trigger, out);
   }
   out.endArray();
@@ -165,7 +179,7 @@ std::string eventsHeader(const LoadedWorld& world, std::int64_t fromUs, std::int
 
 std::string eventLines(const LoadedWorld& world, const FollowedStretch& stretch) {
   std::string text;
-  const auto line = [&](const auto& event) {
+  const auto tellTrigger = [&](const TriggerEvent& event) {
     JsonWriter out(text);
     write(world, event, out);
     text += "\n";
@@ -176,11 +190,11 @@ std::string eventLines(const LoadedWorld& world, const FollowedStretch& stretch)
   auto trigger = stretch.triggers.events.begin();
   for (const WorldEvent& event : stretch.contacts.events) {
     for (; trigger != stretch.triggers.events.end() && isBefore(*trigger, event); ++trigger) {
-      line(*trigger);
+      tellTrigger(*trigger);
     }
-    if (!isOfTrigger(world, event)) line(event);
+    if (!isOfTrigger(world, event)) text += eventLine(world, event);
   }
-  for (; trigger != stretch.triggers.events.end(); ++trigger) line(*trigger);
+  for (; trigger != stretch.triggers.events.end(); ++trigger) tellTrigger(*trigger);
   return text;
 }
 
@@ -223,8 +237,8 @@ std::string intervalLines(const LoadedWorld& world, const WorldIntervals& interv
     line("stay", [&](JsonWriter& out) { writeStay(world, stay, out); });
   }
   line("summary", [&](JsonWriter& out) {
-    writeCounts("events", intervals.counts().ofContacts, out);
-    writeCounts("trigger_events", intervals.counts().ofTriggers, out);
+    writeEventCounts("events", intervals.counts().ofContacts, out);
+    writeEventCounts("trigger_events", intervals.counts().ofTriggers, out);
     out.field("intervals", intervals.contacts().size());
     out.field("stays", intervals.stays().size());
   });

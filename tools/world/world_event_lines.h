@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "assets/json_writer.h"
@@ -11,9 +12,12 @@
 
 namespace foretouch::tools {
 
-/// The first line.
+/// The first line. No end: of a service, which goes on, and tells of no triggers.
 [[nodiscard]] std::string eventsHeader(const LoadedWorld& world, std::int64_t fromUs,
-                                       std::int64_t untilUs);
+                                       std::optional<std::int64_t> untilUs);
+/// The line of one contact's event. `cause`: why it ends, if LeaveCause does not say it.
+[[nodiscard]] std::string eventLine(const LoadedWorld& world, const WorldEvent& event,
+                                    const char* cause = nullptr);
 /// A line per event, contacts and triggers in one order of time.
 [[nodiscard]] std::string eventLines(const LoadedWorld& world, const FollowedStretch& stretch);
 /// The last lines: one per interval, one per stay in a trigger, and the counts.
@@ -21,6 +25,8 @@ namespace foretouch::tools {
 
 /// The fields of an interval or a stay into an open object: as in its line.
 void writeInterval(const LoadedWorld& world, const ContactInterval& interval, JsonWriter& out);
+void writeEventCounts(const char* name, const std::int64_t (&counts)[kNumEventKinds],
+                      JsonWriter& out);
 void writeStay(const LoadedWorld& world, const TriggerStay& stay, JsonWriter& out);
 
 }  // namespace foretouch::tools

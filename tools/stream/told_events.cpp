@@ -1,0 +1,229 @@
+#include "tools/stream/told_events.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "articulated/quoted.h"
+#include "assets/json_writer.h"
+#include "lss/index.h"
+#include "tools/world/served_bodies.h"
+#include "tools/world/world_event_lines.h"
+#include "tools/world/world_results.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// Beyond so many bodies that the file does not know, forgets their names.
+constexpr std::size_t kMostOthers = kMaxToldBodies;
+
+/// A prop of which nothing is known.
+LoadedBody bodyOfOneLink() {
+  RawSkeleton raw;
+  raw.joints.push_back({"body", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()});
+  LoadedBody body;
+  body.shape.skeleton = Skeleton::build(raw).value();
+  return body;
+}
+
+template <typename WriteFields>
+void addLine(const char* name, std::string& text, const WriteFields& writeFields) {
+  JsonWriter out(text);
+  out.beginObject();
+  out.key(name);
+  out.beginObject();
+  writeFields(out);
+  out.endObject();
+  out.endObject();
+  text += "\n";
+}
+
+void writeInstantOf(const char* name, std::int64_t utimeUs, JsonWriter& out) {
+  out.key(name);
+  out.beginObject();
+  writeInstant("time", {utimeUs, 0.0}, out);
+  out.endObject();
+}
+
+bool isGone(const ToldEvent& told) {
+  return told.cause == ToldCause::BodyGone;
+}
+
+}  // namespace
+
+ToldEvents::ToldEvents(LoadedWorld world)
+    : world_(std::move(world)),
+      numOfFile_(world_.numBodies()),
+      numShapes_(world_.bodies.size()),
+      unheard_(bodyOfOneLink()) {}
+
+/// A body that the file does not have by this number. Beyond kMostOthers the last one stands for
+/// all others.
+BodyId ToldEvents::otherOf(BodyNumber number) {
+  const auto known = others_.find(number);
+  if (known != others_.end()) return known->second;
+  const bool isFull = others_.size() >= kMostOthers;
+  const std::size_t place = world_.bodies.size() - (isFull ? 1 : 0);
+  const auto id = static_cast<BodyId>(place);
+  if (isFull) {
+    world_.file.bodies[place].name = "another";
+    return id;
+  }
+  world_.file.bodies.emplace_back().name = fmt::format("#{}", number);
+  world_.bodies.push_back(unheard_);
+  others_.emplace(number, id);
+  return id;
+}
+
+bool ToldEvents::isOfFile(BodyNumber number) const {
+  return number >= 1 && static_cast<std::size_t>(number) <= numOfFile_ &&
+         others_.count(number) == 0;
+}
+
+void ToldEvents::take(const BodyMessage& message) {
+  const std::vector<FileBody>& bodies = world_.file.bodies;
+  const std::size_t place = static_cast<std::size_t>(message.body) - 1;
+  if (isOfFile(message.body) && bodies[place].name == message.shape) return;
+  const BodyId id = otherOf(message.body);
+  world_.file.bodies[slotOf(id)].name = fmt::format("{}#{}", message.shape, message.body);
+  for (std::size_t i = 0; i < numShapes_; ++i) {
+    if (bodies[i].name == message.shape) world_.bodies[slotOf(id)].shape = world_.bodies[i].shape;
+  }
+}
+
+BodyId ToldEvents::bodyOf(BodyNumber number) {
+  if (number < 0) return number;  // the scene, everybody
+  return isOfFile(number) ? static_cast<BodyId>(number - 1) : otherOf(number);
+}
+
+/// What a message says may be of no use: nothing is looked up that is not there.
+ContactSide ToldEvents::sideOf(const ContactSide& told) {
+  ContactSide side = told;
+  side.body = bodyOf(told.body);
+  if (side.body < 0) {
+    side.link = std::max(side.link, kEveryLink);
+  } else if (side.link >= world_.bodies[slotOf(side.body)].shape.skeleton.numJoints()) {
+    side.link = kEveryLink;
+  }
+  if (side.body == kEveryBody) return side;
+  const std::optional<Scene>& mesh = meshOf(world_, side.body);
+  if (side.triangle >= 0 && mesh && slotOf(side.triangle) >= mesh->numTriangles()) {
+    side.triangle = -1;
+  }
+  return side;
+}
+
+std::string ToldEvents::nameOf(BodyId body, LinkId link) const {
+  if (body == kStillScene) return "the scene";
+  if (body == kEveryBody) return "everybody";
+  const std::string name = link == kEveryLink ? "" : world_.linkNameOf(body, link);
+  return inQuotes(world_.nameOf(body)) + (name.empty() ? "" : " " + name);
+}
+
+std::string ToldEvents::textOf(const ToldEvent& told, const WorldEvent& event) const {
+  const std::string a = nameOf(event.a.body, event.a.link), b = nameOf(event.b.body, event.b.link);
+  const double lastedS = LoadedWorld::secondsOf(event.time) - LoadedWorld::secondsOf(event.since);
+  std::string text = fmt::format("{:.6f} s: ", LoadedWorld::secondsOf(event.time));
+  if (isGone(told)) return text + a + " is gone\n";
+  switch (event.kind) {
+    case EventKind::Enter:
+      text += fmt::format("{} touches {}, at {:.2f} m/s", a, b, event.approachSpeed);
+      break;
+    case EventKind::StartsInside: text += fmt::format("{} is in {}", a, b); break;
+    case EventKind::Leave: text += fmt::format("{} leaves {} after {:.3f} s", a, b, lastedS); break;
+    case EventKind::UnresolvedFrom:
+      text += fmt::format("whether {} touches {} is not known from here on ({})", a, b,
+                          toString(event.reason));
+      break;
+    case EventKind::UnresolvedTo:
+      text += fmt::format("whether {} touches {} is known again", a, b);
+      break;
+  }
+  return text + (event.isAssumed ? " (assumed)\n" : "\n");
+}
+
+void ToldEvents::tellUnknown(const UnknownPart& part, std::string& json) {
+  ContactSide of;
+  of.body = part.body;
+  of.link = part.link;
+  of.triangle = -1;
+  const ContactSide side = sideOf(of);
+  addLine("unknown", json, [&](JsonWriter& out) {
+    if (side.body == kEveryBody) {
+      out.field("everybody", true);
+    } else {
+      writeSide(world_, {side.body, side.link}, out);
+    }
+    out.field("reason", toString(part.reason));
+    writeInstantOf("from", part.fromUs, out);
+    writeInstantOf("to", part.toUs, out);
+  });
+}
+
+/// For people only where it changes.
+void ToldEvents::tellNews(const std::set<LinkOfBody>& unknown, std::string& text) {
+  for (const auto& [body, link] : unknown) {
+    if (unknown_.count({body, link}) == 0) text += nameOf(body, link) + " is not known now\n";
+  }
+  for (const auto& [body, link] : unknown_) {
+    if (unknown.count({body, link}) == 0) text += nameOf(body, link) + " is known again\n";
+  }
+}
+
+ToldEvents::Lines ToldEvents::take(const EventsMessage& message) {
+  Lines lines;
+  const bool isFirst = !sequence_.has_value();
+  if (isFirst) lines.json = eventsHeader(world_, message.fromUs, std::nullopt);
+  const bool isOther = timeline_ && *timeline_ != message.timeline;
+  const bool isMissing = sequence_ && message.sequence != *sequence_ + 1;
+  if (isMissing && message.fromUs > toUs_) {
+    lines.missing =
+        fmt::format("events between {:.6f} s and {:.6f} s did not arrive",
+                    LoadedWorld::secondsOf(toUs_), LoadedWorld::secondsOf(message.fromUs));
+    tellUnknown({kEveryBody, kEveryLink, UndecidedReason::Gap, toUs_, message.fromUs}, lines.json);
+  }
+  if (isOther) {
+    addLine("timeline", lines.json,
+            [&](JsonWriter& out) { writeInstantOf("from", message.fromUs, out); });
+    lines.text += "all contacts begin anew\n";
+  }
+  // Several messages of one window repeat what is unknown.
+  const bool isNewWindow = isFirst || isMissing || message.toUs != toUs_;
+  std::set<LinkOfBody> unknown;
+  for (const UnknownPart& part : message.unknown) {
+    if (isNewWindow) tellUnknown(part, lines.json);
+    ContactSide of;
+    of.body = part.body;
+    of.link = part.link;
+    const ContactSide side = sideOf(of);
+    if (part.toUs == message.toUs) unknown.insert({side.body, side.link});
+  }
+  tellNews(unknown, lines.text);
+  unknown_ = std::move(unknown);
+  for (const ToldEvent& told : message.events) {
+    WorldEvent event = told.event;
+    event.a = sideOf(event.a);
+    event.b = sideOf(event.b);
+    event.cause = told.cause == ToldCause::NotAsked ? LeaveCause::NotAsked : LeaveCause::Apart;
+    const std::optional<Scene>* const mesh =
+        event.b.body == kEveryBody ? nullptr : &meshOf(world_, event.b.body);
+    const bool hasObject = mesh != nullptr && *mesh && event.object >= 0 &&
+                           slotOf(event.object) < (*mesh)->objectNames().size();
+    if (!hasObject) event.object = -1;
+    lines.json += eventLine(world_, event, isGone(told) ? "body_gone" : nullptr);
+    lines.text += textOf(told, event);
+    ++counts_[static_cast<std::size_t>(event.kind)];
+  }
+  timeline_ = message.timeline;
+  sequence_ = message.sequence;
+  toUs_ = message.toUs;
+  return lines;
+}
+
+std::string ToldEvents::summary() const {
+  std::string text;
+  addLine("summary", text, [&](JsonWriter& out) { writeEventCounts("events", counts_, out); });
+  return text;
+}
+
+}  // namespace foretouch::tools
