@@ -15,10 +15,12 @@ bool LiveBody::hasFrameOf(std::int64_t utimeUs, const RigidPose& pose) const {
 }
 
 void LiveBody::ripen(std::int64_t nowUs) {
-  while (!announced.empty() && announced.front().sinceUs <= nowUs) {
-    const LiveChange& due = announced.front();
-    isAwaited = due.awaitsPoses();
-    if (due.isPresent) stateUs = std::max(stateUs, due.sinceUs);
+  while (!announced.empty()) {
+    const LiveChange& next = announced.front();
+    const bool isClosed = !isAwaited || saidUntilUs() < 0 || knownUntilUs >= next.sinceUs;
+    if (next.sinceUs + (isClosed ? 0 : kClosingUs) > nowUs) return;
+    isAwaited = next.awaitsPoses();
+    if (next.isPresent) stateUs = std::max(stateUs, next.sinceUs);
     announced.pop_front();
   }
 }

@@ -16,6 +16,10 @@
 
 namespace foretouch::internal {
 
+/// A pose of the very instant of a change, which is in the frame before it, is received at most so
+/// long after that, or not waited for: it ends what is known of the body there.
+inline constexpr std::int64_t kClosingUs = 30'000;
+
 /// Where a body is at an instant.
 struct LiveKnot {
   std::int64_t utimeUs = 0;

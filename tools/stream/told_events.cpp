@@ -170,10 +170,20 @@ void ToldEvents::tellNews(const std::set<LinkOfBody>& unknown, std::string& text
   }
 }
 
+/// Of the bodies of the file alone.
+std::string ToldEvents::headerFrom(std::int64_t fromUs) {
+  std::vector<LoadedBody> others(world_.bodies.begin() + static_cast<std::ptrdiff_t>(numShapes_),
+                                 world_.bodies.end());
+  world_.bodies.resize(numShapes_, unheard_);
+  std::string header = eventsHeader(world_, fromUs, std::nullopt);
+  for (LoadedBody& other : others) world_.bodies.push_back(std::move(other));
+  return header;
+}
+
 ToldEvents::Lines ToldEvents::take(const EventsMessage& message) {
   Lines lines;
   const bool isFirst = !sequence_.has_value();
-  if (isFirst) lines.json = eventsHeader(world_, message.fromUs, std::nullopt);
+  if (isFirst) lines.json = headerFrom(message.fromUs);
   const bool isOther = timeline_ && *timeline_ != message.timeline;
   const bool isMissing = sequence_ && message.sequence != *sequence_ + 1;
   if (isMissing && message.fromUs > toUs_) {

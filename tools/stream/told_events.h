@@ -35,6 +35,7 @@ class ToldEvents {
 
  private:
   using LinkOfBody = std::pair<BodyId, LinkId>;
+  [[nodiscard]] std::string headerFrom(std::int64_t fromUs);
   [[nodiscard]] bool isOfFile(BodyNumber number) const;
   [[nodiscard]] BodyId otherOf(BodyNumber number);
   [[nodiscard]] BodyId bodyOf(BodyNumber number);

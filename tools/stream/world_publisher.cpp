@@ -283,6 +283,7 @@ Result<Done> WorldRun::end() {
     message.utimeUs = message.sendUtimeUs = pace_.utimeUs();
     message.isPresent = false;
     message.shape = world_.nameOf(body);
+    message.shapeHash = shapeHash(setup_.shapes[i]);
     message.sinceUs = std::min(message.utimeUs, endUs()) + 1;
     ++report_.states;
     FORETOUCH_CHECK(tell(options_.channels.body, message));
