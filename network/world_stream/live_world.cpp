@@ -16,13 +16,21 @@ Pose poseOf(const RigidPose& rigid) {
   return {{rigid.rotation}, {rigid.translation}};
 }
 
-RigidPose rigidPoseOf(const Pose& pose) {
-  return {pose.rotations[0], pose.translations[0]};
-}
-
 /// The world knows nothing of its place at `untilUs`.
 bool isShort(const LiveBody& body, std::int64_t untilUs) {
   return body.slot && !body.isHeldFast && body.toldUntilUs < untilUs;
+}
+
+/// Whether a change after `untilUs` must be told now: no pose comes before it, as it is due or one
+/// behind it is there, and one is needed; or a pose behind it was told as if there were no change.
+bool isNext(const LiveBody& body, const LiveChange& change, std::int64_t untilUs) {
+  if (!body.slot || body.isHeldFast) return false;
+  if (body.toldUntilUs > change.sinceUs) return true;
+  return isShort(body, untilUs) && (!body.knots.empty() || body.stateUs >= change.sinceUs);
+}
+
+RigidPose rigidPoseOf(const Pose& pose) {
+  return {pose.rotations[0], pose.translations[0]};
 }
 
 }  // namespace
@@ -64,9 +72,7 @@ void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, i
                           (!hasKnot || body.changes.front().sinceUs < body.knots.front().utimeUs);
     if (isChange) {
       LiveChange& change = body.changes.front();
-      // No pose comes before a change that is due, nor before one with a pose behind it.
-      const bool isNext = hasKnot || body.stateUs >= change.sinceUs;
-      if (change.sinceUs > untilUs && !(needsMore && isNext)) return;
+      if (change.sinceUs > untilUs && !isNext(body, change, untilUs)) return;
       if (!takeChange(bodies, body, change, untilUs, depth) && !isOver(body, untilUs)) {
         return markSince(body, change, untilUs);
       }
@@ -197,7 +203,7 @@ bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, s
   tell(bodies, carrier->second, untilUs, depth + 1);
   if (!carrier->second.slot) return false;
   change.sinceUs = std::max(change.sinceUs, carrier->second.beginUs);
-  if (change.sinceUs > untilUs && !isShort(body, untilUs)) return false;
+  if (change.sinceUs > untilUs && !isNext(body, change, untilUs)) return false;
   holdUntil(body, change.sinceUs);
   const bool isNew = !body.slot;
   if (!addTo(body)) return true;

@@ -126,13 +126,13 @@ void WorldRoster::change(LiveBody& body, const BodyMessage& message) {
   const bool isLate = change.sinceUs < floorUs;
   // Where a body without a carrier was long ago says nothing of where it is.
   if (isLate && isFirst && change.isPresent && change.carrier == kNoBody) return;
-  if (isLate) {
-    ++counts_.lateChanges;
-    body.addUnknown(kEveryLink, UndecidedReason::Gap, change.sinceUs, floorUs);
-    change.sinceUs = floorUs;
-  }
+  if (isLate) ++counts_.lateChanges;
+  change.sinceUs = std::max(change.sinceUs, floorUs);
   if (!body.changes.empty()) {
     change.sinceUs = std::max(change.sinceUs, body.changes.back().sinceUs + 1);
+  }
+  if (change.sinceUs > message.sinceUs) {
+    body.addUnknown(kEveryLink, UndecidedReason::Gap, message.sinceUs, change.sinceUs);
   }
   body.changes.push_back(change);
   // Until then its poses go on as before, and are waited for.
