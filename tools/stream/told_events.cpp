@@ -100,17 +100,22 @@ BodyId ToldEvents::bodyOf(BodyNumber number) {
 ContactSide ToldEvents::sideOf(const ContactSide& told) {
   ContactSide side = told;
   side.body = bodyOf(told.body);
-  if (side.body < 0) {
-    side.link = std::max(side.link, kEveryLink);
-  } else if (side.link >= world_.bodies[slotOf(side.body)].shape.skeleton.numJoints()) {
-    side.link = kEveryLink;
-  }
+  const LinkId links =
+      side.body < 0 ? 0 : world_.bodies[slotOf(side.body)].shape.skeleton.numJoints();
+  if (side.link < 0 || side.link >= links) side.link = kEveryLink;
   if (side.body == kEveryBody) return side;
   const std::optional<Scene>& mesh = meshOf(world_, side.body);
   if (side.triangle >= 0 && mesh && slotOf(side.triangle) >= mesh->numTriangles()) {
     side.triangle = -1;
   }
   return side;
+}
+
+/// Nothing is looked up of a side that is no mesh.
+bool ToldEvents::hasObject(BodyId body, ObjectId object) const {
+  if (body == kEveryBody || object < 0) return true;
+  const std::optional<Scene>& mesh = meshOf(world_, body);
+  return !mesh || slotOf(object) < mesh->objectNames().size();
 }
 
 std::string ToldEvents::nameOf(BodyId body, LinkId link) const {
@@ -215,11 +220,9 @@ ToldEvents::Lines ToldEvents::take(const EventsMessage& message) {
     event.a = sideOf(event.a);
     event.b = sideOf(event.b);
     event.cause = told.cause == ToldCause::NotAsked ? LeaveCause::NotAsked : LeaveCause::Apart;
-    const std::optional<Scene>* const mesh =
-        event.b.body == kEveryBody ? nullptr : &meshOf(world_, event.b.body);
-    const bool hasObject = mesh != nullptr && *mesh && event.object >= 0 &&
-                           slotOf(event.object) < (*mesh)->objectNames().size();
-    if (!hasObject) event.object = -1;
+    if (!hasObject(event.a.body, event.object) || !hasObject(event.b.body, event.object)) {
+      event.object = -1;
+    }
     lines.json += eventLine(world_, event, isGone(told) ? "body_gone" : nullptr);
     lines.text += textOf(told, event);
     ++counts_[static_cast<std::size_t>(event.kind)];

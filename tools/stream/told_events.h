@@ -40,6 +40,7 @@ class ToldEvents {
   [[nodiscard]] BodyId otherOf(BodyNumber number);
   [[nodiscard]] BodyId bodyOf(BodyNumber number);
   [[nodiscard]] ContactSide sideOf(const ContactSide& told);
+  [[nodiscard]] bool hasObject(BodyId body, ObjectId object) const;
   [[nodiscard]] std::string nameOf(BodyId body, LinkId link) const;
   [[nodiscard]] std::string textOf(const ToldEvent& told, const WorldEvent& event) const;
   void tellUnknown(const UnknownPart& part, std::string& json);

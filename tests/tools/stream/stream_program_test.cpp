@@ -1,7 +1,9 @@
 // tests/tools/stream/stream_program_test.cpp: sender, service and listener as programs of their
 // own, over real UDP multicast in a network namespace (tests/network/in_namespace.sh), and LCM's
 // own tools beside them: the stream answers what a replay of the clip answers, byte for byte.
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <functional>
@@ -234,6 +236,55 @@ TEST_F(StreamPrograms, ShowASolidAvatarThatItsJournalRepeats) {
   const Ended without = again({});
   EXPECT_EQ(without.exitCode, 0) << without.out << without.err;
   EXPECT_TRUE(holds(without.out, "the log also has " + all + " shown poses")) << without.out;
+}
+
+// A world file sent, served and heard is told as it is replayed.
+TEST_F(StreamPrograms, TellWhatHappensInAMovingWorld) {
+  const std::string world = std::string(FORETOUCH_EXAMPLE_FOLDER) + "/stage.toml";
+  const ProgramRun serving({"serve", "--world", world, "--url", kUrl});
+  ASSERT_TRUE(waitFor([&] { return holds(serving.outSoFar(), "ready\n"); })) << serving.errSoFar();
+  ProgramRun listening(
+      {"listen", "--world", world, "--json", "--status", "--url", kUrl, "--timeout", "3"});
+  ASSERT_TRUE(waitFor([&] { return holds(listening.outSoFar(), "\"status\""); }))
+      << listening.errSoFar();
+  ASSERT_EQ(runForetouch({"publish", "--world", world, "--url", kUrl}).exitCode, 0);
+  const Ended heard = listening.ended();
+  EXPECT_EQ(heard.exitCode, 0) << heard.err;
+  std::vector<json> told;
+  json header;
+  for (const std::string& line : linesOf(heard.out)) {
+    json one = json::parse(line);
+    if (one.count("format") != 0) header = one;
+    if (one.count("event") != 0) told.push_back(std::move(one));
+  }
+  ASSERT_FALSE(header.is_null());
+  EXPECT_EQ(header["format"], "foretouch-events");
+  EXPECT_EQ(header["bodies"].size(), 4U);
+
+  const std::string events = folder_ / "events.jsonl";
+  ASSERT_EQ(
+      runForetouch({"world", "replay", world, "-o", folder_ / "world.jsonl", "--events", events})
+          .exitCode,
+      0);
+  std::vector<json> replayed;
+  for (const std::string& line : linesOf(contentOf(events))) {
+    json one = json::parse(line);
+    if (one.count("event") != 0 && one.count("trigger") == 0) replayed.push_back(std::move(one));
+  }
+  // The network may lose something, and nobody answers beyond the last receipt.
+  ASSERT_GT(told.size(), replayed.size() * 8 / 10);
+  const double begin = told.front()["time"].get<double>() - replayed.front()["time"].get<double>();
+  std::size_t same = 0;
+  for (const json& one : told) {
+    const bool isThere = std::any_of(replayed.begin(), replayed.end(), [&](const json& other) {
+      return one["event"] == other["event"] &&
+             one["a"].value("link", "") == other["a"].value("link", "") &&
+             one["a"]["body"] == other["a"]["body"] &&
+             std::abs(one["time"].get<double>() - begin - other["time"].get<double>()) < 0.002;
+    });
+    same += isThere ? 1 : 0;
+  }
+  EXPECT_GT(same, told.size() * 9 / 10);
 }
 
 TEST_F(StreamPrograms, AreRecordedByLcmLogger) {

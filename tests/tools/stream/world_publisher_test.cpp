@@ -207,7 +207,7 @@ TEST(WorldPublisher, WritesALogOrSaysWhyNot) {
   const Ended written = runForetouch({"publish", "--world", path, "-o", log, "--start", "1000000"});
   ASSERT_EQ(written.exitCode, 0) << written.err;
   EXPECT_TRUE(holds(written.out, "states of")) << written.out;
-  const Ended seen = runForetouch({"log", log});
+  const Ended seen = runForetouch({"log", "info", log});
   EXPECT_EQ(seen.exitCode, 0) << seen.err;
   EXPECT_TRUE(holds(seen.out, "FORETOUCH_RIGID")) << seen.out;
   const auto refused = [&](const std::vector<std::string>& more, const std::string& why) {
