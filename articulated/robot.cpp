@@ -163,6 +163,7 @@ void Robot::boundRounding() {
     sum = std::max(sum, shares[i]);
   }
   poseRounding_ = 2.0 * sum * farthest;
+  reach_ = farthest;
 }
 
 Result<Robot> Robot::withTool(LinkId link, const std::string& name, std::vector<Lss> lss) const {

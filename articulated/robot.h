@@ -99,6 +99,8 @@ class Robot {
   /// on the shorter arc between two of them that lie at most kMostTurn apart, whatever the
   /// configuration. Proof: articulated/robot.md.
   [[nodiscard]] double poseRounding() const { return poseRounding_; }
+  /// No point of an axis of its LSS is ever farther from the origin of W (m).
+  [[nodiscard]] double reach() const { return reach_; }
   /// Radians. Below a half turn by enough that the shorter arc is the joint's own.
   static constexpr double kMostTurn = 3.0;
 
@@ -113,7 +115,7 @@ class Robot {
   std::vector<RobotJoint> joints_;  // axes are unit
   std::vector<RobotCoordinate> coordinates_;
   std::vector<std::int32_t> firstCoordinate_;  // per joint: its own or that of whom it follows
-  double poseRounding_ = 0.0;
+  double poseRounding_ = 0.0, reach_ = 0.0;
 };
 
 }  // namespace foretouch

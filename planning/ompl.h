@@ -14,6 +14,7 @@
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/StateValidityChecker.h>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,10 @@ class OmplEdges {
     return false;
   }
 
+  /// As EdgeQuery::place(): between plans, not while one is made.
+  Result<Done> place(std::size_t prop, const std::optional<RigidPose>& X_WP) {
+    return edges_.place(prop, X_WP);
+  }
   [[nodiscard]] const EdgeQuery& query() const { return edges_; }
   /// Asked so far; OMPL's own counters of motions are not for several threads and stay 0.
   [[nodiscard]] std::uint64_t numEdges() const { return numEdges_.load(); }

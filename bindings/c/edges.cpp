@@ -1,4 +1,5 @@
 // bindings/c/edges.cpp: ft_edges.
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,12 @@ namespace {
 
 /// Sixteen million edges of seven joints take two gigabytes.
 constexpr std::size_t kMaxEdges = std::size_t{1} << 24;
+constexpr std::size_t kMaxProps = 65536;
+
+RigidPose rigidPoseOf(const double* rotation, const double* translation) {
+  return {Quaternion(rotation[0], rotation[1], rotation[2], rotation[3]),
+          Eigen::Vector3d(translation[0], translation[1], translation[2])};
+}
 
 ft_edge_options defaultEdgeOptions() {
   const EdgeOptions defaults;
@@ -22,6 +29,25 @@ ft_edge_options defaultEdgeOptions() {
   options.tolerance = defaults.tolerance;
   options.clearance = defaults.clearance;
   return options;
+}
+
+ft_status readProps(const ft_edge_options& given, EdgeOptions& options) {
+  if (const auto s = neededArray(given.props, given.prop_count, kMaxProps, "props"); s != FT_OK) {
+    return s;
+  }
+  for (std::size_t i = 0; i < given.prop_count; ++i) {
+    const ft_edge_prop& told = given.props[i];
+    if (const auto s = checked(told.scene); s != FT_OK) return s;
+    EdgeProp prop{told.scene->scene, std::nullopt, {}};
+    if (told.is_absent == 0) prop.X_WP = rigidPoseOf(told.rotation, told.translation);
+    const auto s = neededArray(told.ignored, told.ignored_count, kMaxTriangles, "ignored");
+    if (s != FT_OK) return s;
+    for (std::size_t k = 0; k < told.ignored_count; ++k) {
+      prop.ignored.push_back({told.ignored[k].link, told.ignored[k].object});
+    }
+    options.props.push_back(std::move(prop));
+  }
+  return FT_OK;
 }
 
 ft_status readEdgeOptions(const ft_edge_options& given, EdgeOptions& options) {
@@ -36,7 +62,7 @@ ft_status readEdgeOptions(const ft_edge_options& given, EdgeOptions& options) {
   for (std::size_t i = 0; i < given.ignored_count; ++i) {
     options.ignored.push_back({given.ignored[i].link, given.ignored[i].object});
   }
-  return FT_OK;
+  return readProps(given, options);
 }
 
 ft_edge edgeOf(const EdgeAnswer& answer) {
@@ -57,6 +83,23 @@ ft_status checkedCounts(const ft_edges& edges, std::size_t count, std::size_t co
   return failure(FT_ERROR_MISMATCH, kNoIndex,
                  "coordinate_count: expected %zu, as the robot has, found %zu", expected,
                  coordinates);
+}
+
+/// An edge of the last list that is not clear.
+ft_status checkedMet(const ft_edges* edges, std::size_t index) {
+  if (const auto s = checked(edges); s != FT_OK) return s;
+  if (!edges->hasAnswers) {
+    return failure(FT_ERROR_NO_STEP, kNoIndex, "expected edges to be answered before");
+  }
+  if (index >= edges->answers.size()) {
+    return failure(FT_ERROR_OUT_OF_RANGE, static_cast<std::int64_t>(index),
+                   "index: expected less than %zu, found %zu", edges->answers.size(), index);
+  }
+  if (edges->answers[index].verdict == Verdict::Clear) {
+    return failure(FT_ERROR_MISMATCH, static_cast<std::int64_t>(index),
+                   "expected an edge that is not clear");
+  }
+  return FT_OK;
 }
 
 }  // namespace
@@ -83,8 +126,15 @@ ft_status ft_edges_create(const ft_robot* robot, const ft_scene* scene,
     if (const auto s = readEdgeOptions(known, asked); s != FT_OK) return s;
     FORETOUCH_TRY_OR(failure, auto pool, EdgePool::start(known.threads));
     FORETOUCH_TRY_OR(failure, auto question, EdgeQuery::build(robot->robot, scene->scene, asked));
-    *edges = new ft_edges{ft_edges::kMark, scene->scene, std::move(question),
-                          std::move(pool), {},           false};
+    std::vector<Scene> props;
+    for (const EdgeProp& prop : asked.props) props.push_back(prop.scene);
+    *edges = new ft_edges{ft_edges::kMark,
+                          scene->scene,
+                          std::move(props),
+                          std::move(question),
+                          std::move(pool),
+                          {},
+                          false};
     return FT_OK;
   });
 }
@@ -124,28 +174,41 @@ ft_status ft_edges_answer_path(ft_edges* edges, const double* q, size_t count,
   });
 }
 
+ft_status ft_edges_place(ft_edges* edges, size_t prop, const double* rotation,
+                         const double* translation) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(edges); s != FT_OK) return s;
+    std::optional<RigidPose> place;
+    if (rotation != nullptr) {
+      if (const auto s = neededArray(translation, 3, 3, "translation"); s != FT_OK) return s;
+      place = rigidPoseOf(rotation, translation);
+    }
+    FORETOUCH_CHECK_OR(failure, edges->question.place(prop, place));
+    return FT_OK;
+  });
+}
+
 ft_status ft_edges_contact(const ft_edges* edges, size_t index, ft_contact* contact,
                            ft_other_link* other) {
   return guarded(__func__, [&]() -> ft_status {
-    if (const auto s = checked(edges); s != FT_OK) return s;
-    if (!edges->hasAnswers) {
-      return failure(FT_ERROR_NO_STEP, kNoIndex, "expected edges to be answered before");
-    }
-    if (index >= edges->answers.size()) {
-      return failure(FT_ERROR_OUT_OF_RANGE, static_cast<std::int64_t>(index),
-                     "index: expected less than %zu, found %zu", edges->answers.size(), index);
-    }
+    if (const auto s = checkedMet(edges, index); s != FT_OK) return s;
     const EdgeAnswer& answer = edges->answers[index];
-    if (answer.verdict == Verdict::Clear) {
-      return failure(FT_ERROR_MISMATCH, static_cast<std::int64_t>(index),
-                     "expected an edge that is not clear");
-    }
     const PairContact& met = answer.contact;
     if (other != nullptr) *other = {met.other, met.otherLss};
     const bool isScene = met.other < 0;
     const LinkContact& link = met;
+    const Scene& scene = answer.prop < 0 ? edges->scene : edges->props[slotOf(answer.prop)];
     return writeStruct(contact, "ft_contact",
-                       isScene ? contactOf(link, edges->scene) : contactOf(met, edges->scene));
+                       isScene ? contactOf(link, scene) : contactOf(met, scene));
+  });
+}
+
+ft_status ft_edges_contact_prop(const ft_edges* edges, size_t index, int32_t* prop) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = neededArray(prop, 1, 1, "prop"); s != FT_OK) return s;
+    if (const auto s = checkedMet(edges, index); s != FT_OK) return s;
+    *prop = edges->answers[index].prop;
+    return FT_OK;
   });
 }
 

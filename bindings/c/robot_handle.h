@@ -24,6 +24,7 @@ struct ft_edges {
   static constexpr const char* kName = "edges";
   foretouch::c::Mark mark = kMark;
   foretouch::Scene scene;
+  std::vector<foretouch::Scene> props;  // their scenes
   foretouch::EdgeQuery question;
   foretouch::EdgePool pool;
   std::vector<foretouch::EdgeAnswer> answers;  // of the last list; of a path, its one

@@ -29,12 +29,42 @@ Result<PairRules> grownRules(const Avatar& avatar, const PairRules& rules, doubl
   return PairRules::of(avatar, rules.leftOut(), std::move(radii));
 }
 
-/// Keeps the earlier one; of equal ones, the first.
-void take(const PairContact& contact, EdgeAnswer& answer) {
-  if (answer.verdict != Verdict::Clear && answer.contact.freeUntil <= contact.freeUntil) return;
+/// Of poses seen from a prop, in parts of the distance: articulated/robot.md 3.
+constexpr double kPropRounding = 0x1p-43;
+
+/// Keeps the earlier one; of equal ones, the first. False: that is not this one.
+bool take(const PairContact& contact, EdgeAnswer& answer) {
+  if (answer.verdict != Verdict::Clear && answer.contact.freeUntil <= contact.freeUntil) {
+    return false;
+  }
   answer.contact = contact;
   answer.verdict = contact.verdict;
   answer.reason = contact.reason;
+  return true;
+}
+
+/// What is not looked at is so because another link meets something earlier, which is taken.
+bool isMet(const LinkContact& contact) {
+  return contact.verdict != Verdict::Clear && contact.reason != UndecidedReason::AfterFirst;
+}
+
+/// The same pose, its roots as seen from the frame P.
+void seenFrom(const RigidPose& X_WP, const Skeleton& skeleton, const Pose& pose, Pose& seen) {
+  seen = pose;
+  const Quaternion R_PW = X_WP.rotation.conjugate();
+  for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
+    if (skeleton.parent(joint) != kNoParent) continue;
+    Quaternion& rotation = seen.rotations[slotOf(joint)];
+    Eigen::Vector3d& translation = seen.translations[slotOf(joint)];
+    rotation = (R_PW * rotation).normalized();
+    translation = R_PW * (translation - X_WP.translation);
+  }
+}
+
+void moveToWorld(const RigidPose& X_WP, LinkContact& contact) {
+  contact.p_WScene = X_WP.rotation * contact.p_WScene + X_WP.translation;
+  contact.p_WLink = X_WP.rotation * contact.p_WLink + X_WP.translation;
+  contact.nhat_SL_W = X_WP.rotation * contact.nhat_SL_W;
 }
 
 }  // namespace
@@ -52,6 +82,7 @@ Result<EdgeQuery> EdgeQuery::build(const Robot& robot, const Scene& scene,
   asked.scope = Scope::FirstOfAvatar;
   FORETOUCH_TRY(const auto whole, grown(robot.avatar(), options.clearance + robot.poseRounding()));
   FORETOUCH_TRY(edges.scene_, Query::build(whole, scene, asked));
+  FORETOUCH_CHECK(edges.addProps(options));
   if (!options.self) return edges;
   if (options.self->avatarIdentity() != robot.avatar().identity()) {
     return Error::in("self", ErrorCode::Mismatch, "expected the pair rules of the robot's avatar");
@@ -65,6 +96,50 @@ Result<EdgeQuery> EdgeQuery::build(const Robot& robot, const Scene& scene,
   for (LinkId link = 0; link < own.numLinks(); ++link) asked.ignored.push_back({link});
   FORETOUCH_TRY(edges.self_, Query::build(own, scene, asked));
   return edges;
+}
+
+/// A robot that is a little thicker still holds all that its poses, seen from a prop, are off by.
+Result<Done> EdgeQuery::addProps(const EdgeOptions& options) {
+  if (options.props.empty()) return Done{};
+  const double apart = robot_->reach() + 2.0 * kMostPropDistance;  // along all three axes
+  const double growth = options.clearance + robot_->poseRounding() + kPropRounding * apart;
+  FORETOUCH_TRY(const auto whole, grown(robot_->avatar(), growth));
+  QueryOptions asked;
+  asked.tolerance = options.tolerance;
+  asked.scope = Scope::FirstOfAvatar;
+  for (std::size_t i = 0; i < options.props.size(); ++i) {
+    const auto ofProp = [i](Error error) {
+      error.index = static_cast<std::int64_t>(i);
+      return error;
+    };
+    const EdgeProp& prop = options.props[i];
+    asked.ignored = prop.ignored;
+    FORETOUCH_TRY_OR(ofProp, auto query, Query::build(whole, prop.scene, asked));
+    props_.push_back({std::move(query), std::nullopt});
+    FORETOUCH_CHECK(place(i, prop.X_WP));
+  }
+  return Done{};
+}
+
+Result<Done> EdgeQuery::place(std::size_t prop, const std::optional<RigidPose>& X_WP) {
+  const auto refused = [prop](ErrorCode code, const char* what) {
+    Error error = Error::in("prop", code, what);
+    error.index = static_cast<std::int64_t>(prop);
+    return error;
+  };
+  if (prop >= props_.size()) return refused(ErrorCode::OutOfRange, "expected a prop of the query");
+  if (!X_WP) {
+    props_[prop].X_WP.reset();
+    return Done{};
+  }
+  const auto rotation = unitQuaternion(X_WP->rotation);
+  if (!rotation) return refused(ErrorCode::OutOfRange, "expected a unit rotation");
+  // Not so of a number that is none.
+  if (!(X_WP->translation.array().abs() <= kMostPropDistance).all()) {
+    return refused(ErrorCode::OutOfRange, "expected a place within 10 km of the origin");
+  }
+  props_[prop].X_WP = RigidPose{*rotation, X_WP->translation};
+  return Done{};
 }
 
 Result<EdgeAnswer> EdgeQuery::answer(const std::vector<double>& q0, const std::vector<double>& q1,
@@ -104,9 +179,7 @@ void EdgeQuery::answerPart(EdgeScratch& scratch, EdgeAnswer& answer, int part, i
   scratch.motion.assign(robot_->avatar().skeleton(), scratch.from, scratch.to);
   scene_->answer(scratch.motion, scratch.query, scratch.step);
   for (const LinkContact& contact : scratch.step.links) {
-    // What is not looked at is so because another link meets something earlier, which is taken.
-    if (contact.verdict == Verdict::Clear || contact.reason == UndecidedReason::AfterFirst)
-      continue;
+    if (!isMet(contact)) continue;
     PairContact met;
     static_cast<LinkContact&>(met) = contact;
     take(met, answer);
@@ -120,6 +193,7 @@ void EdgeQuery::answerPart(EdgeScratch& scratch, EdgeAnswer& answer, int part, i
       take(unknown, answer);
     }
   }
+  answerProps(scratch, answer);
   if (answer.verdict == Verdict::Clear) return;
   // Rounded down, but for the edge's own begin: dividing by a power of two is exact.
   const double inParts = part + answer.contact.freeUntil;
@@ -128,6 +202,27 @@ void EdgeQuery::answerPart(EdgeScratch& scratch, EdgeAnswer& answer, int part, i
   // The next part begins where this one has been proven free: it may be in contact there.
   if (answer.verdict == Verdict::StartsInContact && part > 0) answer.verdict = Verdict::Contact;
   answer.contact.verdict = answer.verdict;
+}
+
+/// Each prop is asked about the robot's motion as seen from it.
+void EdgeQuery::answerProps(EdgeScratch& scratch, EdgeAnswer& answer) const {
+  const Skeleton& skeleton = robot_->avatar().skeleton();
+  for (std::size_t i = 0; i < props_.size(); ++i) {
+    const Prop& prop = props_[i];
+    if (!prop.X_WP) continue;
+    if (answer.verdict != Verdict::Clear && answer.contact.freeUntil == 0.0) return;
+    seenFrom(*prop.X_WP, skeleton, scratch.from, scratch.propFrom);
+    seenFrom(*prop.X_WP, skeleton, scratch.to, scratch.propTo);
+    scratch.motion.assign(skeleton, scratch.propFrom, scratch.propTo);
+    prop.query.answer(scratch.motion, scratch.query, scratch.step);
+    for (const LinkContact& contact : scratch.step.links) {
+      if (!isMet(contact)) continue;
+      PairContact met;
+      static_cast<LinkContact&>(met) = contact;
+      moveToWorld(*prop.X_WP, met);
+      if (take(met, answer)) answer.prop = static_cast<std::int32_t>(i);
+    }
+  }
 }
 
 }  // namespace foretouch

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "articulated/motion.h"
 #include "articulated/pair_rules.h"
+#include "articulated/pose.h"
 #include "articulated/result.h"
 #include "articulated/robot.h"
 #include "middleware/contact.h"
@@ -20,6 +22,13 @@
 
 namespace foretouch {
 
+/// A rigid thing in the way whose place may change between questions: EdgeQuery::place().
+struct EdgeProp {
+  Scene scene;                                  ///< In the prop's own frame P.
+  std::optional<RigidPose> X_WP = RigidPose{};  ///< Nothing: it is not there.
+  std::vector<IgnoredPair> ignored;             ///< Links and objects of this prop's scene.
+};
+
 struct EdgeOptions {
   double tolerance = kDefaultTolerance;  ///< Metres, as QueryOptions::tolerance.
   /// Clear proves that the robot keeps more than this (m, >= 0) away from the scene, and that asked
@@ -28,6 +37,8 @@ struct EdgeOptions {
   /// Own links: of the robot's avatar; nothing: not asked.
   std::optional<PairRules> self;
   std::vector<IgnoredPair> ignored;
+  /// Obstacles beside the scene, each with a place of its own.
+  std::vector<EdgeProp> props;
 };
 
 struct EdgeAnswer {
@@ -39,6 +50,8 @@ struct EdgeAnswer {
   /// What is met first; `other` is -1 for the scene. Its toi is the edge's; separation, penetration
   /// and witness points are those of the robot grown by the clearance. Nothing if Clear.
   PairContact contact;
+  /// The prop that is met, whose scene has the contact's triangle; -1: none.
+  std::int32_t prop = -1;
   /// An end outside the joints' limits, which the verdict does not look at.
   LimitBreach breachAt0, breachAt1;
 
@@ -54,6 +67,7 @@ struct EdgeScratch {
   ChainMotion motion;
   StepContacts step;
   Pose from, to;
+  Pose propFrom, propTo;  ///< The same as seen from a prop.
   std::vector<double> q;
 };
 
@@ -61,9 +75,18 @@ struct EdgeScratch {
 /// scratch of its own.
 class EdgeQuery {
  public:
-  /// Errors: as Query::build(), and a clearance that is negative or not finite.
+  /// Errors: as Query::build(), also of a prop and its scene; a clearance that is negative or not
+  /// finite; those of place() (Error::index is the prop).
   static Result<EdgeQuery> build(const Robot& robot, const Scene& scene,
                                  const EdgeOptions& options = {});
+
+  /// Moves a prop; nothing is built anew. A copy of this query has places of its own. Not while
+  /// another thread asks. Errors: no such prop; a rotation that is not unit, or a place that is not
+  /// finite or beyond kMostPropDistance. Then it is where it was.
+  Result<Done> place(std::size_t prop, const std::optional<RigidPose>& X_WP);
+  /// Of a prop from the origin of W, along each axis (m): its own frame is known to rounding there.
+  static constexpr double kMostPropDistance = 1e4;
+  [[nodiscard]] std::size_t numProps() const { return props_.size(); }
 
   [[nodiscard]] const Robot& robot() const { return *robot_; }
   /// Errors: as Robot::checked(). `count`: of numbers in each of q0 and q1. An edge from q to q
@@ -78,10 +101,17 @@ class EdgeQuery {
   static constexpr int kMostParts = 4096;
 
  private:
+  struct Prop {
+    Query query;
+    std::optional<RigidPose> X_WP;  // its rotation normalised
+  };
   EdgeQuery() = default;
+  Result<Done> addProps(const EdgeOptions& options);
   void answerPart(EdgeScratch& scratch, EdgeAnswer& answer, int part, int parts) const;
+  void answerProps(EdgeScratch& scratch, EdgeAnswer& answer) const;
 
   std::shared_ptr<const Robot> robot_;
+  std::vector<Prop> props_;
   std::optional<Query> scene_, self_;  // own links have other radii with a clearance
 };
 

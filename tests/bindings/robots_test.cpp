@@ -238,5 +238,68 @@ TEST_F(CRobots, AreReadFromUrdf) {
   EXPECT_EQ(ft_robot_create_from_urdf("absent.urdf", nullptr, &made), FT_ERROR_FILE_NOT_FOUND);
 }
 
+TEST_F(CRobots, MeetPropsWhereTheyArePlaced) {
+  RawScene wire;
+  wire.objectNames = {"wire"};
+  std::vector<oracle::Triangle> judged;
+  test::addWire(0.0, 0.0, wire, judged);
+  const auto scene = test::makeScene(wire);
+  ft_edge_prop prop{};
+  prop.scene = scene.get();
+  prop.rotation[0] = 1.0;
+  prop.translation[0] = 1.0;
+  ft_edge_options options;
+  ASSERT_EQ(ft_edge_options_init(&options, sizeof options), FT_OK);
+  options.props = &prop;
+  options.prop_count = 1;
+  const auto asked = edges(&options);
+  const double q0[3] = {-0.3, 0, 0}, q1[3] = {0.3, 0, 0};
+  ft_edge answer{};
+  answer.size = sizeof answer;
+  const auto verdict = [&] {
+    EXPECT_EQ(ft_edges_answer(asked.get(), q0, q1, 1, 3, &answer), FT_OK) << ft_last_error();
+    return answer.verdict;
+  };
+  ASSERT_EQ(verdict(), FT_VERDICT_CONTACT);
+  std::int32_t met = -2;
+  ASSERT_EQ(ft_edges_contact_prop(asked.get(), 0, &met), FT_OK) << ft_last_error();
+  EXPECT_EQ(met, 0);
+  ft_contact contact{};
+  contact.size = sizeof contact;
+  ASSERT_EQ(ft_edges_contact(asked.get(), 0, &contact, nullptr), FT_OK) << ft_last_error();
+  EXPECT_EQ(contact.triangle, 0);
+  EXPECT_EQ(contact.object, 0);
+  EXPECT_NEAR(contact.point_scene[0], 1.0, 0.01);
+  // As C++ does.
+  EdgeOptions same;
+  same.props = {{Scene::build(wire).value(), RigidPose{Quaternion::Identity(), {1, 0, 0}}, {}}};
+  const auto cpp = EdgeQuery::build(known_, Scene::build(raw_).value(), same).value();
+  EdgeScratch scratch;
+  EXPECT_EQ(answer.free_until, cpp.answer(q0, q1, 3, scratch).value().freeUntil);
+  // It is moved away, back, and taken away.
+  const double straight[4] = {1, 0, 0, 0}, away[3] = {3, 0, 0}, back[3] = {1, 0, 0};
+  ASSERT_EQ(ft_edges_place(asked.get(), 0, straight, away), FT_OK) << ft_last_error();
+  EXPECT_EQ(verdict(), FT_VERDICT_CLEAR);
+  EXPECT_EQ(ft_edges_contact_prop(asked.get(), 0, &met), FT_ERROR_MISMATCH);
+  ASSERT_EQ(ft_edges_place(asked.get(), 0, straight, back), FT_OK);
+  EXPECT_EQ(verdict(), FT_VERDICT_CONTACT);
+  ASSERT_EQ(ft_edges_place(asked.get(), 0, nullptr, nullptr), FT_OK);
+  EXPECT_EQ(verdict(), FT_VERDICT_CLEAR);
+  // Refused.
+  const double skewed[4] = {2, 0, 0, 0}, far[3] = {2e4, 0, 0};
+  EXPECT_EQ(ft_edges_place(asked.get(), 1, straight, back), FT_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(ft_edges_place(asked.get(), 0, skewed, back), FT_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(ft_edges_place(asked.get(), 0, straight, far), FT_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(ft_edges_place(asked.get(), 0, straight, nullptr), FT_ERROR_NULL);
+  prop.is_absent = 1;
+  prop.rotation[0] = 0.0;
+  const auto absent = edges(&options);
+  ASSERT_EQ(ft_edges_answer(absent.get(), q0, q1, 1, 3, &answer), FT_OK) << ft_last_error();
+  EXPECT_EQ(answer.verdict, FT_VERDICT_CLEAR);
+  prop.scene = nullptr;
+  ft_edges* none = nullptr;
+  EXPECT_NE(ft_edges_create(robot_.get(), scene_.get(), &options, &none), FT_OK);
+}
+
 }  // namespace
 }  // namespace foretouch

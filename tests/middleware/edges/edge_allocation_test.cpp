@@ -16,6 +16,8 @@ class EdgeAllocations : public testing::TestWithParam<int> {
   EdgeAllocations() {
     EdgeOptions options;
     options.self = PairRules::derive(robot_.avatar()).value();
+    const RigidPose aside{Quaternion::Identity(), {-0.2, 0.1, 0.0}};
+    options.props = {{test::wires({{-0.5, -0.6}}).scene, aside, {}}};
     edges_ = EdgeQuery::build(robot_, place_.scene, options).value();
   }
   Robot robot_ = test::arm(-2.9, 2.9);

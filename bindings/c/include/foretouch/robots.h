@@ -84,6 +84,16 @@ FT_API void ft_robot_destroy(ft_robot* robot);
 
 /* ---- Edges ---- */
 
+/* A rigid thing in the way whose place may change between questions: ft_edges_place(). */
+typedef struct ft_edge_prop {
+  const ft_scene* scene;              /* in the prop's own frame */
+  double rotation[4], translation[3]; /* of that frame in W: w, x, y, z; metres */
+  int32_t is_absent;                  /* 1: it is not there, and has no place */
+  int32_t reserved;                   /* 0 */
+  const ft_ignored_pair* ignored;     /* links and objects of this prop's scene */
+  size_t ignored_count;
+} ft_edge_prop;
+
 typedef struct ft_edge_options {
   uint32_t size;
   int32_t threads;           /* of lists, the calling one among them; default 1, at most 256 */
@@ -92,12 +102,20 @@ typedef struct ft_edge_options {
   const ft_pair_rules* self; /* own links, of ft_robot_avatar(); NULL: not asked */
   const ft_ignored_pair* ignored;
   size_t ignored_count;
+  const ft_edge_prop* props; /* obstacles beside the scene; default none */
+  size_t prop_count;
 } ft_edge_options;
 
 FT_API ft_status ft_edge_options_init(ft_edge_options* options, size_t size);
 /* Keeps what it needs of all that it is given. `options` may be NULL. */
 FT_API ft_status ft_edges_create(const ft_robot* robot, const ft_scene* scene,
                                  const ft_edge_options* options, ft_edges** edges);
+
+/* Moves a prop, by its place in ft_edge_options; nothing is built anew. A NULL rotation: it is not
+ * there. Errors: no such prop, a rotation that is not unit, a place that is not finite or beyond
+ * 10 km along an axis; then it is where it was. */
+FT_API ft_status ft_edges_place(ft_edges* edges, size_t prop, const double* rotation,
+                                const double* translation);
 
 /* Sound: free_until is never late. In arrays, the first element's size applies to all. */
 typedef struct ft_edge {
@@ -134,6 +152,9 @@ FT_API ft_status ft_edges_answer_path(ft_edges* edges, const double* q, size_t c
  * FT_ERROR_NO_STEP before; FT_ERROR_MISMATCH if that edge is clear. */
 FT_API ft_status ft_edges_contact(const ft_edges* edges, size_t index, ft_contact* contact,
                                   ft_other_link* other);
+/* Which prop that is, whose scene the contact's triangle and object are of; -1: none. Errors as
+ * above. */
+FT_API ft_status ft_edges_contact_prop(const ft_edges* edges, size_t index, int32_t* prop);
 FT_API void ft_edges_destroy(ft_edges* edges);
 
 #ifdef __cplusplus
