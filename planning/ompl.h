@@ -128,14 +128,14 @@ class OmplMotionValidator : public ompl::base::MotionValidator {
 
 /// Lets `space` ask Foretouch about states and motions; returns what it asks.
 /// Errors: as OmplStates::of().
-inline Result<std::shared_ptr<const OmplEdges>> useForetouch(
+inline Result<std::shared_ptr<OmplEdges>> useForetouch(
     const ompl::base::SpaceInformationPtr& space, EdgeQuery edges) {
   auto states = OmplStates::of(edges.robot(), space->getStateSpace());
   if (!states.ok()) return states.error();
-  auto shared = std::make_shared<const OmplEdges>(std::move(edges), std::move(states).value());
+  auto shared = std::make_shared<OmplEdges>(std::move(edges), std::move(states).value());
   space->setStateValidityChecker(std::make_shared<OmplValidityChecker>(space, shared));
   space->setMotionValidator(std::make_shared<OmplMotionValidator>(space, shared));
-  return Result<std::shared_ptr<const OmplEdges>>(std::move(shared));
+  return Result<std::shared_ptr<OmplEdges>>(std::move(shared));
 }
 
 }  // namespace foretouch

@@ -422,13 +422,24 @@ AT(ft_robot_coordinate, upper, 24);
 AT(ft_robot_coordinate, is_angle, 32);
 AT(ft_robot_coordinate, is_periodic, 36);
 
-static_assert(sizeof(ft_edge_options) == 48);
+static_assert(sizeof(ft_edge_prop) == 88);
+AT(ft_edge_prop, scene, 0);
+AT(ft_edge_prop, rotation, 8);
+AT(ft_edge_prop, translation, 40);
+AT(ft_edge_prop, is_absent, 64);
+AT(ft_edge_prop, reserved, 68);
+AT(ft_edge_prop, ignored, 72);
+AT(ft_edge_prop, ignored_count, 80);
+
+static_assert(sizeof(ft_edge_options) == 64);
 AT(ft_edge_options, threads, 4);
 AT(ft_edge_options, tolerance, 8);
 AT(ft_edge_options, clearance, 16);
 AT(ft_edge_options, self, 24);
 AT(ft_edge_options, ignored, 32);
 AT(ft_edge_options, ignored_count, 40);
+AT(ft_edge_options, props, 48);
+AT(ft_edge_options, prop_count, 56);
 
 static_assert(sizeof(ft_edge) == 32);
 AT(ft_edge, verdict, 4);

@@ -290,7 +290,7 @@ TEST_F(CRobots, MeetPropsWhereTheyArePlaced) {
   EXPECT_EQ(ft_edges_place(asked.get(), 1, straight, back), FT_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(ft_edges_place(asked.get(), 0, skewed, back), FT_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(ft_edges_place(asked.get(), 0, straight, far), FT_ERROR_OUT_OF_RANGE);
-  EXPECT_EQ(ft_edges_place(asked.get(), 0, straight, nullptr), FT_ERROR_NULL);
+  EXPECT_EQ(ft_edges_place(asked.get(), 0, straight, nullptr), FT_ERROR_NULL_ARGUMENT);
   prop.is_absent = 1;
   prop.rotation[0] = 0.0;
   const auto absent = edges(&options);
