@@ -41,6 +41,28 @@ void scatter(const Pose& pose, double* rotations, double* translations) {
 
 }  // namespace
 
+const Skeleton& skeletonOfProp() {
+  static const Skeleton one = [] {
+    RawSkeleton raw;
+    raw.joints = {{"prop", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
+    return Skeleton::build(raw).value();
+  }();
+  return one;
+}
+
+py::object withJointAxis(const py::object& given) {
+  const auto atLeast2d = py::module_::import("numpy").attr("atleast_2d");
+  if (!py::isinstance<py::tuple>(given) && !py::isinstance<py::list>(given)) return given;
+  const auto pair = py::reinterpret_borrow<py::sequence>(given);
+  if (pair.size() != 2) return given;
+  try {
+    return py::make_tuple(atLeast2d(pair[0]), atLeast2d(pair[1]));
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
+  }
+  return given;  // refused where it is read
+}
+
 Pose poseFrom(const Skeleton& skeleton, py::handle given, const std::string& what) {
   const py::ssize_t joints = skeleton.numJoints();
   const auto [rotations, translations] = halves(given, what);

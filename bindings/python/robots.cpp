@@ -158,7 +158,7 @@ py::object edgesOf(const std::vector<EdgeAnswer>& answers) {
       columnOf<std::int32_t>(answers, [&](A a) { return isClear(a) ? -1 : a.contact.link; }),
       columnOf<std::int32_t>(answers, [&](A a) { return isClear(a) ? -1 : a.contact.other; }),
       columnOf<std::int32_t>(answers, [&](A a) { return isClear(a) ? -1 : a.contact.triangle; }),
-      points);
+      points, columnOf<std::int32_t>(answers, [](A a) { return a.prop; }));
 }
 
 /// Any number of threads may use one at once: they take turns, each on all its threads.
@@ -173,6 +173,19 @@ class PythonEdgeQuery {
 
   [[nodiscard]] const SharedRobot& robot() const { return robot_; }
   [[nodiscard]] const std::shared_ptr<Scene>& scene() const { return scene_; }
+
+  void place(const Shown<shown::Integer>& prop, const Shown<shown::Pose>& pose) {
+    const auto which = static_cast<std::size_t>(
+        integer(prop, "prop", 0, static_cast<std::int64_t>(question_.numProps()) - 1));
+    std::optional<RigidPose> where;
+    if (!pose.is_none()) {
+      const Pose given = poseFrom(skeletonOfProp(), withJointAxis(pose), "pose");
+      where = RigidPose{given.rotations[0], given.translations[0]};
+    }
+    const py::gil_scoped_release free;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    valueOf(question_.place(which, where));
+  }
 
   py::object answer(const Shown<shown::Array>& q0, const Shown<shown::Array>& q1) {
     const Numbers from = configurations(q0, "q0"), to = configurations(q1, "q1");
@@ -220,12 +233,17 @@ std::unique_ptr<PythonEdgeQuery> makeEdges(const SharedRobot& robot, std::shared
                                            const Shown<shown::Number>& clearance,
                                            const Shown<shown::PairRules>& selfPairs,
                                            const Shown<shown::Items>& ignore,
-                                           const Shown<shown::Integer>& threads) {
+                                           const Shown<shown::Integer>& threads,
+                                           const Shown<shown::Items>& props) {
   EdgeOptions options;
   options.tolerance = number(tolerance, "tolerance");
   options.clearance = number(clearance, "clearance");
   if (!selfPairs.is_none()) options.self = rulesFrom(selfPairs, *robot.avatar);
   options.ignored = ignoredFrom(ignore, *robot.avatar, *scene);
+  for (const py::object& prop : items(props, "props")) {
+    if (!py::isinstance<Scene>(prop)) refuse(ErrorCode::Mismatch, "props", "expected scenes");
+    options.props.push_back({*prop.cast<std::shared_ptr<Scene>>(), RigidPose{}, {}});
+  }
   const int many = static_cast<int>(integer(threads, "threads", 1, kMaxPoolThreads));
   return std::make_unique<PythonEdgeQuery>(robot, std::move(scene), options, many);
 }
@@ -282,12 +300,18 @@ void bindRobots(py::module_& module) {
       module, "EdgeQuery",
       "The question of a motion planner: is the straight line in joint coordinates from q0 to q1\n"
       "free, and if not, how far? Proven. Any number of threads may ask one.")
-      .def(py::init(&makeEdges), py::arg("robot"), py::arg("scene").none(false), py::kw_only(),
-           py::arg("tolerance") = usual.tolerance, py::arg("clearance") = usual.clearance,
-           py::arg("self_pairs") = py::none(), py::arg("ignore") = py::tuple(),
-           py::arg("threads") = 1,
-           "clearance (m): clear proves that the robot keeps more than this away; self_pairs:\n"
-           "PairRules of robot.avatar; ignore: links and pairs (link, object); threads: of a call.")
+      .def(
+          py::init(&makeEdges), py::arg("robot"), py::arg("scene").none(false), py::kw_only(),
+          py::arg("tolerance") = usual.tolerance, py::arg("clearance") = usual.clearance,
+          py::arg("self_pairs") = py::none(), py::arg("ignore") = py::tuple(),
+          py::arg("threads") = 1, py::arg("props") = py::tuple(),
+          "clearance (m): clear proves that the robot keeps more than this away; self_pairs:\n"
+          "PairRules of robot.avatar; ignore: links and pairs (link, object); threads: of a call;\n"
+          "props: scenes, each in a frame of its own, which place() moves; at first that is W.")
+      .def("place", &PythonEdgeQuery::place, py::arg("prop"), py::arg("pose"),
+           "Moves a prop, by its place in props; nothing is built anew. pose: (rotation, "
+           "translation),\n"
+           "or None: it is not there.")
       .def("answer", &PythonEdgeQuery::answer, py::arg("q0"), py::arg("q1"),
            "q0 and q1 (n, coordinates): n edges; an Edges. An edge from q to q asks about q.")
       .def(

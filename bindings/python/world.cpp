@@ -136,29 +136,6 @@ BodyShape World::shape(BodyId body) {
 
 namespace {
 
-const Skeleton& skeletonOfProp() {
-  static const Skeleton one = [] {
-    RawSkeleton raw;
-    raw.joints = {{"mesh", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
-    return Skeleton::build(raw).value();
-  }();
-  return one;
-}
-
-/// Of one joint: (rotation, translation) of the shapes (4,) and (3,) will do.
-py::object withJointAxis(const py::object& given) {
-  const auto atLeast2d = py::module_::import("numpy").attr("atleast_2d");
-  if (!py::isinstance<py::tuple>(given) && !py::isinstance<py::list>(given)) return given;
-  const auto pair = py::reinterpret_borrow<py::sequence>(given);
-  if (pair.size() != 2) return given;
-  try {
-    return py::make_tuple(atLeast2d(pair[0]), atLeast2d(pair[1]));
-  } catch (py::error_already_set& error) {
-    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
-  }
-  return given;  // refused where it is read
-}
-
 Pose bodyPose(World& world, BodyId body, const py::object& given) {
   const BodyShape shape = world.shape(body);
   const Skeleton& skeleton = shape.avatar ? shape.avatar->skeleton() : skeletonOfProp();

@@ -49,6 +49,28 @@ class OmplArm : public testing::Test {
   std::shared_ptr<const OmplEdges> edges_;
 };
 
+TEST(OmplEdges, PropsAreMovedBetweenPlans) {
+  const Robot robot = arm(-3.0, 3.0);
+  const Place far = wires({{50.0, 0.0}});
+  EdgeOptions options;
+  options.props = {{wires({{0.0, 0.0}}).scene, RigidPose{Quaternion::Identity(), {1, 0, 0}}, {}}};
+  auto space = std::make_shared<ob::SpaceInformation>(omplSpaceOf(robot));
+  auto edges = useForetouch(space, EdgeQuery::build(robot, far.scene, options).value()).value();
+  space->setup();
+  ob::ScopedState<ob::RealVectorStateSpace> from(space), to(space);
+  for (int i = 0; i < 3; ++i) from[i] = to[i] = 0.0;
+  from[0] = -0.3;
+  to[0] = 0.3;
+  EXPECT_FALSE(space->checkMotion(from.get(), to.get()));
+  ASSERT_TRUE(edges->place(0, RigidPose{Quaternion::Identity(), {3, 0, 0}}).ok());
+  EXPECT_TRUE(space->checkMotion(from.get(), to.get()));
+  ASSERT_TRUE(edges->place(0, RigidPose{Quaternion::Identity(), {1, 0, 0}}).ok());
+  EXPECT_FALSE(space->checkMotion(from.get(), to.get()));
+  ASSERT_TRUE(edges->place(0, std::nullopt).ok());
+  EXPECT_TRUE(space->checkMotion(from.get(), to.get()));
+  EXPECT_EQ(edges->place(1, std::nullopt).error().code, ErrorCode::OutOfRange);
+}
+
 TEST_F(OmplArm, IsAskedAboutStatesAndMotions) {
   auto sampler = space_->allocStateSampler();
   ob::State* from = space_->allocState();

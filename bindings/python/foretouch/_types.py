@@ -63,7 +63,7 @@ class Poses(Sequence[Pose]):
 
 
 class Edges(NamedTuple):
-    """Answers to n edges of a robot. Metres, world; of clear edges the last four say nothing."""
+    """Answers to n edges of a robot. Metres, world; of clear edges the last five say nothing."""
 
     verdicts: npt.NDArray[np.uint8]
     """(n,), each a Verdict."""
@@ -76,9 +76,11 @@ class Edges(NamedTuple):
     others: npt.NDArray[np.int32]
     """(n,), the own link that is met; -1: the scene, or nothing."""
     triangles: npt.NDArray[np.int32]
-    """(n,), of the scene; -1: none."""
+    """(n,), of the scene, or of the prop's; -1: none."""
     points: Doubles
     """(n, 3), where."""
+    props: npt.NDArray[np.int32]
+    """(n,), the prop that is met; -1: none."""
 
 
 class NearFeatures(NamedTuple):

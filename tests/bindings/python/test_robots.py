@@ -76,6 +76,31 @@ class Robots(unittest.TestCase):
         edges = foretouch.EdgeQuery(tooled, wall(), self_pairs=rules, ignore=["upper"])
         self.assertEqual(edges.answer(near, near).links[0], 2)
 
+    def test_props_are_placed_anew(self):
+        robot = swinging()
+        far = foretouch.Scene.from_arrays(
+            [[90, 90, 90], [91, 90, 90], [90, 91, 90]], [[0, 1, 2]])
+        still = foretouch.EdgeQuery(robot, wall())
+        moved = foretouch.EdgeQuery(robot, far, props=[wall()])
+        q0, q1 = [[-1.0, 0.0]], [[1.0, 0.0]]
+        expected, met = still.answer(q0, q1), moved.answer(q0, q1)
+        self.assertEqual(expected.verdicts[0], foretouch.Verdict.CONTACT)
+        self.assertEqual(met.verdicts[0], foretouch.Verdict.CONTACT)
+        self.assertAlmostEqual(met.free_until[0], expected.free_until[0], places=7)
+        self.assertEqual((expected.props[0], met.props[0]), (-1, 0))
+        moved.place(0, ([1, 0, 0, 0], [0, 0, 50]))
+        self.assertEqual(moved.answer(q0, q1).verdicts[0], foretouch.Verdict.CLEAR)
+        self.assertEqual(moved.answer(q0, q1).props[0], -1)
+        moved.place(0, ([1, 0, 0, 0], [0, 0, 0]))
+        self.assertEqual(moved.answer(q0, q1).verdicts[0], foretouch.Verdict.CONTACT)
+        moved.place(0, None)
+        self.assertEqual(moved.answer(q0, q1).verdicts[0], foretouch.Verdict.CLEAR)
+        for prop, pose in ((1, None), (-1, None), (0, ([2, 0, 0, 0], [0, 0, 0])),
+                           (0, ([1, 0, 0, 0], [0, 0, np.inf])), (0, ([1, 0, 0, 0], [0, 2e4, 0])),
+                           (0, "here")):
+            with self.assertRaises(foretouch.InputError):
+                moved.place(prop, pose)
+
     def test_bad_input(self):
         robot = swinging()
         edges = foretouch.EdgeQuery(robot, wall())
