@@ -26,18 +26,6 @@ LoadedBody bodyOfOneLink() {
   return body;
 }
 
-template <typename WriteFields>
-void addLine(const char* name, std::string& text, const WriteFields& writeFields) {
-  JsonWriter out(text);
-  out.beginObject();
-  out.key(name);
-  out.beginObject();
-  writeFields(out);
-  out.endObject();
-  out.endObject();
-  text += "\n";
-}
-
 void writeInstantOf(const char* name, std::int64_t utimeUs, JsonWriter& out) {
   out.key(name);
   out.beginObject();
@@ -153,7 +141,7 @@ void ToldEvents::tellUnknown(const UnknownPart& part, std::string& json) {
   of.link = part.link;
   of.triangle = -1;
   const ContactSide side = sideOf(of);
-  addLine("unknown", json, [&](JsonWriter& out) {
+  addObjectLine("unknown", json, [&](JsonWriter& out) {
     if (side.body == kEveryBody) {
       out.field("everybody", true);
     } else {
@@ -198,8 +186,8 @@ ToldEvents::Lines ToldEvents::take(const EventsMessage& message) {
     tellUnknown({kEveryBody, kEveryLink, UndecidedReason::Gap, toUs_, message.fromUs}, lines.json);
   }
   if (isOther) {
-    addLine("timeline", lines.json,
-            [&](JsonWriter& out) { writeInstantOf("from", message.fromUs, out); });
+    addObjectLine("timeline", lines.json,
+                  [&](JsonWriter& out) { writeInstantOf("from", message.fromUs, out); });
     lines.text += "all contacts begin anew\n";
   }
   // Several messages of one window repeat what is unknown.
@@ -235,7 +223,8 @@ ToldEvents::Lines ToldEvents::take(const EventsMessage& message) {
 
 std::string ToldEvents::summary() const {
   std::string text;
-  addLine("summary", text, [&](JsonWriter& out) { writeEventCounts("events", counts_, out); });
+  addObjectLine("summary", text,
+                [&](JsonWriter& out) { writeEventCounts("events", counts_, out); });
   return text;
 }
 

@@ -221,14 +221,7 @@ void writeStay(const LoadedWorld& world, const TriggerStay& stay, JsonWriter& ou
 std::string intervalLines(const LoadedWorld& world, const WorldIntervals& intervals) {
   std::string text;
   const auto line = [&](const char* name, const auto& writeFields) {
-    JsonWriter out(text);
-    out.beginObject();
-    out.key(name);
-    out.beginObject();
-    writeFields(out);
-    out.endObject();
-    out.endObject();
-    text += "\n";
+    addObjectLine(name, text, writeFields);
   };
   for (const ContactInterval& interval : intervals.contacts()) {
     line("interval", [&](JsonWriter& out) { writeInterval(world, interval, out); });
