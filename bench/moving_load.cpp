@@ -48,7 +48,8 @@ Eigen::Vector3d placeInCrowd(std::size_t index) {
           kSpacing * static_cast<double>(index / kPerRow)};
 }
 
-MovingProps::MovingProps(const MovingRequest& request, std::int64_t session, BodyNumber firstBody) {
+MovingProps::MovingProps(const MovingRequest& request, std::int64_t session, BodyNumber firstBody)
+    : startUs_(session) {
   body_.session = pose_.session = session;
   body_.shape = kShape;
   pose_.bodies.resize(countOf(request.props));
@@ -59,7 +60,6 @@ MovingProps::MovingProps(const MovingRequest& request, std::int64_t session, Bod
 }
 
 void MovingProps::tell(Publisher& publisher, std::int64_t utimeUs) {
-  if (startUs_ < 0) startUs_ = utimeUs;
   body_.utimeUs = body_.sendUtimeUs = utimeUs;
   body_.sinceUs = startUs_;
   for (std::size_t ball = 0; ball < pose_.bodies.size(); ++ball) {

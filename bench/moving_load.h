@@ -31,7 +31,8 @@ struct MovingRequest {
 /// Tells of the balls, and moves them. For the thread that sends.
 class MovingProps {
  public:
-  /// `firstBody`: the number of the first ball, above those of all avatars.
+  /// `session`: when they begin to move. `firstBody`: the number of the first ball, above those of
+  /// all avatars.
   MovingProps(const MovingRequest& request, std::int64_t session, BodyNumber firstBody);
 
   /// What each of them is; also every second, so that who comes later knows.
@@ -44,7 +45,7 @@ class MovingProps {
 
   BodyMessage body_;
   RigidPoseMessage pose_;
-  std::int64_t startUs_ = -1, told_ = 0;
+  std::int64_t startUs_, told_ = 0;
   Bytes payload_;
 };
 
