@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "middleware/events/pair_key.h"
@@ -17,7 +18,10 @@ void FollowedList::tellKnown(const WorldParts& world, std::int64_t fromUs, std::
     const bool isTraced = both->beginUs <= fromUs && toUs <= both->endUs;
     for (const FollowedSides& side : both->sides) {
       if (!side.isOpen && !(isTraced && side.isTraced)) continue;
-      known.pairs.push_back({a, b, side.links.a, side.links.b});
+      // What is open goes on in any motion.
+      const std::int64_t sinceUs =
+          side.isOpen ? std::numeric_limits<std::int64_t>::max() : both->beginUs;
+      known.pairs.push_back({a, b, side.links.a, side.links.b, sinceUs});
     }
   }
 }

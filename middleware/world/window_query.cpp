@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -139,26 +140,32 @@ class PairAsker {
     return !open.empty();
   }
 
-  /// Nobody carries it in the window, and it is there throughout.
-  [[nodiscard]] bool isFree(BodyId id) const {
+  /// Since when nobody carries it, if that and its being there last throughout the window.
+  [[nodiscard]] std::optional<std::int64_t> freeSinceUs(BodyId id) const {
     const WorldBody& body = world_.body(id);
     const Episode* const episode = body.episodeAt(window_.fromUs);
-    return episode != nullptr && !episode->carrier &&
-           body.nextEpisodeUs(window_.fromUs) >= window_.toUs;
+    const bool isFree = episode != nullptr && !episode->carrier &&
+                        body.nextEpisodeUs(window_.fromUs) >= window_.toUs;
+    if (!isFree) return std::nullopt;
+    return episode->beginUs;
   }
 
   /// Whoever follows them knows them throughout, unless they are not asked in between.
   void leaveFollowed(BodyId a, BodyId b, std::vector<PlanePair>& open) const {
-    if (followed_ == nullptr || !isFree(a) || !isFree(b)) return;
+    if (followed_ == nullptr) return;
+    const auto ofA = freeSinceUs(a), ofB = freeSinceUs(b);
+    if (!ofA || !ofB) return;
+    const std::int64_t begunUs = std::max(*ofA, *ofB);
     const std::vector<LinkId>&linkOfA = world_.kindOf(a).linkOf, &linkOfB = world_.kindOf(b).linkOf;
     const auto comesBefore = [](const KnownLinks& x, const KnownLinks& y) {
       return std::tie(x.a, x.b) < std::tie(y.a, y.b);
     };
     const auto known = std::equal_range(followed_->pairs.begin(), followed_->pairs.end(),
-                                        KnownLinks{a, b, 0, 0}, comesBefore);
+                                        KnownLinks{a, b, 0, 0, 0}, comesBefore);
     const auto isKnown = [&](const PlanePair& pair) {
       return std::any_of(known.first, known.second, [&](const KnownLinks& links) {
-        return links.linkOfA == linkOfA[slotOf(pair.i)] && links.linkOfB == linkOfB[slotOf(pair.j)];
+        return begunUs <= links.sinceUs && links.linkOfA == linkOfA[slotOf(pair.i)] &&
+               links.linkOfB == linkOfB[slotOf(pair.j)];
       });
     };
     open.erase(std::remove_if(open.begin(), open.end(), isKnown), open.end());

@@ -42,6 +42,8 @@ struct ContactPlace {
 struct KnownLinks {
   BodyId a = 0, b = 0;
   LinkId linkOfA = 0, linkOfB = 0;
+  /// Of motions that begin later he knows nothing: those of a body that has changed its carrier.
+  std::int64_t sinceUs = 0;
 };
 
 /// What whoever asks window after window knows by himself. Of those who met by themselves (own

@@ -249,6 +249,20 @@ TEST(FollowedMotions, EndWhereSomebodyIsTaken) {
   }
 }
 
+// Carried past somebody and let go of within a motion that was looked at to its end: it comes back,
+// as nobody knew.
+TEST(FollowedMotions, SayNothingOfThoseThatBeginLater) {
+  World world = World::build(std::nullopt).value();
+  const BodyId carrying = world.add(ball(0.01)).value(), carried = world.add(ball(0.01)).value();
+  stand(world, world.add(ball(0.01)).value(), at(0.1), 40 * kMs, 40 * kMs);
+  ASSERT_TRUE(world.push(carrying, 0, at(0, 1)).ok());
+  ASSERT_TRUE(world.push(carrying, 40 * kMs, at(0.8, 1)).ok());
+  ASSERT_TRUE(world.attach(carried, {carrying, 0}, 0, at(0, -1)).ok());
+  ASSERT_TRUE(world.detach(carried, 20 * kMs, at(0.4)).ok());
+  ASSERT_TRUE(world.push(carried, 40 * kMs, at(-0.4)).ok());
+  EXPECT_EQ(follow(world, 40 * kMs).kinds, "enter leave enter leave ");
+}
+
 // A limb that lies over hundreds of triangles, 2 mm above them, while its heel is on the floor: all
 // are as near throughout, and to cut the time would be to look at each in each part.
 TEST(FollowedMotions, SearchAmongManyTrianglesInFewLooks) {

@@ -45,7 +45,7 @@ typedef struct ft_solid_options {
   int32_t reserved;         /* 0 */
   uint64_t work_budget;     /* per tick, in evaluations of a pair: >= 1; default 200,000 */
   const double* visibility; /* one per link, 0 to 1e6: how much its error counts beyond its area; */
-  size_t visibility_count;  /* none: hands 4, trunk and head 30, all others 1, by their names */
+  size_t visibility_count;  /* none: hands 4, trunk and head 100, all others 1, by their names */
   const uint8_t* feet;      /* one per link: 1 for those that FT_SOLID_FLOOR_LIFT listens to; */
   size_t feet_count;        /* none: by their names */
   const ft_ignored_pair* ignored; /* what touches nothing: a hole in the promise */
