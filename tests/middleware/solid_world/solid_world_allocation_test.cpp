@@ -28,7 +28,7 @@ TEST(SolidWorldAllocation, NoTickAllocatesOnceMemoryHasGrown) {
   std::uint64_t allocated = 0, pushed = 0;
   for (int i = 0; i < 720; ++i) {
     const std::int64_t fromUs = world.utimeUs(), toUs = fromUs + 11'111;
-    const double s = std::sin(0.07 * i);
+    const double s = std::sin(M_PI / 45.0 * i);  // to and fro in 90 ticks, again and again
     const RigidPose at{Quaternion(Eigen::AngleAxisd(-0.8 - 0.8 * s, Vector3d::UnitY())),
                        Vector3d(-0.5, 0, -0.2)};
     if (i == 0) {
