@@ -83,6 +83,7 @@ void Follower::follow(const FollowRequest& request, Certifier& certifier, Pose& 
   fruitless_ = 0;
   hasMoved_ = false;
   rows_.clear();
+  areRowsOld_ = false;
   hasDirectFailed_ = cutClearance_ >= 0.0 && isSamePose(shown, cutFrom_);
   isHere_ = isOfTried_ = false;
   if (hasDirectFailed_) {
@@ -94,6 +95,7 @@ void Follower::follow(const FollowRequest& request, Certifier& certifier, Pose& 
   for (int i = 0; i < kMostIterations && !isOver_; ++i) {
     if (!iterate(request, certifier, shown, tick)) break;
   }
+  if (areRowsOld_) moveRows(certifier.plan());
   keepHot();
 }
 
@@ -205,7 +207,26 @@ void Follower::moveThere(double clearance, Pose& shown, SolidTick& tick) {
   std::swap(shown, reached_);
   std::swap(here_, there_);
   isOfTried_ = false;
-  hasMoved_ = true;
+  hasMoved_ = areRowsOld_ = true;
+}
+
+/// Rows that push go along with their links from there_ to here_: faces stay below them.
+void Follower::moveRows(const QueryPlan& plan) {
+  for (ContactRow& row : rows_) {
+    if (!(row.push > 0.0)) continue;
+    const LinkState &from = there_.states[slotOf(row.link)], &to = here_.states[slotOf(row.link)];
+    if (row.isFace && row.other == kNoParent) {
+      const Lss& lss = plan.avatar.lss(row.link)[slotOf(row.lss)];
+      const Eigen::Vector3d held = to.pointAt(lss.a + row.along * (lss.b - lss.a));
+      const double height = row.n.dot(held - row.y);
+      row.gap = height - lss.radius;
+      row.x = held - lss.radius * row.n;
+      row.y = held - height * row.n;
+    } else {
+      row.gap = pairGapAt(here_.states, plan, row);
+      row.x = to.pointAt(from.R_WL.transpose() * (row.x - from.p_WL));
+    }
+  }
 }
 
 /// Makes here_ that of the shown pose, unless it is.
@@ -232,6 +253,7 @@ void Follower::findReach() {
 
 void Follower::gather(Certifier& certifier, SolidTick& tick) {
   findReach();
+  areRowsOld_ = false;
   near_.answer(here_.states, hotReach_, nearScratch_, features_);
   appendRows(features_, rows_);
   if (options_.self) own_.append(certifier.plan(), here_.states, reach_, hotFor_, rows_);

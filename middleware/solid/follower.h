@@ -41,8 +41,8 @@ class Follower {
   void reset();
 
   [[nodiscard]] const VisualBody& body() const { return step_.body(); }
-  /// The rows of the tick's last step, by link and LSS, with their pushes; places are from before
-  /// that step. Empty if nothing was near.
+  /// The rows of the tick's last step, by link and LSS, with their pushes; places of those that push
+  /// are at the shown pose. Empty if nothing was near.
   [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
   /// One of them pushes.
   [[nodiscard]] bool hasPushes() const;
@@ -67,6 +67,7 @@ class Follower {
   void weigh(const FollowRequest& request, const Pose& pose, Stance& stance) const;
   void standHere(const FollowRequest& request, const Pose& shown);
   void moveThere(double clearance, Pose& shown, SolidTick& tick);
+  void moveRows(const QueryPlan& plan);
   void findReach();
   void gather(Certifier& certifier, SolidTick& tick);
   void setBounds(bool mayPush);
@@ -103,6 +104,7 @@ class Follower {
   // Of the current iteration.
   std::vector<double> reach_, hotReach_, touchReach_;
   std::vector<ContactRow> rows_;
+  bool areRowsOld_ = false;  // here_ was there_ when they were gathered
   Pose tried_, nearer_, reached_;
   ChainMotion part_;
   double size_ = 0.0;        // of the whole step that was solved for

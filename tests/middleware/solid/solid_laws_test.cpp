@@ -4,6 +4,9 @@
 #include <limits>
 #include <thread>
 
+#include "articulated/motion.h"
+#include "lss/index.h"
+#include "tessellation/swept_lss.h"
 #include "tests/middleware/solid/solid_runner.h"
 
 namespace foretouch::test {
@@ -88,6 +91,37 @@ TEST(SolidLaws, AStillTargetIsFollowedByAStillBody) {
     }
     EXPECT_EQ(run.violations(), 0u);
   }
+}
+
+/// How far the contact is from where an end of the LSS's axis is right above the wall at `z`.
+double offFromEnd(const SolidRunner& run, const SolidContact& contact, double z) {
+  std::vector<LinkState> states;
+  ChainMotion still;
+  still.assign(run.avatar.skeleton(), run.tick.shown, run.tick.shown);
+  still.statesAt(0.0, states);
+  const Lss& lss = run.avatar.lss(contact.link)[slotOf(contact.lss)];
+  const AxisEnds ends = axisEnds(lss, states[slotOf(contact.link)]);
+  double off = std::numeric_limits<double>::infinity();
+  for (const Vector3d& end : {ends.a, ends.b}) {
+    const double gap = end.z() - z - lss.radius;
+    const double aside = (Vector3d(end.x(), end.y(), z) - contact.p_W).norm();
+    off = std::min(off, std::max(aside, std::abs(gap - contact.gap)));
+  }
+  return off;
+}
+
+TEST(SolidLaws, ContactsAreToldWhereTheShownPoseHasThem) {
+  SolidRunner run(wallAt(-0.5));
+  int sliding = 0;
+  for (int i = 0; i < 120; ++i) {
+    const double t = i / 90.0;
+    run.follow(reaching(run, 0.5 * kPi * std::min(1.0, t / 0.45) + 0.4 * std::sin(4.5 * t)));
+    for (const SolidContact& contact : run.tick.contacts) {
+      EXPECT_LT(offFromEnd(run, contact, -0.5), 1e-6) << "tick " << i;
+      sliding += contact.slipSpeed > 0.1 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(sliding, 20);
 }
 
 Pose turned(const Pose& pose, const Quaternion& turn, const Vector3d& by) {
