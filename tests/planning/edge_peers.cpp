@@ -1,7 +1,9 @@
 // tests/planning/edge_peers.cpp: edges per second of Foretouch beside those of FCL, sampled and
-// continuous, and how many contacts each misses by the judge (./run edges). Exit code 0: Foretouch
+// continuous, and how many contacts each misses by the judge; and lists of edges on several threads
+// (./run edges). Exit code 0: Foretouch
 // missed nothing; 1: it did; 2: bad use; 77: no shared data.
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -9,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "middleware/edges/edge_pool.h"
 #include "tests/planning/edge_solver.h"
 #include "tests/planning/plan_campaign.h"
 
@@ -35,8 +38,47 @@ struct Arguments {
       scenes{"wires-20", "wires-10", "wires-4", "shelf", "office", "kitchen"};
   std::vector<double> percents{5, 1, 0.5, 0.1};
   std::vector<int> samples{10, 100};
-  int edges = 1000;
+  int edges = 1000, threads = 2;
   unsigned seed = 1;
+};
+
+/// All edges as one list: wall clock seconds, the least of a few passes.
+class ListTimes {
+ public:
+  explicit ListTimes(int threads)
+      : one_(EdgePool::start(1).value()), several_(EdgePool::start(threads).value()) {}
+  void add(const EdgeQuery& edges, const std::vector<PlanProblem>& problems) {
+    std::vector<double> q0, q1;
+    for (const PlanProblem& problem : problems) {
+      q0.insert(q0.end(), problem.start.begin(), problem.start.end());
+      q1.insert(q1.end(), problem.goal.begin(), problem.goal.end());
+    }
+    constexpr int kPasses = 5;
+    double least[2] = {1e9, 1e9};
+    for (int pass = 0; pass < kPasses; ++pass) {
+      for (const bool isOne : {true, false}) {
+        const auto begin = std::chrono::steady_clock::now();
+        EdgePool& pool = isOne ? one_ : several_;
+        (void)pool.answer(edges, q0.data(), q1.data(), problems.size(), answers_).value();
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+        least[isOne ? 0 : 1] = std::min(least[isOne ? 0 : 1], took.count());
+      }
+    }
+    for (const int i : {0, 1}) seconds_[i] += least[i];
+    count_ += problems.size();
+  }
+  void print() const {
+    const auto count = static_cast<double>(count_);
+    std::printf("\nas lists: %.2f us an edge on 1 thread, %.2f on %d: %.2f times as fast\n",
+                1e6 * seconds_[0] / count, 1e6 * seconds_[1] / count, several_.threads(),
+                seconds_[0] / seconds_[1]);
+  }
+
+ private:
+  EdgePool one_, several_;
+  std::vector<EdgeAnswer> answers_;
+  double seconds_[2] = {};
+  std::size_t count_ = 0;
 };
 
 struct Tally {
@@ -49,7 +91,7 @@ struct Tally {
 
 /// One robot in one scene; adds to the sums, one per solver.
 void runStage(const Arguments& a, const std::string& robot, const PlanStage& stage,
-              std::vector<Tally>& sums) {
+              std::vector<Tally>& sums, ListTimes& lists) {
   EdgeSolvers solvers;
   solvers.push_back(std::make_unique<ProvenEdges>(stage));
   std::vector<double> shares;
@@ -59,6 +101,7 @@ void runStage(const Arguments& a, const std::string& robot, const PlanStage& sta
   }
   const PlanJudge judge(stage.edges->robot(), stage.triangles, stage.left);
   const auto edges = edgesBetween(stage, a.edges, a.seed);
+  lists.add(*stage.edges, edges);
   std::vector<oracle::FirstTouch> truth;
   for (const PlanProblem& edge : edges) truth.push_back(judge.firstTouch(edge.start, edge.goal));
   sums.resize(solvers.size());
@@ -110,6 +153,7 @@ void printTable(const std::vector<Tally>& sums) {
 
 int run(const Arguments& a) {
   std::vector<Tally> sums;
+  ListTimes lists(a.threads);
   for (const std::string& name : a.robots) {
     const auto robot = sharedRobot(name);
     if (!robot) {
@@ -123,11 +167,12 @@ int run(const Arguments& a) {
         std::cerr << "left out: " << scene << " (no shared data)\n";
         continue;
       }
-      runStage(a, name, *stage, sums);
+      runStage(a, name, *stage, sums, lists);
     }
   }
   if (sums.empty()) return 77;
   printTable(sums);
+  lists.print();
   std::puts(
       "\nUntouched: nothing touches by the judge; Foretouch comes within its tolerance, 1 mm.");
   return sums.front().missed == 0 ? 0 : 1;
@@ -143,6 +188,8 @@ int main(int argc, char** argv) {
   app.add_option("--percents", a.percents, "Resolutions of the sampled ones")->delimiter(',');
   app.add_option("--samples", a.samples, "Of FCL's continuousCollide()")->delimiter(',');
   app.add_option("--edges", a.edges, "Random edges per robot and scene");
+  app.add_option("--threads", a.threads, "Of a list of edges, beside one")
+      ->check(CLI::Range(1, kMaxPoolThreads));
   app.add_option("--seed", a.seed, "Of scenes and edges");
   try {
     app.parse(argc, argv);
