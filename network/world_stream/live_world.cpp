@@ -178,18 +178,20 @@ bool LiveWorld::takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& chang
         body.carriers.empty() ? body.beginUs : body.carriers.back().sinceUs;
     change.sinceUs = std::max(change.sinceUs, begunUs + 1);
   }
+  bool isTaken = true;
   if (!change.isPresent) {
     holdUntil(body, change.sinceUs);
     retire(body, change.sinceUs);
   } else if (change.carrier == kNoBody) {
     letGo(body, change);
-  } else if (!attach(bodies, body, change, untilUs, depth)) {
-    return false;
+  } else {
+    isTaken = attach(bodies, body, change, untilUs, depth);
   }
+  // Put off for a later answer as well: that one does not know since when it was said.
   if (change.sinceUs > saidUs) {
     body.addUnknown(kEveryLink, UndecidedReason::Gap, saidUs, change.sinceUs);
   }
-  return true;
+  return isTaken;
 }
 
 bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, std::int64_t untilUs,
