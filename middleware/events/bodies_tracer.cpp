@@ -287,9 +287,7 @@ bool BodiesTracer::tellContact(const Asked& asked, SpanSides& span, FollowedSide
                       parts[side.nextPart + 1].from == part.to;
   if (part.goesOn || isLost) return true;
   WorldTime time = std::max(latestTimeAt(span.spans(), part.to), WorldTime{part_.beginUs, 0.0});
-  if (!(side.since < time)) {
-    time = {side.since.us, std::nextafter(side.since.fraction, 1.0)};
-  }
+  if (!(side.since < time)) time = justAfter(side.since);
   if (!isDue(asked, time, true)) return false;
   end(asked, EventKind::Leave, time, side);
   tellDetails(asked, span, side, part.to, toleranceOf(asked, span).limit);

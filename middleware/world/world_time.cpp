@@ -12,4 +12,10 @@ WorldTime worldTimeAt(std::int64_t beginUs, std::int64_t endUs, double t) {
   return {beginUs + static_cast<std::int64_t>(whole), after - whole};
 }
 
+WorldTime justAfter(const WorldTime& time) {
+  const double fraction = std::nextafter(time.fraction, 1.0);
+  if (fraction >= 1.0) return {time.us + 1, 0.0};
+  return {time.us, fraction};
+}
+
 }  // namespace foretouch

@@ -20,6 +20,8 @@ struct WorldTime {
 
 /// The instant at `t` in [0,1] of the span [beginUs, endUs], rounded down: never later than it is.
 [[nodiscard]] WorldTime worldTimeAt(std::int64_t beginUs, std::int64_t endUs, double t);
+/// The next instant that can be told.
+[[nodiscard]] WorldTime justAfter(const WorldTime& time);
 /// From `us` to the instant, in microseconds, rounded.
 [[nodiscard]] inline double microsecondsAfter(std::int64_t us, const WorldTime& time) {
   return static_cast<double>(time.us - us) + time.fraction;

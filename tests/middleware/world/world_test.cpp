@@ -479,5 +479,14 @@ TEST(WorldTime, IsNeverLaterThanItsInstant) {
   EXPECT_TRUE(worldTimeAt(5, 9, 1.0) == (WorldTime{9, 0.0}));
 }
 
+TEST(WorldTime, TheNextInstantIsLaterAndAnInstant) {
+  for (const double fraction : {0.0, 0.25, 0.5, std::nextafter(1.0, 0.0)}) {
+    const WorldTime time{7, fraction}, next = justAfter(time);
+    EXPECT_TRUE(time < next);
+    EXPECT_LT(next.fraction, 1.0);
+    EXPECT_LE(microsecondsAfter(7, next), fraction + 1e-15);
+  }
+}
+
 }  // namespace
 }  // namespace foretouch
