@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct LiveChange {
   RigidPose pose;
   std::int64_t poseUs = 0;  ///< The pose is that of this instant; `sinceUs` may have to be later.
 
+  [[nodiscard]] bool hasCarrier() const { return isPresent && carrier != kNoBody; }
   /// Where it is from `sinceUs` on is known then.
   [[nodiscard]] bool hasPlace() const { return !awaitsPoses() || poseUs == sinceUs; }
   /// Held fast, a body has no poses.
@@ -103,6 +105,8 @@ struct LiveBody {
   /// Whether the link (kEveryLink: any of them) is unknown at an instant in [fromUs, toUs].
   [[nodiscard]] bool isUnknown(LinkId link, std::int64_t fromUs, std::int64_t toUs) const;
 };
+
+using LiveBodies = std::map<BodyNumber, LiveBody>;
 
 /// To the last bit.
 [[nodiscard]] bool isSamePose(const RigidPose& x, const RigidPose& y);

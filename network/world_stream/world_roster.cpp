@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lss/index.h"
+#include "network/world_stream/carrier_times.h"
 
 namespace foretouch::internal {
 namespace {
@@ -80,7 +81,7 @@ Reject WorldRoster::whyNot(const BodyMessage& message) const {
     if (bodies_.size() >= policy_.maxBodies) return Reject::Limit;
     const WorldShape& made = setup_.shapes[shape->second];
     const bool isRigid = made.mesh || made.avatar->numLinks() == 1;
-    return isRigid ? carrierFault(message) : Reject::UnknownShape;
+    return isRigid ? carrierFaultOf(message) : Reject::UnknownShape;
   }
   const LiveBody& body = known->second;
   if (body.shape != shape->second) return Reject::UnknownShape;
@@ -93,24 +94,24 @@ Reject WorldRoster::whyNot(const BodyMessage& message) const {
     if (isSession && message.sequence < body.stateSequence) return Reject::OutOfOrder;
   }
   if (!body.state.isPresent) return Reject::Late;  // gone, and told so already
-  if (body.changes.size() >= kMostWaitingKnots) return Reject::Overrun;
-  return carrierFault(message);
+  if (body.changes.size() >= kMostWaitingChanges) return Reject::Overrun;
+  return carrierFaultOf(message);
 }
 
-/// By what is announced, whenever it takes effect: a circle would be one for a moment at least.
-Reject WorldRoster::carrierFault(const BodyMessage& message) const {
-  BodyNumber next = message.carrier;
-  for (int depth = 0; next != kNoBody; ++depth) {
-    if (next == message.body) return Reject::CarrierLoop;
-    if (depth == kMostCarriers) return Reject::Limit;
-    const auto carrier = bodies_.find(next);
-    if (carrier == bodies_.end()) return Reject::UnknownBody;
-    const WorldShape& shape = setup_.shapes[carrier->second.shape];
-    const std::int32_t links = shape.avatar ? shape.avatar->numLinks() : 1;
-    if (depth == 0 && message.carrierLink >= links) return Reject::UnknownBody;
-    next = carrier->second.state.carrier;
-  }
-  return Reject::None;
+Reject WorldRoster::carrierFaultOf(const BodyMessage& message) const {
+  if (message.carrier == kNoBody) return Reject::None;
+  const auto carrier = bodies_.find(message.carrier);
+  if (carrier == bodies_.end()) return Reject::UnknownBody;
+  const WorldShape& shape = setup_.shapes[carrier->second.shape];
+  const std::int32_t links = shape.avatar ? shape.avatar->numLinks() : 1;
+  if (message.carrierLink >= links) return Reject::UnknownBody;
+  const std::int64_t sinceUs = std::max(message.sinceUs, earliestChangeUs());
+  return carrierFault(bodies_, message.body, message.carrier, sinceUs);
+}
+
+/// As early as anything can still take effect.
+std::int64_t WorldRoster::earliestChangeUs() const {
+  return std::max(nowUs_ - policy_.waitUs, answeredUs_ ? *answeredUs_ + 1 : 0);
 }
 
 /// A state that is repeated changes nothing.
@@ -120,9 +121,7 @@ void WorldRoster::change(LiveBody& body, const BodyMessage& message) {
   const bool isFirst = body.state.sinceUs == 0 && body.changes.empty() && !body.slot;
   if (!isFirst && isSameState(change, body.state)) return;
   body.state = change;
-  // As early as anything can still take effect.
-  const std::int64_t floorUs =
-      std::max(nowUs_ - policy_.waitUs, answeredUs_ ? *answeredUs_ + 1 : 0);
+  const std::int64_t floorUs = earliestChangeUs();
   const bool isLate = change.sinceUs < floorUs;
   // Where a body without a carrier was long ago says nothing of where it is.
   if (isLate && isFirst && change.isPresent && change.carrier == kNoBody) return;
@@ -341,29 +340,6 @@ void WorldRoster::beginAnew(std::int64_t fromUs, bool keepsBodies) {
     again.sinceUs = fromUs + 1;
     body.changes.push_front(again);
   }
-}
-
-bool WorldRoster::isUnknown(BodyNumber number, LinkId link, std::int64_t fromUs,
-                            std::int64_t toUs) const {
-  return isUnknown(number, link, fromUs, toUs, 0);
-}
-
-bool WorldRoster::isUnknown(BodyNumber number, LinkId link, std::int64_t fromUs, std::int64_t toUs,
-                            int depth) const {
-  if (number < 0) return false;  // the scene, everybody
-  const auto found = bodies_.find(number);
-  if (found == bodies_.end() || depth > 2 * kMostCarriers) return true;
-  const LiveBody& body = found->second;
-  if (body.isUnknown(link, fromUs, toUs)) return true;
-  if (!body.isHeldFast && body.saidUntilUs() < toUs) return true;
-  // At the instant of a change, by whoever carried it until then as well.
-  for (std::size_t i = 0; i < body.carriers.size(); ++i) {
-    const LiveCarrier& by = body.carriers[i];
-    const bool isOver = i + 1 < body.carriers.size() && body.carriers[i + 1].sinceUs < fromUs;
-    if (isOver || by.sinceUs > toUs) continue;
-    if (isUnknown(by.carrier, by.link, fromUs, toUs, depth + 1)) return true;
-  }
-  return false;
 }
 
 }  // namespace foretouch::internal

@@ -41,20 +41,15 @@ class WorldRoster {
   [[nodiscard]] LiveBodies& bodies() { return bodies_; }
   [[nodiscard]] const LiveBodies& bodies() const { return bodies_; }
   [[nodiscard]] bool isWaitedFor(const LiveBody& body) const;
-  /// Whether a link of a body (kEveryLink: any) is unknown in [fromUs, toUs], itself or by who
-  /// carries it.
-  [[nodiscard]] bool isUnknown(BodyNumber body, LinkId link, std::int64_t fromUs,
-                               std::int64_t toUs) const;
   [[nodiscard]] WorldCounts& counts() { return counts_; }
   [[nodiscard]] const WorldCounts& counts() const { return counts_; }
   [[nodiscard]] BodyNumber waitsFor() const { return waitsFor_; }
 
  private:
-  [[nodiscard]] bool isUnknown(BodyNumber body, LinkId link, std::int64_t fromUs, std::int64_t toUs,
-                               int depth) const;
   [[nodiscard]] Reject refuse(Reject reason);
   [[nodiscard]] Reject whyNot(const BodyMessage& message) const;
-  [[nodiscard]] Reject carrierFault(const BodyMessage& message) const;
+  [[nodiscard]] Reject carrierFaultOf(const BodyMessage& message) const;
+  [[nodiscard]] std::int64_t earliestChangeUs() const;
   [[nodiscard]] Reject timeFault(std::int64_t utimeUs, std::int64_t receiveUtimeUs) const;
   [[nodiscard]] Reject take(LiveBody& body, const BodyPose& told, const RigidPoseMessage& message,
                             std::int64_t receiveUtimeUs);

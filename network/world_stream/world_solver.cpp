@@ -9,6 +9,7 @@
 
 #include "articulated/quoted.h"
 #include "articulated/try.h"
+#include "network/world_stream/carrier_times.h"
 #include "network/world_stream/live_world.h"
 #include "network/world_stream/world_roster.h"
 
@@ -132,7 +133,7 @@ struct WorldSolver::Impl {
   void answerUntil(std::int64_t untilUs, std::vector<EventsMessage>& answers, std::size_t& count) {
     const WorldClock::time_point start = WorldClock::now();
     if (!world->hasRoomFor(roster.bodies().size())) begin(fromUs, true);
-    for (auto& [number, body] : roster.bodies()) world->tell(roster.bodies(), body, untilUs);
+    world->tell(roster.bodies(), untilUs);
     // Nobody may be there yet: then there is no world to ask.
     const auto knownUs = world->knownUntilUs();
     bool isAnswered = knownUs && *knownUs >= untilUs;
@@ -182,8 +183,8 @@ struct WorldSolver::Impl {
       next.cause = event.cause == LeaveCause::NotAsked ? ToldCause::NotAsked : ToldCause::Apart;
       const std::int64_t toUs = event.time.us + (event.time.fraction > 0.0 ? 1 : 0);
       next.event.isAssumed = event.isAssumed ||
-                             roster.isUnknown(*a, event.a.link, event.time.us, toUs) ||
-                             roster.isUnknown(*b, event.b.link, event.time.us, toUs);
+                             isUnknown(roster.bodies(), *a, event.a.link, event.time.us, toUs) ||
+                             isUnknown(roster.bodies(), *b, event.b.link, event.time.us, toUs);
     }
   }
 
