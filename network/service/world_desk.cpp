@@ -25,7 +25,7 @@ void WorldDesk::take(Mail& mail) {
 void WorldDesk::refused(MailKind kind, std::size_t poses, Reject reason) {
   const std::lock_guard lock(mutex_);
   if (kind == MailKind::Body) return world_.solver().refusedState(reason);
-  for (std::size_t i = 0; i < poses; ++i) world_.solver().refusedPose(reason);
+  for (std::size_t i = 0; i < poses; ++i) world_.solver().refusedPose(kNoBody, reason, 0);
 }
 
 void WorldDesk::take(HeldRecords& held, BodyNumber avatar, const StreamStep* step,

@@ -64,14 +64,14 @@ Reject BoundWorld::take(const Heard& heard, RigidPoseMessage& message, WorldReco
         !mayPass(heard, pose.body, record)) {
       reason = Reject::OtherSender;
     }
-    if (reason != Reject::None) solver_.refusedPose(reason);
+    if (reason != Reject::None) solver_.refusedPose(pose.body, reason, heard.receiveUtimeUs);
     return reason != Reject::None;
   };
   auto& bodies = message.bodies;
   bodies.erase(std::remove_if(bodies.begin(), bodies.end(), isRefused), bodies.end());
   if (bodies.empty() && told > 0) return future != Reject::None ? future : Reject::OtherSender;
   const Reject reason = solver_.take(message, heard.receiveUtimeUs);
-  if (reason != Reject::None) return reason;
+  if (reason != Reject::None && !solver_.isNoted()) return reason;
   ByteView payload = heard.payload;
   if (bodies.size() < told) {
     encode(message, payload_);

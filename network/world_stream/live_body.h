@@ -78,6 +78,9 @@ struct LiveBody {
   std::deque<LiveChange> announced;
   bool isAwaited = true;      ///< As awaitsPoses(), of the last state that was due.
   std::int64_t stateUs = -1;  ///< Until when states that were due say where it is.
+  /// A pose of it came in time, and yet too late: the watermark, which stood here, waits for one
+  /// that does not; -1: no.
+  std::int64_t backUs = -1;
   bool skips = false;  ///< Something between its last accepted pose and the next one is missing.
   std::deque<LiveKnot> knots;      ///< Not told to the world.
   std::deque<LiveChange> changes;  ///< Likewise, by time.

@@ -282,9 +282,13 @@ void WorldSolver::refusedState(Reject reason) {
   ++impl_->roster.counts().rejects[static_cast<std::size_t>(reason)];
 }
 
-void WorldSolver::refusedPose(Reject reason) {
+void WorldSolver::refusedPose(BodyNumber body, Reject reason, std::int64_t receiveUtimeUs) {
   ++impl_->roster.counts().rigidPoses;
-  ++impl_->roster.counts().rejects[static_cast<std::size_t>(reason)];
+  static_cast<void>(impl_->roster.refusePose(body, reason, receiveUtimeUs));
+}
+
+bool WorldSolver::isNoted() const {
+  return impl_->roster.isNoted();
 }
 
 const std::vector<Reject>& WorldSolver::reasons() const {
@@ -308,6 +312,7 @@ WorldCounts WorldSolver::counts() const {
   WorldCounts counts = impl_->roster.counts();
   counts.bodies = impl_->roster.bodies().size();
   counts.waitsFor = impl_->roster.waitsFor();
+  counts.refusedLongest = impl_->roster.refusedBodies().list(counts.refusedBodies);
   counts.answeredUntilUs = impl_->world ? impl_->fromUs : -1;
   if (impl_->world) counts.failures += impl_->world->failures();
   for (const auto& [number, body] : impl_->roster.bodies()) counts.waiting += body.knots.size();
