@@ -32,8 +32,8 @@ class BoundWorld {
 
   /// As WorldSolver's; OtherSender for what another sender says. Records what was accepted.
   [[nodiscard]] Reject take(const Heard& heard, const BodyMessage& message, WorldRecord& record);
-  /// Takes out of `message` what another sender may not say; what is recorded lacks it, too. Records
-  /// what was accepted, or noted (WorldSolver::isNoted()).
+  /// Takes out of `message` what another sender may not say; what is recorded lacks it, too.
+  /// Records what was accepted, or noted (WorldSolver::isNoted()).
   [[nodiscard]] Reject take(const Heard& heard, RigidPoseMessage& message, WorldRecord& record);
 
   [[nodiscard]] WorldSolver& solver() { return solver_; }

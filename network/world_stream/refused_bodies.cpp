@@ -1,6 +1,7 @@
 #include "network/world_stream/refused_bodies.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace foretouch {
 namespace {
@@ -12,15 +13,23 @@ constexpr std::int64_t kOverUs = 2'000'000;
 
 }  // namespace
 
+std::string describe(const RefusedBody& body) {
+  constexpr double kTenthsPerUs = 1e-5;
+  const auto tenths = std::llround(static_cast<double>(body.lastUs - body.sinceUs) * kTenthsPerUs);
+  return "body " + std::to_string(body.body) + ": none of its " + std::to_string(body.poses) +
+         " poses was accepted for " + std::to_string(tenths / 10) + "." +
+         std::to_string(tenths % 10) + " s: " + toString(body.reason);
+}
+
 void RefusedBodies::refused(BodyNumber body, Reject reason, std::int64_t receiveUtimeUs) {
   // The network repeats; the pose was accepted.
   if (reason == Reject::Duplicate) return;
   nowUs_ = receiveUtimeUs;
   const auto known = bodies_.find(body);
   if (known == bodies_.end() && bodies_.size() >= kMostKept) {
-    bodies_.erase(std::min_element(bodies_.begin(), bodies_.end(), [](const auto& x, const auto& y) {
-      return x.second.lastUs < y.second.lastUs;
-    }));
+    bodies_.erase(std::min_element(
+        bodies_.begin(), bodies_.end(),
+        [](const auto& x, const auto& y) { return x.second.lastUs < y.second.lastUs; }));
   }
   RefusedBody& kept = bodies_[body];
   const bool isNew = kept.poses == 0 || receiveUtimeUs - kept.lastUs > kOverUs;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "network/wire/reject.h"
@@ -19,6 +20,9 @@ struct RefusedBody {
   std::int64_t lastUs = 0;       ///< Receipt of the last one.
   std::uint64_t poses = 0;       ///< Since then.
 };
+
+/// "body 10: none of its 35 poses was accepted for 0.9 s: late"
+[[nodiscard]] std::string describe(const RefusedBody& body);
 
 /// One thread. Memory is bounded, whatever numbers strangers give.
 class RefusedBodies {

@@ -154,8 +154,8 @@ Reject WorldRoster::refusePose(BodyNumber body, Reject reason, std::int64_t rece
 Reject WorldRoster::timeFault(LiveBody& body, std::int64_t utimeUs, std::int64_t receiveUtimeUs) {
   const std::int64_t nowUs = std::max(nowUs_, receiveUtimeUs);
   if (answeredUs_ && utimeUs <= *answeredUs_) {
-    // It speaks in time, of what is answered already, as it said nothing before: the others must not
-    // go on like that for ever.
+    // It speaks in time, of what is answered already, as it said nothing before: the others must
+    // not go on like that for ever.
     if (utimeUs >= nowUs - policy_.waitUs && !isWaitedFor(body)) {
       body.backUs = *answeredUs_;
       isNoted_ = true;

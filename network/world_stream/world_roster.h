@@ -55,8 +55,7 @@ class WorldRoster {
   [[nodiscard]] Reject whyNot(const BodyMessage& message) const;
   [[nodiscard]] Reject carrierFaultOf(const BodyMessage& message) const;
   [[nodiscard]] std::int64_t earliestChangeUs() const;
-  [[nodiscard]] Reject timeFault(LiveBody& body, std::int64_t utimeUs,
-                                 std::int64_t receiveUtimeUs);
+  [[nodiscard]] Reject timeFault(LiveBody& body, std::int64_t utimeUs, std::int64_t receiveUtimeUs);
   [[nodiscard]] Reject take(LiveBody& body, const BodyPose& told, const RigidPoseMessage& message,
                             std::int64_t receiveUtimeUs);
   void change(LiveBody& body, const BodyMessage& message);

@@ -18,8 +18,6 @@ using Eigen::Vector3d;
 const std::string kBodies = kBodyChannel;
 const std::string kRigid = kRigidPoseChannel;
 const std::string kEvents = kEventsChannel;
-constexpr std::int64_t kStart = 1'000'000'000;
-
 std::int64_t tick(std::int64_t n) {
   return kStart + n * kStepUs;
 }

@@ -1,6 +1,6 @@
-// Nobody is locked out: whatever clocks senders have, in whatever order they begin, pause, drift and
-// jump, and whoever speaks of what has not happened yet beside them, a body whose sender speaks in
-// time is back within the time that anybody is waited for.
+// Nobody is locked out: whatever clocks senders have, in whatever order they begin, pause, drift
+// and jump, and whoever speaks of what has not happened yet beside them, a body whose sender speaks
+// in time is back within the time that anybody is waited for.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -27,8 +27,7 @@ struct Sender {
   std::int64_t nextUs = 0, sequence = 0, session = 1;
 
   [[nodiscard]] std::int64_t stampAt(std::int64_t nowUs) const {
-    const auto drifted =
-        static_cast<std::int64_t>(drift * static_cast<double>(nowUs - kStart));
+    const auto drifted = static_cast<std::int64_t>(drift * static_cast<double>(nowUs - kStart));
     return nowUs - lagUs + drifted + (jumpUs > 0 && nowUs >= jumpUs ? jumpByUs : 0);
   }
   [[nodiscard]] bool isPausing(std::int64_t nowUs) const {
