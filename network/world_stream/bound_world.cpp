@@ -34,9 +34,22 @@ bool BoundWorld::mayPass(const Heard& heard, BodyNumber body, WorldRecord& recor
   }
 }
 
+bool BoundWorld::hasRoomFor(const UdpmSender& sender) const {
+  if (sender == UdpmSender()) return true;  // liblcm does not say who
+  const std::size_t there = solver_.numBodies(), most = solver_.policy().maxBodies;
+  const auto isOfSender = [&](const auto& known) {
+    return known.second->isSpeaker(sender) && solver_.isThere(known.first);
+  };
+  const auto own = std::count_if(gates_.begin(), gates_.end(), isOfSender);
+  return there < most && static_cast<std::size_t>(own) < most - there;
+}
+
 Reject BoundWorld::take(const Heard& heard, const BodyMessage& message, WorldRecord& record) {
   Reject reason = sessionFault(message.session, heard.receiveUtimeUs);
   const bool isThere = solver_.isThere(message.body);
+  if (reason == Reject::None && !isThere && message.isPresent && !hasRoomFor(heard.sender)) {
+    reason = Reject::Limit;
+  }
   if (reason == Reject::None && isThere && !mayPass(heard, message.body, record)) {
     reason = Reject::OtherSender;
   }

@@ -126,7 +126,7 @@ struct WorldSolver::Impl {
     const auto until = roster.watermark();
     // Not before all who begin together have said where they do.
     if (until && !world && *until > firstUs()) begin(firstUs(), true);
-    if (until && world && *until > fromUs) answerUntil(*until, answers, count);
+    if (until && world && *until - fromUs >= kLeastAdvanceUs) answerUntil(*until, answers, count);
     answers.resize(count);
   }
 
@@ -301,6 +301,10 @@ void WorldSolver::advance(std::vector<EventsMessage>& answers) {
 
 bool WorldSolver::isThere(BodyNumber body) const {
   return impl_->roster.bodies().count(body) > 0;
+}
+
+std::size_t WorldSolver::numBodies() const {
+  return impl_->roster.bodies().size();
 }
 
 bool WorldSolver::isAvatar(BodyNumber body) const {

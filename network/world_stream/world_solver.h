@@ -13,6 +13,7 @@
 // docs/streaming.md, "A moving world", has the whole story.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -58,6 +59,7 @@ class WorldSolver {
   void advance(std::vector<EventsMessage>& answers);
 
   [[nodiscard]] bool isThere(BodyNumber body) const;
+  [[nodiscard]] std::size_t numBodies() const;
   /// It is one of WorldSetup::avatars: pose_t says where it is.
   [[nodiscard]] bool isAvatar(BodyNumber body) const;
   [[nodiscard]] WorldCounts counts() const;
