@@ -5,8 +5,6 @@
 namespace verify {
 namespace {
 
-constexpr std::size_t kMostLinks = 4096;
-
 /// One line below the first one; what it says goes to the last claims.
 std::string readLine(const TextLines& lines, std::vector<StepClaim>& claims) {
   const auto& words = lines.words();
@@ -56,6 +54,7 @@ std::string readLine(const TextLines& lines, std::vector<StepClaim>& claims) {
 }  // namespace
 
 Fault readCertificate(std::string_view text, std::vector<StepClaim>& claims) {
+  if (Fault fault = otherLinesIn(text); !fault.what.empty()) return fault;
   TextLines lines(text);
   const bool hasFirst = lines.next() && lines.words().size() == 2 &&
                         lines.words()[0] == "foretouch-certificate" && lines.words()[1] == "1";

@@ -39,7 +39,7 @@ class JsonReading {
     switch (text_[at_]) {
       case '{': value.kind = Json::Kind::Object; return readList('{', '}', value, depth);
       case '[': value.kind = Json::Kind::Array; return readList('[', ']', value, depth);
-      case '"': value.kind = Json::Kind::Text; return readText(value.text);
+      case '"': value.kind = Json::Kind::Text; return readText(value.text, value.hasEscape);
       case 'n': return takeWord("null");
       case 't':
         value.kind = Json::Kind::Truth;
@@ -50,10 +50,13 @@ class JsonReading {
     }
   }
 
-  bool readText(std::string& text) {
+  bool readText(std::string& text, bool& hasEscape) {
     for (++at_; at_ < text_.size(); ++at_) {
       if (text_[at_] == '"') return ++at_, true;
-      if (text_[at_] == '\\' && at_ + 1 < text_.size()) text += text_[at_++];
+      if (text_[at_] == '\\' && at_ + 1 < text_.size()) {
+        hasEscape = true;
+        text += text_[at_++];
+      }
       text += text_[at_];
     }
     return false;
@@ -73,7 +76,9 @@ class JsonReading {
       if (value.kind == Json::Kind::Object) {
         skipBlanks();
         if (at_ == text_.size() || text_[at_] != '"') return false;
-        if (!readText(value.keys.emplace_back()) || !take(':')) return false;
+        bool hasEscape = false;
+        if (!readText(value.keys.emplace_back(), hasEscape) || hasEscape || !take(':'))
+          return false;
       }
       if (!read(value.items.emplace_back(), depth + 1)) return false;
     } while (take(','));

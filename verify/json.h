@@ -14,15 +14,17 @@ struct Json {
   bool truth = false;
   double number = 0.0;
   std::string text;
+  bool hasEscape = false;         ///< In the text.
   std::vector<Json> items;        ///< Of an array; of an object its values.
   std::vector<std::string> keys;  ///< Of an object, beside its values.
 
+  [[nodiscard]] bool isPlainText() const { return kind == Kind::Text && !hasEscape; }
   /// The only value of this key; nothing: it is no object, or has it not, or twice.
   [[nodiscard]] const Json* find(std::string_view key) const;
 };
 
-/// False if the whole text is not one value. Escapes in texts stay as they are written: names are
-/// only compared. At most 32 deep.
+/// False if the whole text is not one value, or a key has an escape. Escapes in texts stay as they
+/// are written. At most 32 deep.
 [[nodiscard]] bool parseJson(std::string_view text, Json& value);
 
 }  // namespace verify

@@ -4,6 +4,7 @@
 // one of the steps has to be named. Exit code 0: all is proven; 1: not, and the first span that is
 // not is named; 2: a file could not be read.
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
@@ -23,6 +24,11 @@ int badFile(const char* path, const Fault& fault) {
 }
 
 bool readText(const char* path, std::string& text) {
+  // A pipe, or a device, has no end.
+  if (!std::filesystem::is_regular_file(path)) {
+    std::fprintf(stderr, "foretouch-verify: %s: expected a file\n", path);
+    return false;
+  }
   std::ifstream file(path, std::ios::binary);
   std::ostringstream all;
   if (!file || !(all << file.rdbuf())) {
@@ -75,21 +81,29 @@ int run(const char* const* paths, bool asksWhole) {
     }
   }
   Tally tally;
+  // Honest claims take some ten halvings of rotations per byte.
+  constexpr std::size_t kWorkPerByte = 64;
+  std::size_t work = Motion::kMostWork + kWorkPerByte * texts[3].size();
   std::set<long long> wholly;
   for (const StepClaim& claim : claims) {
     const auto step = byNumber.find(claim.step);
     if (step == byNumber.end()) {
       return refuse(paths[3], claim.line, claim.step, "is none of the steps");
     }
-    Motion motion(links, *step->second);
+    Motion motion(links, *step->second, work);
     const Fault fault = scene.prove(links, claim, motion, tally);
     if (!fault.what.empty()) return refuse(paths[3], fault.line, claim.step, fault.what);
     if (isWhole(links, claim)) wholly.insert(claim.step);
+    work -= motion.work();
   }
   if (asksWhole && wholly.size() != steps.size()) {
     return refuse(paths[3], 0, steps.front().number,
                   "only " + std::to_string(wholly.size()) + " of " + std::to_string(steps.size()) +
                       " steps are claimed with every link");
+  }
+  if (tally.links == 0) {
+    std::printf("NOT PROVEN: %s:0: it claims nothing\n", paths[3]);
+    return 1;
   }
   std::printf(
       "proven: %lld links on %lld steps touch nothing: %lld LSS, %lld spans, %lld planes; %lld "

@@ -1,6 +1,8 @@
 #include "verify/motion.h"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace verify {
 namespace {
@@ -17,17 +19,14 @@ Quaternion middle(const Quaternion& a, const Quaternion& b) {
   return unit({a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]});
 }
 
-Vector exactly(const Point& p) {
-  return {Interval(p[0]), Interval(p[1]), Interval(p[2])};
-}
-
 double norm(const std::array<double, 4>& q) {
   return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
 }
 
 }  // namespace
 
-Motion::Motion(const std::vector<Link>& links, const Step& step) : links_(links) {
+Motion::Motion(const std::vector<Link>& links, const Step& step, std::size_t mostWork)
+    : links_(links), mostWork_(mostWork) {
   for (std::size_t i = 0; i < links.size(); ++i) {
     const auto& a = step.from[i].rotation;
     const auto& b = step.to[i].rotation;
@@ -88,27 +87,41 @@ Quaternion Motion::rotationAt(const Joint& joint, int level, std::int64_t index)
   return a;
 }
 
+/// Some 32 MB.
+std::size_t Motion::mostInstants() const {
+  constexpr std::size_t kMostKept = (std::size_t{32} << 20) / sizeof(LinkPlace);
+  return std::max<std::size_t>(2, kMostKept / std::max<std::size_t>(1, links_.size()));
+}
+
 const LinkPlace& Motion::at(int level, std::int64_t index, std::size_t link) {
   while (level > 0 && index % 2 == 0) {
     --level;
     index /= 2;
   }
+  if (known_.size() >= mostInstants() && known_.count({level, index}) == 0) known_.clear();
   Places& places = known_[{level, index}];
-  if (!places.empty()) return places[link];
+  if (places.empty()) places.resize(links_.size());
   const Interval t(std::ldexp(static_cast<double>(index), -level));  // exact: below 2^41
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    const Joint& joint = joints_[i];
+  std::vector<std::size_t> chain;  // up to the first that is known
+  for (auto i = static_cast<int>(link); i >= 0 && !places[static_cast<std::size_t>(i)];) {
+    chain.push_back(static_cast<std::size_t>(i));
+    i = links_[static_cast<std::size_t>(i)].parent;
+  }
+  work_ += chain.size() * static_cast<std::size_t>(level + 1);
+  if (work_ > mostWork_) throw std::runtime_error("the claims ask for too many places");
+  for (auto i = chain.rbegin(); i != chain.rend(); ++i) {
+    const Joint& joint = joints_[*i];
     const Matrix turned = rotation(rotationAt(joint, level, index));
     const Vector moved = joint.start + t * joint.drift;
-    if (links_[i].parent < 0) {
-      places.push_back({turned, moved});
+    const int above = links_[*i].parent;
+    if (above < 0) {
+      places[*i] = LinkPlace{turned, moved};
       continue;
     }
-    const LinkPlace& parent = places[static_cast<std::size_t>(links_[i].parent)];
-    LinkPlace own{parent.rotation * turned, parent.origin + parent.rotation * moved};
-    places.push_back(own);
+    const LinkPlace& parent = *places[static_cast<std::size_t>(above)];
+    places[*i] = LinkPlace{parent.rotation * turned, parent.origin + parent.rotation * moved};
   }
-  return places[link];
+  return *places[link];
 }
 
 double Motion::acceleration(std::size_t link, double distance) const {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,12 +23,20 @@ struct LinkPlace {
 
 class Motion {
  public:
-  Motion(const std::vector<Link>& links, const Step& step);
+  /// `mostWork`: at() takes no more halvings of rotations.
+  Motion(const std::vector<Link>& links, const Step& step, std::size_t mostWork = kMostWork);
+
+  static constexpr std::size_t kMostWork = 4'000'000;
 
   /// What makes the step no motion; empty: nothing.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
+  /// Halvings so far.
+  [[nodiscard]] std::size_t work() const { return work_; }
+
   /// At t = index / 2^level.
+  /// O(level) for each link above it that is not known at that instant yet; only so many instants
+  /// are kept. Throws beyond the most work: whoever asks for as much wants it to take its time.
   [[nodiscard]] const LinkPlace& at(int level, std::int64_t index, std::size_t link);
 
   /// At least the acceleration of any point of the link at this distance from its origin, at any
@@ -45,15 +54,17 @@ class Motion {
     Quaternion from, to;
     Vector start, drift;
   };
-  using Places = std::vector<LinkPlace>;
+  using Places = std::vector<std::optional<LinkPlace>>;
 
   [[nodiscard]] static double turnOf(const Joint& joint);
   [[nodiscard]] static Quaternion rotationAt(const Joint& joint, int level, std::int64_t index);
+  [[nodiscard]] std::size_t mostInstants() const;
 
   const std::vector<Link>& links_;
   std::vector<Joint> joints_;
   std::vector<double> turns_, accelerations_;  // of the chain down to each link; of its origin
   std::map<std::pair<int, std::int64_t>, Places> known_;
+  std::size_t work_ = 0, mostWork_;
   std::string fault_;
 };
 

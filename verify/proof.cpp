@@ -6,10 +6,6 @@
 namespace verify {
 namespace {
 
-Vector exactly(const Point& p) {
-  return {Interval(p[0]), Interval(p[1]), Interval(p[2])};
-}
-
 bool isNot(double least, double most) {
   return !(least <= most);  // true where either is no number
 }
@@ -28,8 +24,8 @@ SceneProof::SceneProof(std::vector<Triangle> triangles) : triangles_(std::move(t
   for (const Triangle& triangle : triangles_) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto& [a, b, c] = triangle.corners;
-      least_[axis].push_back(std::min({a[axis], b[axis], c[axis]}));
-      most_[axis].push_back(std::max({a[axis], b[axis], c[axis]}));
+      least_[axis].push_back(std::min({a[axis].lo, b[axis].lo, c[axis].lo}));
+      most_[axis].push_back(std::max({a[axis].hi, b[axis].hi, c[axis].hi}));
     }
   }
 }
@@ -60,9 +56,8 @@ bool SceneProof::isInFront(const Hull& hull, const Plane& plane) {
 
 bool SceneProof::isBehind(const Triangle& triangle, const Plane& plane) {
   const Vector normal = exactly(plane.normal);
-  return std::all_of(triangle.corners.begin(), triangle.corners.end(), [&](const Point& corner) {
-    return dot(normal, exactly(corner)).hi <= plane.offset;
-  });
+  return std::all_of(triangle.corners.begin(), triangle.corners.end(),
+                     [&](const Vector& corner) { return dot(normal, corner).hi <= plane.offset; });
 }
 
 /// Empty where it is proven.

@@ -8,13 +8,24 @@
 #include <string_view>
 #include <vector>
 
+#include "verify/fault.h"
+#include "verify/interval.h"
+
 namespace verify {
 
 using Point = std::array<double, 3>;
 
+inline Vector exactly(const Point& p) {
+  return {Interval(p[0]), Interval(p[1]), Interval(p[2])};
+}
+
+/// Wherever readers of single and of double precision see it.
 struct Triangle {
-  std::array<Point, 3> corners;
+  std::array<Vector, 3> corners;
 };
+
+/// At most as many as the product takes.
+inline constexpr std::size_t kMostLinks = 4096;
 
 struct Capsule {  ///< A segment and a radius, in the frame of its link.
   Point a, b;
@@ -38,16 +49,13 @@ struct Step {
   std::vector<JointPose> from, to;
 };
 
-/// What is wrong with a text; `what` is empty where nothing is.
-struct Fault {
-  long long line = 0;
-  std::string what;
-};
-
-/// An OBJ of triangles: lines v and f; f with three corners, each a vertex, slashes behind it
-/// ignored. Lines that say nothing of the shape are skipped, all others are faults.
+/// An OBJ of triangles: lines v and f; f with three corners, each a vertex above. Lines that say
+/// nothing of the shape are skipped. All others are faults, and so is what readers read in two
+/// ways: a fourth coordinate, something behind a line, lines that begin with blanks, coordinates
+/// above it that are not there, bytes that are no printable ASCII.
 [[nodiscard]] Fault readScene(std::string_view text, std::vector<Triangle>& scene);
-/// An avatar file (JSON): names, parents and LSS of its links; what else it says is skipped.
+/// An avatar file (JSON): names, parents and LSS of its links; what else it says is skipped. Names
+/// without escapes, each once, at most kMostLinks.
 [[nodiscard]] Fault readAvatar(std::string_view text, std::vector<Link>& links);
 /// "foretouch-steps 1": for each step its number, and for each joint both poses.
 [[nodiscard]] Fault readSteps(std::string_view text, std::size_t joints, std::vector<Step>& steps);

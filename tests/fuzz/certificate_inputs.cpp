@@ -22,7 +22,7 @@ bool feedCertificate(const std::uint8_t* data, std::size_t size) {
   if (!verify::readCertificate(text, claims).what.empty()) return false;
   // Link 0 passes through the wall, link 1 does not.
   const std::vector<verify::Triangle> wall{
-      {{verify::Point{0.5, -5, -5}, verify::Point{0.5, 5, -5}, verify::Point{0.5, 0, 9}}}};
+      {{verify::Vector{0.5, -5, -5}, verify::Vector{0.5, 5, -5}, verify::Vector{0.5, 0, 9}}}};
   std::vector<verify::Link> links(2);
   links[0].capsules.push_back({{0, 0, 0}, {0, 0.1, 0}, 0.1});
   links[1].capsules.push_back({{0, 0, 0}, {0, 0, 0}, 0.1});

@@ -82,7 +82,7 @@ Eigen::Vector3d axisPoint(const Edge& edge, LinkId link, double t, Random& rando
   return edge.motion.stateAt(link, t).pointAt(all[lss].a + s * (all[lss].b - all[lss].a));
 }
 
-verify::Point pointOf(const Eigen::Vector3d& v) {
+verify::Vector pointOf(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
@@ -174,10 +174,10 @@ bool tellOfAPose(const Edge& edge, Statement& statement, Random& random) {
   const Eigen::Vector3d at = axisPoint(edge, link, 1.0, random, lss);
   const auto& triangle = statement.triangles[static_cast<std::size_t>(
       random.below(static_cast<int>(statement.triangles.size())))];
-  const verify::Point& corner = triangle.corners[static_cast<std::size_t>(random.below(3))];
+  const verify::Vector& corner = triangle.corners[static_cast<std::size_t>(random.below(3))];
   verify::Point& root = statement.steps.front().to.front().translation;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    root[axis] += corner[axis] - at[static_cast<Eigen::Index>(axis)];
+    root[axis] += corner[axis].lo - at[static_cast<Eigen::Index>(axis)];
   }
   return true;
 }
@@ -188,7 +188,7 @@ bool tellOfARadius(const Edge& edge, Statement& statement, Random& random) {
   std::size_t lss = 0;
   const Eigen::Vector3d at = axisPoint(edge, link, random.uniform(0.0, 1.0), random, lss);
   const auto& corner = statement.triangles.front().corners[0];
-  const double far = (at - Eigen::Vector3d(corner[0], corner[1], corner[2])).norm();
+  const double far = (at - Eigen::Vector3d(corner[0].lo, corner[1].lo, corner[2].lo)).norm();
   statement.links[static_cast<std::size_t>(link)].capsules[lss].radius = far * (1.0 + 1e-6);
   return true;
 }

@@ -159,7 +159,7 @@ TEST(VerifyCertificate, RandomClearEdgesAreProvenAndLiesAreNot) {
 /// A sphere of radius 0.1 that runs from x = 0 to x = 1, and a wall at `wall`.
 std::string whyNot(double wall, const std::string& proof) {
   std::vector<verify::Triangle> triangles{
-      {{verify::Point{wall, -5, -5}, verify::Point{wall, 5, -5}, verify::Point{wall, 0, 9}}}};
+      {{verify::Vector{wall, -5, -5}, verify::Vector{wall, 5, -5}, verify::Vector{wall, 0, 9}}}};
   std::vector<verify::Link> links(1);
   links[0].capsules.push_back({{0, 0, 0}, {0, 0, 0}, 0.1});
   std::vector<verify::Step> steps;
