@@ -74,6 +74,9 @@ struct LogReadOptions {
   /// Also return the events after the last check sum: the writer was killed before it closed their
   /// block, and only their lengths show that they are whole.
   bool keepTail = false;
+  /// Return every event whose lengths are possible, as of a log without check sums: other tools
+  /// renumber, merge and leave out events, and no block's check sum is right any more.
+  bool ignoreCheckSums = false;
   /// Called for every damage that the reader skips.
   std::function<void(const LogFinding&)> onFinding;
 };

@@ -30,7 +30,7 @@ struct EventLogReader::Impl {
   void restart() {
     counts = LogCounts{};
     pending.reset();
-    isChecked = counts.hasCheckSums = kind.hasCheckSums;
+    isChecked = counts.hasCheckSums = kind.hasCheckSums && !options.ignoreCheckSums;
     position = 0;
     if (isChecked) blocks.start(0, kind.logId);
   }
@@ -48,7 +48,8 @@ struct EventLogReader::Impl {
         return window.eventOf(found.frame, event);
       }
       BlockEvent check;
-      if (window.blockEventAt(begin, check) == BlockEventState::Intact) {
+      if (!options.ignoreCheckSums &&
+          window.blockEventAt(begin, check) == BlockEventState::Intact) {
         isChecked = counts.hasCheckSums = true;
         blocks.start(begin, check.logId);
         return false;

@@ -22,6 +22,7 @@
 #include "tools/batch/scratch_folder.h"
 #include "tools/console.h"
 #include "tools/progress.h"
+#include "tools/settings/file_mark.h"
 
 namespace foretouch::tools {
 namespace {
@@ -154,11 +155,12 @@ bool BatchRun::move(const std::string& name, const char* ending) {
 JobEnd BatchRun::keep(std::size_t number, JobRecord record, const ChildEnd& end) {
   const auto summary = lastingSummary(end.out);
   const std::string results = scratch_ + "/" + record.name + ".jsonl";
-  record.lines = wholeLinesIn(results);
-  if (!summary || record.lines < 1) {
+  const auto mark = markOfFile(results);
+  if (!summary || !mark.ok()) {
     return failJob(number, record.name, "expected results and their summary, found none");
   }
   record.summary = *summary;
+  record.mark = mark.value();
   record.isDone = true;
   if (!move(record.name, ".jsonl")) return JobEnd::Stopped;
   if (plan_.makesReports && !move(record.name, ".html")) return JobEnd::Stopped;

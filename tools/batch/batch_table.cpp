@@ -36,8 +36,17 @@ std::string joinedTexts(const JobOption& option) {
   return option.texts.empty() ? "true" : all;
 }
 
-std::string csvCell(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+/// To spreadsheets a cell that begins so is a formula, but for a number.
+bool isFormula(std::string_view text) {
+  if (text.empty() || std::string_view("=+-@\t\r").find(text.front()) == text.npos) return false;
+  double number = 0.0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return problem != std::errc() || end != text.data() + text.size();
+}
+
+std::string csvCell(std::string_view given) {
+  const std::string text = (isFormula(given) ? "'" : "") + std::string(given);
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string cell = "\"";
   for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
   return cell + '"';

@@ -1,12 +1,9 @@
 #include "tools/batch/job_record.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -43,11 +40,11 @@ std::string recordLine(const JobRecord& record) {
   JsonWriter out(text);
   out.beginObject();
   out.field("format", "foretouch-batch-result");
-  out.field("version", 1);
+  out.field("version", 2);
   out.field("job", record.name);
   out.field("state", record.isDone ? "done" : "failed");
   if (record.isDone) {
-    out.field("lines", record.lines);
+    out.field("results", record.mark);
     out.rawField("summary", record.summary);
   } else {
     out.field("error", record.error);
@@ -68,10 +65,9 @@ std::optional<JobRecord> parseRecord(std::string_view line, const std::string& n
   record.isDone = textIn(read, "state") == "done";
   record.error = textIn(read, "error");
   if (!record.isDone) return record;
-  const auto lines = read.find("lines"), summary = read.find("summary");
-  if (lines == read.end() || !lines->is_number_integer()) return std::nullopt;
+  const auto summary = read.find("summary");
+  record.mark = textIn(read, "results");
   if (summary == read.end() || !summary->is_object()) return std::nullopt;
-  record.lines = lines->get<std::int64_t>();
   record.summary = summary->dump();
   return record;
 }
@@ -85,7 +81,8 @@ std::optional<JobRecord> ResultFolder::find(const std::string& name) const {
   if (!line.ok()) return std::nullopt;
   auto record = parseRecord(line.value(), name);
   if (!record || !record->isDone) return record;
-  if (wholeLinesIn(fileOf(name, ".jsonl")) != record->lines) return std::nullopt;
+  const auto mark = markOfFile(fileOf(name, ".jsonl"));
+  if (!mark.ok() || mark.value() != record->mark) return std::nullopt;
   return record;
 }
 
@@ -107,20 +104,6 @@ Result<Done> ResultFolder::put(const JobRecord& record, const std::string& scrat
   if (std::fclose(file) != 0 || !isWritten) return failed();
   if (std::rename(before.c_str(), target.c_str()) != 0) return failed();
   return Done{};
-}
-
-std::int64_t wholeLinesIn(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return -1;
-  std::vector<char> piece(std::size_t{1} << 15);
-  std::int64_t lines = 0;
-  char last = '\n';
-  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0) {
-    const auto end = piece.begin() + file.gcount();
-    lines += std::count(piece.begin(), end, '\n');
-    last = *std::prev(end);
-  }
-  return file.bad() || last != '\n' ? -1 : lines;
 }
 
 }  // namespace foretouch::tools

@@ -2,7 +2,6 @@
 // place, and that of the results, follow from the job's name alone.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,8 +13,8 @@ namespace foretouch::tools {
 struct JobRecord {
   std::string name;
   bool isDone = false;
-  std::string error;       ///< Of one that failed.
-  std::int64_t lines = 0;  ///< Of its results.
+  std::string error;    ///< Of one that failed.
+  std::string mark;     ///< Of the file of its results (file_mark.h).
   std::string summary;  ///< A JSON object: the replay's, without what no second run would repeat.
 };
 
@@ -39,7 +38,9 @@ class ResultFolder {
     return path_ + "/" + placeOf(name, ending);
   }
 
-  /// The record, if it and the results that it tells of are whole; of a job that failed, it alone.
+  /// The record, if it is whole and the results are those that it tells of, byte for byte; of a job
+  /// that failed, it alone. Of records of before there were marks, nothing: such a job is done
+  /// again.
   [[nodiscard]] std::optional<JobRecord> find(const std::string& name) const;
   /// It is there whole, or as it was before. `scratch`: a folder on the same file system.
   [[nodiscard]] Result<Done> put(const JobRecord& record, const std::string& scratch) const;
@@ -47,8 +48,5 @@ class ResultFolder {
  private:
   std::string path_;
 };
-
-/// Lines of a file, if its last one is ended; -1 otherwise, or if it cannot be read.
-[[nodiscard]] std::int64_t wholeLinesIn(const std::string& path);
 
 }  // namespace foretouch::tools

@@ -59,7 +59,9 @@ std::string summaryOf(const LogReplayReport& report, const ReplayedWorld& world)
   if (world.unreadable() > 0) {
     text += fmt::format("{} messages about bodies cannot be read\n", world.unreadable());
   }
-  if (!journal.hasRecord()) return text + "the log has no events of a moving world\n";
+  if (!journal.hasRecord()) {
+    return text + "the log has no events of a moving world: there is nothing to compare\n";
+  }
   text += fmt::format("{} of {} messages of events equal the journal's, byte for byte\n",
                       journal.equal(),
                       std::max(world.answers() - journal.beyondEnd(), journal.recorded()));
@@ -108,7 +110,8 @@ ExitCode run(AskedLogReplay& asked) {
                        &world));
   if (guard.requested()) return ExitCode::Done;
   printOut(asked.asJson ? jsonOf(report, world) : summaryOf(report, world));
-  return report.agrees() && world.agrees() ? ExitCode::Done : ExitCode::CheckSaysNo;
+  const bool hasCompared = world.journal().hasRecord();
+  return hasCompared && report.agrees() && world.agrees() ? ExitCode::Done : ExitCode::CheckSaysNo;
 }
 
 }  // namespace
@@ -133,7 +136,7 @@ Command logReplayCommand() {
       "replay", "Answer what a service with a moving world recorded, and compare byte for byte",
       "Example:\n  foretouch log replay today.lcmlog --world stage.toml\n\n"
       "Options are those of the service. Exit code 1 says that contacts or events found\n"
-      "now are others than those in the log.",
+      "now are others than those in the log, or that it has no events to compare.",
       std::move(settings)};
   command.run = [asked](const Settings&) { return run(*asked); };
   return command;

@@ -260,7 +260,8 @@ ExitCode runLog(const AskedReplay& asked) {
     outIsTaken ? printAside(text) : printOut(text + placesOf(job.outputPath, job.report.path));
   });
   if (!replayed.ok()) return failed(replayed.error());
-  return replayed.value().agrees() ? ExitCode::Done : ExitCode::CheckSaysNo;
+  const bool isFine = replayed.value().agrees() && !replayed.value().isEmpty();
+  return isFine ? ExitCode::Done : ExitCode::CheckSaysNo;
 }
 
 ExitCode runSolid(const Settings& settings, const AskedReplay& asked) {

@@ -12,7 +12,6 @@
 namespace foretouch::tools {
 namespace {
 
-
 /// With a point, whole or not.
 std::string rateText(double rateHz) {
   std::string text = numberText(rateHz);

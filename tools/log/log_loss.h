@@ -19,7 +19,7 @@ class LogLoss {
   /// The reader's own, at the end.
   [[nodiscard]] const LogCounts& counts() const { return counts_; }
 
-  static constexpr std::size_t kMaxTold = 20;
+  static constexpr std::size_t kMaxTold = 10;
 
   // Called by readEvents(), in the order of the log.
   void found(const LogFinding& finding);

@@ -1,9 +1,13 @@
 #include "tools/log/log_recover_command.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <system_error>
+#include <tuple>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -18,17 +22,78 @@ namespace {
 /// The values of all options.
 struct Recovery {
   std::string log, output;
-  bool keepTail = false, asJson = false;
+  bool keepTail = false, isUnchecked = false, asJson = false;
 };
 
-/// Copies the trustworthy events of the one into the other.
-Result<LogCounts> copyEvents(EventLogReader& reader, EventLogWriter& writer) {
+/// Lines of what is damaged, before a count.
+constexpr std::size_t kMostToldFindings = 10;
+/// Events out of order are sorted in memory.
+constexpr std::size_t kMostSortedBytes = std::size_t{1} << 30;
+
+/// Passes all that it reads to `take`.
+template <typename Take>
+Result<Done> forEachEvent(EventLogReader& reader, const Take& take) {
   ProgressBar bar("recover", static_cast<std::int64_t>(reader.size()));
   for (LogEvent event;;) {
     FORETOUCH_TRY(const auto more, reader.next(event));
-    if (!more) break;
-    FORETOUCH_CHECK(writer.write(event.utimeUs, event.channel, event.payload));
+    if (!more) return Done{};
+    FORETOUCH_CHECK(take(event));
     bar.advanceTo(static_cast<std::int64_t>(reader.position()));
+  }
+}
+
+Result<Done> writeTo(EventLogWriter& writer, const LogEvent& event) {
+  return writer.write(event.utimeUs, event.channel, event.payload);
+}
+
+/// By their stamps; those of one stamp by their numbers, if these still say anything.
+Result<Done> copySorted(EventLogReader& reader, EventLogWriter& writer) {
+  std::vector<LogEvent> events;
+  std::size_t bytes = 0;
+  FORETOUCH_CHECK(forEachEvent(reader, [&](const LogEvent& event) -> Result<Done> {
+    bytes += sizeof event + event.channel.size() + event.payload.size();
+    if (bytes > kMostSortedBytes) {
+      return Error::of(ErrorCode::LimitExceeded,
+                       "its events are out of order; expected at most 1 GiB of them to sort");
+    }
+    events.push_back(event);
+    return Done{};
+  }));
+  std::stable_sort(events.begin(), events.end(), [](const LogEvent& x, const LogEvent& y) {
+    return std::tie(x.utimeUs, x.number) < std::tie(y.utimeUs, y.number);
+  });
+  for (const LogEvent& event : events) FORETOUCH_CHECK(writeTo(writer, event));
+  return Done{};
+}
+
+/// Whether stamps never fall.
+Result<bool> isInOrder(const Recovery& asked, const LogReadOptions& options) {
+  LogReadOptions quiet = options;
+  quiet.onFinding = nullptr;
+  FORETOUCH_TRY(auto reader, EventLogReader::open(asked.log, quiet));
+  std::int64_t lastUs = std::numeric_limits<std::int64_t>::min();
+  bool isAscending = true;
+  FORETOUCH_CHECK(forEachEvent(reader, [&](const LogEvent& event) -> Result<Done> {
+    isAscending = isAscending && event.utimeUs >= lastUs;
+    lastUs = event.utimeUs;
+    return Done{};
+  }));
+  return isAscending;
+}
+
+/// Copies the trustworthy events of the one into the other.
+Result<LogCounts> copyEvents(const Recovery& asked, const LogReadOptions& options,
+                             EventLogReader& reader, EventLogWriter& writer) {
+  bool isSorted = true;
+  if (asked.isUnchecked) {
+    FORETOUCH_TRY(isSorted, isInOrder(asked, options));
+  }
+  if (isSorted) {
+    FORETOUCH_CHECK(
+        forEachEvent(reader, [&](const LogEvent& event) { return writeTo(writer, event); }));
+  } else {
+    printNote(asked.log + ": its events are out of order: they are sorted by their stamps");
+    FORETOUCH_CHECK(copySorted(reader, writer));
   }
   FORETOUCH_CHECK(writer.close());
   return reader.counts();
@@ -46,6 +111,9 @@ std::string summary(const Recovery& asked, const LogCounts& counts) {
   add(counts.badEvents, "bad events");
   add(counts.tailEvents, asked.keepTail ? "unchecked tail, kept" : "unchecked tail, left out");
   add(counts.skippedBytes, "bytes lost");
+  if (asked.isUnchecked) {
+    text += "nothing shows that these are all, that they are as they were written, or in order\n";
+  }
   return text;
 }
 
@@ -62,21 +130,40 @@ std::string recoveryJson(const Recovery& asked, const LogCounts& counts) {
   out.field("bad_events", counts.badEvents);
   out.field("tail_events", counts.tailEvents);
   out.field("tail_kept", asked.keepTail);
+  out.field("check_sums_ignored", asked.isUnchecked);
   out.field("bytes_lost", counts.skippedBytes);
   out.endObject();
   return text + "\n";
 }
 
+/// An empty log is of no use to anybody.
+ExitCode nothingToRecover(const Recovery& asked, const LogCounts& counts) {
+  std::error_code ignored;
+  std::filesystem::remove(asked.output, ignored);
+  printError(asked.log + ": no event of it can be trusted" +
+             (counts.badBlocks + counts.missingBlocks > 0
+                  ? "; --unchecked takes events that other tools renumbered, merged or filtered"
+                  : ""));
+  return ExitCode::CheckSaysNo;
+}
+
 ExitCode recover(const Recovery& asked) {
   LogReadOptions options;
   options.keepTail = asked.keepTail;
+  options.ignoreCheckSums = asked.isUnchecked;
   std::size_t findings = 0;
   options.onFinding = [&](const LogFinding& finding) {
-    if (++findings <= kMaxListedFindings) printNote(asked.log + ": " + describe(finding));
+    if (++findings <= kMostToldFindings) printNote(asked.log + ": " + describe(finding));
   };
   FORETOUCH_TRY_OR(failed, auto reader, EventLogReader::open(asked.log, options));
   FORETOUCH_TRY_OR(failed, auto writer, EventLogWriter::create(asked.output));
-  const auto counts = copyEvents(reader, writer);
+  const auto counts = copyEvents(asked, options, reader, writer);
+  if (findings > kMostToldFindings) {
+    printNote(fmt::format("{}: and {} more", asked.log, findings - kMostToldFindings));
+  }
+  if (counts.ok() && counts.value().events == 0) {
+    return nothingToRecover(asked, counts.value());
+  }
   if (!counts.ok()) {
     std::error_code ignored;
     std::filesystem::remove(asked.output, ignored);
@@ -96,6 +183,9 @@ Command logRecoverCommand() {
       .required();
   settings.flag("--keep-tail", asked->keepTail,
                 "Also what follows the last check sum: of a writer that was killed");
+  settings.flag("--unchecked", asked->isUnchecked,
+                "Every whole event, whatever check sums say: of a log that other tools renumbered, "
+                "merged, filtered or shuffled");
   settings.asJson(asked->asJson);
   Command command{"recover", "Write every event that can be trusted into a new log with check sums",
                   "Example:\n  foretouch log recover torn.lcmlog -o whole.lcmlog --keep-tail",

@@ -11,7 +11,8 @@ namespace foretouch::tools {
 
 LogTouches::LogTouches(const LogReplayInputs& inputs) : inputs_(inputs) {
   for (const Avatar& avatar : inputs.avatars) {
-    players_.push_back({StreamTouches(), GroundTest(avatar, inputs.scene, inputs.request.world.ground)});
+    players_.push_back(
+        {StreamTouches(), GroundTest(avatar, inputs.scene, inputs.request.world.ground)});
   }
 }
 

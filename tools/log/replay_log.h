@@ -62,6 +62,8 @@ struct LogReplayReport {
   std::int64_t solidsNotAsked = 0;         ///< Shown poses in the log otherwise.
   std::int64_t eventsNotAsked = 0;         ///< Of a moving world, in the log; without one.
 
+  /// Nothing at all was answered: that says nothing of what the avatars touch.
+  [[nodiscard]] bool isEmpty() const { return answers == 0; }
   /// The replay contradicts nothing in the log.
   [[nodiscard]] bool agrees() const {
     return unreadableAnswers == 0 && (!journal.hasRecord() || journal.isEqual()) &&

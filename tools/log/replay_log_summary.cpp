@@ -79,6 +79,11 @@ std::string LogReplaySummary::text(const LogReplayReport& report) const {
 
 std::string LogReplaySummary::comparison(const LogReplayReport& report) {
   std::string text;
+  if (report.isEmpty()) {
+    text += "nothing was answered: no pose of these avatars could be trusted and understood";
+    const bool isDamaged = report.log.badBlocks + report.log.missingBlocks > 0;
+    text += isDamaged ? "; foretouch log recover --unchecked may help\n" : "\n";
+  }
   if (report.unreadableAnswers > 0) {
     text += fmt::format("{} of the log's verdicts cannot be read\n", report.unreadableAnswers);
   }

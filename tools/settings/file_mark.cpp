@@ -1,7 +1,9 @@
 #include "tools/settings/file_mark.h"
 
 #define XXH_INLINE_ALL
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 #include <vector>
 #include <xxhash.h>
 
@@ -15,6 +17,11 @@ std::string markOfText(std::string_view text, std::string_view before) {
 }
 
 Result<std::string> markOfFile(const std::string& path) {
+  // A pipe may have no end, nor anybody who writes to it.
+  std::error_code absent;
+  if (std::filesystem::exists(path, absent) && !std::filesystem::is_regular_file(path, absent)) {
+    return Error::in(path, ErrorCode::FileUnreadable, "expected a file");
+  }
   std::ifstream file(path, std::ios::binary);
   if (!file) return Error::in(path, ErrorCode::FileNotFound, "cannot be opened");
   XXH64_state_t state;

@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 #include <sys/mount.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -95,6 +96,34 @@ TEST(BatchProgram, WhatIsDoneIsNotDoneAgain) {
   tally = Json::parse(fleet.run(results, {"--json"}).out);
   EXPECT_EQ(tally["kept"], 1);
   EXPECT_EQ(tally["done"], 3);
+}
+
+TEST(BatchProgram, ResultsThatSayOtherThingsAreDoneAgain) {
+  const SmallFleet fleet(4);
+  const std::string results = fleet.world.folder / "results";
+  ASSERT_EQ(fleet.run(results).exitCode, 0);
+  const std::string table = fleet.merged(results);
+  const auto lines = filesWith(results, ".jsonl");
+  ASSERT_EQ(lines.size(), 4u);
+  // As many lines: with zeros after a loss of power, and with another name.
+  const std::string first = contentOf(lines[0]), second = contentOf(lines[1]);
+  std::string zeroed = first;
+  for (std::size_t i = zeroed.size() / 2; i < zeroed.size(); ++i) {
+    if (zeroed[i] != '\n') zeroed[i] = '\0';
+  }
+  std::ofstream(lines[0], std::ios::binary) << zeroed;
+  std::string renamed = second;
+  renamed.replace(renamed.find("foretouch"), 9, "somebody!");
+  std::ofstream(lines[1], std::ios::binary) << renamed;
+  // Something that nobody will ever write to.
+  fs::remove(lines[2]);
+  ASSERT_EQ(::mkfifo(lines[2].c_str(), 0600), 0);
+  Json tally = Json::parse(fleet.run(results, {"--json"}).out);
+  EXPECT_EQ(tally["kept"], 1);
+  EXPECT_EQ(tally["done"], 3);
+  EXPECT_EQ(contentOf(lines[0]).find('\0'), std::string::npos);
+  EXPECT_EQ(contentOf(lines[1]).find("somebody!"), std::string::npos);
+  EXPECT_EQ(fleet.merged(results), table);
 }
 
 TEST(BatchProgram, ShardsShareTheJobsAndMergeIntoTheSame) {

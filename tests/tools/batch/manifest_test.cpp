@@ -182,13 +182,13 @@ TEST(JobRecord, EveryDamageMakesItNoRecord) {
   JobRecord record;
   record.name = std::string(32, 'a');
   record.isDone = true;
-  record.lines = 7;
+  record.mark = "0123456789abcdef";
   record.summary = R"({"steps":4})";
   const std::string line = recordLine(record);
   const auto read = parseRecord(line, record.name);
   ASSERT_TRUE(read.has_value());
   EXPECT_TRUE(read->isDone);
-  EXPECT_EQ(read->lines, 7);
+  EXPECT_EQ(read->mark, record.mark);
   EXPECT_EQ(read->summary, record.summary);
   EXPECT_FALSE(parseRecord(line, std::string(32, 'b')).has_value()) << "another job's";
   for (std::size_t end = 0; end < line.size(); ++end) {

@@ -1,6 +1,7 @@
 // `foretouch log`: what it says of sound, damaged and foreign logs, and what it mends.
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <sys/resource.h>
@@ -142,6 +143,71 @@ TEST(LogProgram, RecoverKeepsATailIfAsked) {
   EXPECT_EQ(eventsOf(folder / "a").size(), trusted);
   EXPECT_EQ(runForetouch({"log", "recover", torn, "-o", folder / "b", "--keep-tail"}).exitCode, 0);
   EXPECT_GT(eventsOf(folder / "b").size(), trusted);
+}
+
+/// As LCM's own tools write logs: `change` edits the list of (number, stamp, channel, payload).
+template <typename Change>
+std::string rewritten(const std::string& log, const Change& change) {
+  std::vector<LogEvent> events;
+  for (std::size_t at = 0; at + 28 <= log.size();) {
+    const auto whole = [&](std::size_t from, int bytes) {
+      std::int64_t value = 0;
+      for (int i = 0; i < bytes; ++i) {
+        value = value << 8 | static_cast<unsigned char>(log[from + static_cast<std::size_t>(i)]);
+      }
+      return value;
+    };
+    LogEvent event;
+    event.number = whole(at + 4, 8);
+    event.utimeUs = whole(at + 12, 8);
+    const auto channel = static_cast<std::size_t>(whole(at + 20, 4));
+    const auto payload = static_cast<std::size_t>(whole(at + 24, 4));
+    event.channel = log.substr(at + 28, channel);
+    const std::string bytes = log.substr(at + 28 + channel, payload);
+    event.payload.assign(bytes.begin(), bytes.end());
+    events.push_back(event);
+    at += 28 + channel + payload;
+  }
+  change(events);
+  std::string text;
+  const auto add = [&](std::int64_t value, int bytes) {
+    for (int i = bytes - 1; i >= 0; --i) text += static_cast<char>(value >> (8 * i) & 0xFF);
+  };
+  for (const LogEvent& event : events) {
+    text += "\xED\xA1\xDA\x01";
+    add(event.number, 8);
+    add(event.utimeUs, 8);
+    add(static_cast<std::int64_t>(event.channel.size()), 4);
+    add(static_cast<std::int64_t>(event.payload.size()), 4);
+    text += event.channel + std::string(event.payload.begin(), event.payload.end());
+  }
+  return text;
+}
+
+TEST(LogProgram, WhatOtherToolsHaveRewrittenIsRecoveredIfAsked) {
+  const TempFolder folder;
+  const std::string log = contentOf(writeLog(folder));
+  const std::vector<int> all = eventsOf(folder / "own.lcmlog");
+  const std::string renumbered = rewritten(log, [](std::vector<LogEvent>& events) {
+    for (LogEvent& event : events) event.number = 0;
+  });
+  const std::string shuffled = rewritten(log, [](std::vector<LogEvent>& events) {
+    for (std::size_t i = 1; i + 1 < events.size(); i += 2) std::swap(events[i], events[i + 1]);
+  });
+  for (const std::string& text : {renumbered, shuffled}) {
+    const TempFolder place;
+    const std::string other = place.write("other.lcmlog", text);
+    Ended ended = runForetouch({"log", "recover", other, "-o", place / "out"});
+    EXPECT_EQ(ended.exitCode, 1) << "nothing of it can be trusted";
+    EXPECT_NE(ended.err.find("--unchecked"), std::string::npos) << ended.err;
+    EXPECT_LE(std::count(ended.err.begin(), ended.err.end(), '\n'), 12) << ended.err;
+    EXPECT_FALSE(std::filesystem::exists(place / "out"));
+    ended = runForetouch({"log", "recover", other, "-o", place / "out", "--unchecked"});
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    EXPECT_NE(ended.out.find("nothing shows that these are all"), std::string::npos) << ended.out;
+    EXPECT_EQ(eventsOf(place / "out"), all);
+    EXPECT_EQ(runForetouch({"log", "check", place / "out"}).exitCode, 0);
+  }
 }
 
 TEST(LogProgram, RecoverLeavesNothingHalfDone) {
