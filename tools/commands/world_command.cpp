@@ -233,12 +233,11 @@ void addWindowSettings(Settings& settings, WindowRequest& windows) {
               "poses: from each pose of any body to the next")
       .in(kInputGroup);
   settings
-      .number("--from", "S", windows.fromS, kAnyNumber, "",
-              "Instant of the world at which to begin; not given: the first pose")
+      .seconds("--from", windows.fromUs,
+               "Instant of the world at which to begin; not given: the first pose")
       .in(kInputGroup);
   settings
-      .number("--until", "S", windows.untilS, kAnyNumber, "",
-              "Instant at which to end; not given: all that is known")
+      .seconds("--until", windows.untilUs, "Instant at which to end; not given: all that is known")
       .in(kInputGroup);
 }
 

@@ -55,9 +55,7 @@ struct LoadedWorld {
   /// For BodyPlaces: valid until the bodies change.
   [[nodiscard]] std::vector<const BodyStretches*> stretches() const;
   /// Seconds of the file's clock.
-  [[nodiscard]] static double secondsOf(std::int64_t utimeUs) {
-    return static_cast<double>(utimeUs) / kUsPerS;
-  }
+  [[nodiscard]] static double secondsOf(std::int64_t utimeUs) { return inSeconds(utimeUs); }
   [[nodiscard]] static double secondsOf(const WorldTime& time) {
     return (static_cast<double>(time.us) + time.fraction) / kUsPerS;
   }

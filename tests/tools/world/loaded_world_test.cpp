@@ -244,12 +244,12 @@ TEST(WorldWindows, GoFromPoseToPoseOfAnybody) {
   EXPECT_EQ(cuts.value(),
             (std::vector<std::int64_t>{0, 50'000, 100'000, 200'000, 250'000, 300'000}));
   // The ball appears at 0.05 s: a window ends there, whatever the rate.
-  const auto rated = tools::windowsOf(world.value(), {10.0, 0.0, 0.25});
+  const auto rated = tools::windowsOf(world.value(), {10.0, 0, 250'000});
   ASSERT_TRUE(rated.ok());
   EXPECT_EQ(rated.value(), (std::vector<std::int64_t>{0, 50'000, 100'000, 200'000, 250'000}));
   for (const tools::WindowRequest& bad :
-       {tools::WindowRequest{1e6, std::nullopt, 1.0}, tools::WindowRequest{{}, -0.1, {}},
-        tools::WindowRequest{{}, 0.2, 0.2}, tools::WindowRequest{{}, {}, 1e300}}) {
+       {tools::WindowRequest{1e6, std::nullopt, 1'000'000}, tools::WindowRequest{{}, -100'000, {}},
+        tools::WindowRequest{{}, 200'000, 200'000}, tools::WindowRequest{{}, {}, kMostUtimeUs}}) {
     EXPECT_FALSE(tools::windowsOf(world.value(), bad).ok());
   }
 }
