@@ -114,7 +114,7 @@ class WorldReplay {
     }
     const WorldIntervals* const followed = isFollowed ? &intervals_ : nullptr;
     WorldTouches touches(world_, followed);
-    WorldReport report(world_, asked_.report, followed);
+    FORETOUCH_TRY(auto report, WorldReport::make(world_, asked_.report, followed));
     FORETOUCH_CHECK(askWindows(guard, results, touches, report));
     if (guard.requested()) return Done{};
     touches.finish();
@@ -197,7 +197,7 @@ Result<Done> replay(const AskedWorld& asked, const Settings& settings) {
 Result<Done> view(const AskedWorld& asked, const Settings& settings) {
   FORETOUCH_TRY(const auto world, load(asked, settings));
   FORETOUCH_CHECK(checkOutput(asked.report.path, inputsOf(world.file)));
-  const WorldReport report(world, asked.report, nullptr);
+  FORETOUCH_TRY(const auto report, WorldReport::make(world, asked.report, nullptr));
   const InterruptGuard guard;
   return writeReport(asked.report.path, guard,
                      [&](const ReportProgress& watch) -> Result<ViewDocument> {

@@ -105,7 +105,9 @@ Result<BodyKnots> addBody(const FileBody& body, ShapeLoader& shapes, KnotLoader&
   const auto added = shape.avatar ? loaded.world.add(*shape.avatar, options)
                                   : loaded.world.add(*shape.mesh, options);
   if (!added.ok()) {
-    return Error::inLine(path, body.line, added.error().code, added.error().message);
+    return Error::inLine(
+        path, body.line, added.error().code,
+        fmt::format("{} {}: {}", body.title(), inQuotes(body.name), added.error().message));
   }
   const std::vector<std::string>& remarks = told.remarks;
   loaded.remarks.insert(loaded.remarks.end(), remarks.begin(), remarks.end());
