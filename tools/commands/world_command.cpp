@@ -19,6 +19,7 @@
 #include "tools/report/world_report.h"
 #include "tools/results_output.h"
 #include "tools/world/followed_world.h"
+#include "tools/world/load_world.h"
 #include "tools/world/world_audit.h"
 #include "tools/world/world_event_lines.h"
 #include "tools/world/world_intervals.h"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "articulated/pair_rules.h"
-#include "articulated/result.h"
 #include "lss/index.h"
 #include "middleware/triggers/triggers.h"
 #include "middleware/world/world.h"
@@ -62,8 +61,5 @@ struct LoadedWorld {
   /// "LeftHand" of an avatar, "" of what has but one link.
   [[nodiscard]] std::string linkNameOf(BodyId body, LinkId link) const;
 };
-
-/// Reads all that the file names. Errors name the file and, if it is the world's, the line.
-[[nodiscard]] Result<LoadedWorld> loadWorld(WorldFile file);
 
 }  // namespace foretouch::tools
