@@ -163,6 +163,7 @@ if [ -f "$prefix/share/foretouch/cpp-example/play_clip.cpp" ]; then
   play_in_cxx play
   tail -n 1 "$folder/play.txt"
   "$folder/play/game_loop"
+  "$folder/play/vr_hands"
   if [ -f "$folder/solid-hand.txt" ]; then "$folder/play/solid_hand" | cmp - "$folder/solid-hand.txt"; fi
   if [ -f "$folder/swinging-door.txt" ]; then "$folder/play/swinging_door" | cmp - "$folder/swinging-door.txt"; fi
   room=$prefix/share/foretouch/examples
