@@ -314,6 +314,14 @@ Result<Done> WorldRun::end() {
 Result<Done> checkPublished(const LoadedWorld& world) {
   for (std::size_t i = 0; i < world.numBodies(); ++i) {
     const FileBody& body = world.file.bodies[i];
+    const BodyStretches& stretches = world.bodies[i].stretches;
+    for (const BodyStretch& stretch : stretches) {
+      if (!stretch.carrier || !world.isTrigger(stretch.carrier->body)) continue;
+      return Error::inLine(world.file.path, body.line, ErrorCode::Mismatch,
+                           body.title("attach") +
+                               " to: expected a body: messages do not tell of triggers, as " +
+                               inQuotes(world.nameOf(stretch.carrier->body)));
+    }
     if (body.shape.avatarPath.empty() || body.changes.empty()) continue;
     return Error::inLine(world.file.path, body.changes.front().line, ErrorCode::Mismatch,
                          body.title("attach") +
