@@ -315,9 +315,8 @@ class NodeMotion {
 /// Its corners are where coordinates end, so that an LSS around it ends beyond.
 TEST(WorldProgram, RefusesByNameABodyThatIsTooLarge) {
   const SmallStage stage;
-  const std::string box = "box = {low = [0, 0, 0], high = [1, 1, 1]}\n";
   const std::string path = stage.write(
-      "[[body]]\nname = \"crate\"\n" + box +
+      "[[body]]\nname = \"crate\"\nbox = {low = [0, 0, 0], high = [1, 1, 1]}\n"
       "[[body]]\nname = \"gate\"\nbox = {low = [-1e7, -1e7, -1e7], high = [1e7, 1e7, 1e7]}\n");
   for (const char* const command : {"replay", "view"}) {
     const Ended ended = runForetouch({"world", command, path, "-o", stage.folder / "out"});
