@@ -12,10 +12,32 @@ bool isPose(MailKind kind) {
 
 }  // namespace
 
-MailRoom::MailRoom(std::size_t avatars, std::size_t poses, std::size_t handlers)
-    : maxPoses_(poses), maxHandled_(handlers), boxes_(avatars) {
+void StepMail::keep(const StreamStep& step) {
+  isAccepted = true;
+  kind = step.kind;
+  utimeFromUs = step.utimeFromUs;
+  utimeToUs = step.utimeToUs;
+  to = *step.to;
+  unknown = *step.unknown;
+}
+
+StreamStep StepMail::step() const {
+  StreamStep step;
+  step.kind = kind;
+  step.utimeFromUs = utimeFromUs;
+  step.utimeToUs = utimeToUs;
+  step.to = &to;
+  step.unknown = &unknown;
+  return step;
+}
+
+MailRoom::MailRoom(std::size_t avatars, std::size_t poses, std::size_t handlers, bool hasWorld)
+    : maxPoses_(poses),
+      maxHandled_(handlers),
+      world_(hasWorld ? avatars : SIZE_MAX),
+      boxes_(avatars + (hasWorld ? 1 : 0)) {
   for (Box& box : boxes_) box.mail.reserve(poses + kMaxWaitingSkeletons);
-  ready_.reserve(avatars);
+  ready_.reserve(boxes_.size());
 }
 
 bool MailRoom::isWanted(const Box& box, const Mail& mail) {
@@ -48,6 +70,7 @@ bool MailRoom::isRepeated(const Box& box, const Mail& mail) {
 
 /// True if it dropped the oldest mail of this kind.
 bool MailRoom::makeRoom(Box& box, MailKind kind) {
+  if (kind == MailKind::Step) return false;
   const std::size_t most = isPose(kind)                 ? maxPoses_
                            : kind == MailKind::Skeleton ? kMaxWaitingSkeletons
                                                         : kMaxWaitingStates;
@@ -83,15 +106,28 @@ void MailRoom::makeReady(std::size_t avatar) {
   if (!isLed_) changed_.notify_one();
 }
 
+std::size_t& MailRoom::countOf(Box& box, MailKind kind) {
+  if (kind == MailKind::Step) return steps_;
+  return isPose(kind) ? box.poses : box.skeletons;
+}
+
+std::size_t MailRoom::firstReady() const {
+  if (handled_ < maxHandled_) return 0;
+  const auto world = std::find(ready_.begin(), ready_.end(), world_);
+  return static_cast<std::size_t>(world - ready_.begin());
+}
+
 MailRoom::Posted MailRoom::post(std::size_t avatar, std::unique_ptr<Mail>& mail) {
   const std::lock_guard lock(mutex_);
-  if (isClosed_) return Posted::Closed;
+  // What is answered is told, whatever comes.
+  if (isClosed_ && mail->kind != MailKind::Step) return Posted::Closed;
   Box& box = boxes_[avatar];
   if (!isWanted(box, *mail)) return box.known.empty() ? Posted::TooEarly : Posted::Unwanted;
   if (isRepeated(box, *mail)) return Posted::Kept;
   const MailKind kind = mail->kind;
+  if (kind == MailKind::Pose && steps_ >= kMaxWaitingSteps) return Posted::Behind;
   const bool dropped = makeRoom(box, kind);
-  ++(isPose(kind) ? box.poses : box.skeletons);
+  ++countOf(box, kind);
   box.mail.push_back(std::exchange(mail, emptyMail()));
   if (!box.isReady && !box.isHandled) makeReady(avatar);
   if (!dropped) return Posted::Kept;
@@ -109,15 +145,20 @@ MailRoom::Taken MailRoom::takeOrLead(std::size_t& avatar, std::unique_ptr<Mail>&
 
 MailRoom::Taken MailRoom::takeNow(std::size_t& avatar, std::unique_ptr<Mail>& mail) {
   if (!mayTake()) return isOver() ? Taken::Closed : Taken::Nothing;
-  avatar = ready_.front();
-  ready_.erase(ready_.begin());
+  const auto first = ready_.begin() + static_cast<std::ptrdiff_t>(firstReady());
+  avatar = *first;
+  ready_.erase(first);
   Box& box = boxes_[avatar];
   box.isReady = false;
   box.isHandled = true;
-  ++handled_;
+  if (isCounted(avatar)) {
+    ++handled_;
+  } else {
+    isWorldHandled_ = true;
+  }
   keep(std::exchange(mail, std::move(box.mail.front())));
   box.mail.erase(box.mail.begin());
-  --(isPose(mail->kind) ? box.poses : box.skeletons);
+  --countOf(box, mail->kind);
   if (mail->kind == MailKind::Skeleton) box.handled = mail->skeleton.hash;
   return Taken::Mail;
 }
@@ -144,9 +185,13 @@ void MailRoom::finish(std::size_t avatar) {
   Box& box = boxes_[avatar];
   box.isHandled = false;
   box.handled.reset();
-  --handled_;
+  if (isCounted(avatar)) {
+    --handled_;
+  } else {
+    isWorldHandled_ = false;
+  }
   if (!box.mail.empty()) makeReady(avatar);
-  if (isClosed_ && handled_ == 0) changed_.notify_all();
+  if (isClosed_ && handled_ == 0 && !isWorldHandled_) changed_.notify_all();
 }
 
 void MailRoom::close() {

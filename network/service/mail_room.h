@@ -1,5 +1,5 @@
 // network/service/mail_room.h: the messages that wait for an answer: a bounded mailbox per avatar,
-// and one for the bodies of a world.
+// and one for all of a world.
 // Any number of threads take mail; one thread at a time handles an avatar's mail, in order, so that
 // its answers depend on its own messages alone.
 //
@@ -17,6 +17,9 @@
 #include <optional>
 #include <vector>
 
+#include "articulated/pose.h"
+#include "network/service/held_records.h"
+#include "network/stream/avatar_stream.h"
 #include "network/wire/codec.h"
 #include "network/wire/messages.h"
 #include "network/wire/wire.h"
@@ -24,7 +27,23 @@
 
 namespace foretouch {
 
-enum class MailKind : std::uint8_t { Skeleton, Pose, Body, RigidPose };
+enum class MailKind : std::uint8_t { Skeleton, Pose, Body, RigidPose, Step };
+
+/// What an avatar's stream has to tell the world: records, and the step that an accepted pose
+/// ended.
+struct StepMail {
+  internal::HeldRecords held;
+  BodyNumber avatar = kNoBody;
+  bool isAccepted = false;  ///< Else there is no step.
+  StepKind kind = StepKind::First;
+  std::int64_t utimeFromUs = 0, utimeToUs = 0;
+  Pose to;
+  std::vector<UndecidedReason> unknown;
+
+  void keep(const StreamStep& step);
+  /// Lives as long as this.
+  [[nodiscard]] StreamStep step() const;
+};
 
 /// A valid message. Its memory is reused.
 struct Mail {
@@ -33,6 +52,7 @@ struct Mail {
   PoseMessage pose;
   BodyMessage body;
   RigidPoseMessage rigid;
+  StepMail step;
   Bytes payload;  ///< As it came.
   std::int64_t receiveUtimeUs = 0;
   UdpmSender sender;
@@ -44,12 +64,18 @@ struct Mail {
 inline constexpr std::size_t kMaxWaitingSkeletons = 8;
 /// Of all bodies of a world together, states that wait.
 inline constexpr std::size_t kMaxWaitingStates = 1024;
+/// Steps that a world has not been told of. They are answered, and so none is dropped: beyond so
+/// many no poses are taken.
+inline constexpr std::size_t kMaxWaitingSteps = 8192;
 
 class MailRoom {
  public:
   /// At most `poses` (> 0) poses wait for each of `avatars`; threads handle the mail of at most
-  /// `handlers` avatars at a time. With one thread more than handlers, one is always free to lead.
-  MailRoom(std::size_t avatars, std::size_t poses, std::size_t handlers = SIZE_MAX);
+  /// `handlers` avatars at a time. With a world its box comes after theirs, and no avatar waits
+  /// while it is handled. With one thread more than handlers, and one for the world, one is always
+  /// free to lead.
+  MailRoom(std::size_t avatars, std::size_t poses, std::size_t handlers = SIZE_MAX,
+           bool hasWorld = false);
 
   enum class Posted : std::uint8_t {
     Kept,             ///< Nothing was dropped; also a skeleton that repeats a waiting one.
@@ -57,6 +83,7 @@ class MailRoom {
     DroppedSkeleton,  ///< The oldest waiting skeleton was dropped.
     Unwanted,         ///< A pose of another skeleton than those that are known: see know().
     TooEarly,         ///< The same before any is.
+    Behind,           ///< A pose while the world is kMaxWaitingSteps behind.
     Closed,           ///< The room takes no more mail.
   };
   /// Takes the mail and leaves an empty one in `mail` for the next message. Never waits for a
@@ -96,22 +123,29 @@ class MailRoom {
   static bool isWanted(const Box& box, const Mail& mail);
   static bool isRepeated(const Box& box, const Mail& mail);
   bool makeRoom(Box& box, MailKind kind);
+  std::size_t& countOf(Box& box, MailKind kind);
   std::unique_ptr<Mail> emptyMail();
   void keep(std::unique_ptr<Mail> mail);
   void makeReady(std::size_t avatar);
-  [[nodiscard]] bool mayTake() const { return !ready_.empty() && handled_ < maxHandled_; }
+  [[nodiscard]] bool isCounted(std::size_t box) const { return box != world_; }
+  /// Place in ready_ of the first box that may be taken; its size: none.
+  [[nodiscard]] std::size_t firstReady() const;
+  [[nodiscard]] bool mayTake() const { return firstReady() < ready_.size(); }
   [[nodiscard]] bool mayLead() const { return !isLed_ && !isLeadOver_ && !isClosed_; }
   /// While a thread handles an avatar, more of its mail may become ready.
-  [[nodiscard]] bool isOver() const { return isClosed_ && ready_.empty() && handled_ == 0; }
+  [[nodiscard]] bool isOver() const {
+    return isClosed_ && ready_.empty() && handled_ == 0 && !isWorldHandled_;
+  }
   Taken takeNow(std::size_t& avatar, std::unique_ptr<Mail>& mail);
 
-  const std::size_t maxPoses_, maxHandled_;
+  const std::size_t maxPoses_, maxHandled_, world_;  // the last one is no box if there is no world
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Box> boxes_;
   std::vector<std::size_t> ready_;  // avatars with mail that nobody handles, longest waiting first
   std::vector<std::unique_ptr<Mail>> empty_;
-  std::size_t handled_ = 0;
+  std::size_t handled_ = 0, steps_ = 0;  // of avatars; that wait
+  bool isWorldHandled_ = false;
   bool isLed_ = false, isLeadOver_ = false;
   bool isClosed_ = false;
 };

@@ -92,6 +92,15 @@ class Page {
            std::to_string(counts.events[i]));
     }
   }
+  void refusedBodies(const std::string& name, const std::string& help, const WorldCounts& counts) {
+    if (counts.refusedLongest.empty()) return;
+    head(name, help, "gauge");
+    for (const RefusedBody& body : counts.refusedLongest) {
+      line(name,
+           "body=" + quoted(std::to_string(body.body)) + ",reason=" + quoted(toString(body.reason)),
+           std::to_string(body.poses));
+    }
+  }
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
@@ -187,6 +196,11 @@ void addWorld(Page& page, const WorldReport& world) {
                counts.taken);
   page.rejects("foretouch_world_refused_total", "States and poses that the world refused.",
                counts.rejects);
+  page.gauge("foretouch_world_bodies_refused",
+             "Bodies of which poses come, and none is accepted for half a second.",
+             std::to_string(counts.refusedBodies));
+  page.refusedBodies("foretouch_world_body_refused_poses",
+                     "Of some of these, the poses since one was accepted.", counts);
   page.counter("foretouch_world_gaps_total", "Poses before which something is not known.",
                counts.gaps);
   page.counter("foretouch_world_late_changes_total",

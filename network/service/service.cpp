@@ -46,6 +46,7 @@ struct Desk {
   SolidMessage shown;
   Bytes payload;
   internal::HeldRecords held;
+  std::unique_ptr<Mail> step = std::make_unique<Mail>();  // for the world
 };
 
 std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars,
@@ -96,10 +97,10 @@ struct Service::Impl final : internal::Outlet {
       : options(chosen),
         parts(std::move(surroundings)),
         channels(chosen.suffix),
-        room(solvers.size() + (parts.world ? 1 : 0), chosen.queue,
-             static_cast<std::size_t>(chosen.workers)),
+        room(solvers.size(), chosen.queue, static_cast<std::size_t>(chosen.workers),
+             parts.world.has_value()),
         seal(chosen.key, *parts.clock),
-        threadBeats(static_cast<std::size_t>(chosen.workers) + 1) {
+        threadBeats(static_cast<std::size_t>(chosen.workers) + (parts.world ? 2 : 1)) {
     facts = {shortened(chosen.build), shortened(chosen.scene), solvers.size(), chosen.workers,
              parts.clock->utimeUs()};
     for (StreamSolver& solver : solvers) {
@@ -310,9 +311,9 @@ struct Service::Impl final : internal::Outlet {
     isCounted = true;
     counter.answeredPose(static_cast<double>(sentUtimeUs - mail.receiveUtimeUs),
                          desk.answer.queryUs);
-    settle(stream, mail, &stream.stream.solver().lastStep(), desk);
     SolidStream* const solid = stream.stream.solid();
     if (solid != nullptr) show(stream, *solid, mail, desk);
+    settle(stream, mail, &stream.stream.solver().lastStep(), desk);
     StepObserver* const observer = parts.observer;
     if (observer == nullptr || !observer->wants(stream.index)) return;
     const StreamStep& step = stream.stream.solver().lastStep();
@@ -325,10 +326,17 @@ struct Service::Impl final : internal::Outlet {
   }
 
   /// Records what the stream said and was answered. Where there is a world, in the order in which
-  /// it is told, and after the answer has gone out, which does not wait for it.
+  /// it is told, by the thread that tells it: no stream waits for it.
   void settle(ServedStream& stream, const Mail& mail, const StreamStep* step, Desk& desk) {
     if (!world) return desk.held.flush(*this);
-    world->take(desk.held, stream.stream.solver().id(), step, mail.receiveUtimeUs);
+    Mail& told = *desk.step;
+    told.kind = MailKind::Step;
+    told.receiveUtimeUs = mail.receiveUtimeUs;
+    std::swap(told.step.held, desk.held);
+    told.step.avatar = stream.stream.solver().id();
+    told.step.isAccepted = false;
+    if (step != nullptr) told.step.keep(*step);
+    static_cast<void>(room.post(streams.size(), desk.step));
   }
 
   /// After the answer has gone out, so that it waits for nothing new.
@@ -338,7 +346,7 @@ struct Service::Impl final : internal::Outlet {
     desk.shown.sendUtimeUs = parts.clock->utimeUs();
     encode(desk.shown, desk.payload);
     publish(channels.solid, desk.payload);
-    record(desk.shown.sendUtimeUs, channels.solid, desk.payload);
+    desk.held.add(desk.shown.sendUtimeUs, channels.solid, desk.payload);
     solidCounter.shown(stream.index, desk.shown);
   }
 
@@ -437,6 +445,10 @@ struct Service::Impl final : internal::Outlet {
     state.journalFailures = counts.journalFailures;
     state.lastPoseUtimeUs = counts.lastPoseUtimeUs;
     state.nowUtimeUs = parts.clock->utimeUs();
+    if (auto report = worldReport()) {
+      state.refusedBodies = report->counts.refusedBodies;
+      state.refusedLongest = std::move(report->counts.refusedLongest);
+    }
     return internal::healthOf(state, {options.stuckAfter, options.unacceptedAfter});
   }
 

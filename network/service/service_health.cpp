@@ -26,6 +26,17 @@ void addJournal(const ServiceState& state, const HealthLimits& limits, ServiceHe
   }
 }
 
+/// Senders that speak in vain. Any stranger can be one: the service is well.
+void addRefused(const ServiceState& state, ServiceHealth& health) {
+  for (const RefusedBody& body : state.refusedLongest) {
+    health.text += "refused: " + describe(body) + "\n";
+  }
+  if (state.refusedBodies > state.refusedLongest.size()) {
+    const std::size_t more = state.refusedBodies - state.refusedLongest.size();
+    health.text += "refused: " + std::to_string(more) + " more bodies\n";
+  }
+}
+
 }  // namespace
 
 ServiceHealth healthOf(const ServiceState& state, const HealthLimits& limits) {
@@ -48,6 +59,7 @@ ServiceHealth healthOf(const ServiceState& state, const HealthLimits& limits) {
   }
   if (health.isWell) health.text = "ok\n";
   addJournal(state, limits, health);
+  addRefused(state, health);
   const double ago = static_cast<double>(state.nowUtimeUs - state.lastPoseUtimeUs) * kSPerUs;
   health.text +=
       state.lastPoseUtimeUs == 0 ? "no pose yet\n" : "last pose " + secondsText(ago) + " ago\n";

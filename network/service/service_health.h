@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "articulated/result.h"
 #include "network/service/health.h"
+#include "network/world_stream/refused_bodies.h"
 
 namespace foretouch::internal {
 
@@ -26,6 +28,8 @@ struct ServiceState {
   std::uint64_t journalFailures = 0;
   std::string journalFailure;
   std::int64_t lastPoseUtimeUs = 0, nowUtimeUs = 0;
+  std::size_t refusedBodies = 0;  ///< As WorldCounts.
+  std::vector<RefusedBody> refusedLongest;
 };
 
 /// As ServiceOptions says them.

@@ -35,6 +35,10 @@ void addWorld(const WorldCounts& world, std::vector<StatusMessage::Count>& reaso
   if (world.lateChanges > 0) add("late-changes", world.lateChanges);
   if (world.forgotten > 0) add("forgotten", world.forgotten);
   if (world.failures > 0) add("failures", world.failures);
+  if (world.refusedBodies > 0) add("refused-bodies", world.refusedBodies);
+  for (const RefusedBody& body : world.refusedLongest) {
+    add("refused-body-" + std::to_string(body.body) + "-" + toString(body.reason), body.poses);
+  }
   for (std::size_t i = 1; i < kNumRejects; ++i) {
     if (world.rejects[i] == 0) continue;
     add(std::string("refused-") + toString(static_cast<Reject>(i)), world.rejects[i]);

@@ -3,6 +3,12 @@
 #include <chrono>
 
 namespace foretouch::internal {
+namespace {
+
+/// Whoever watches over a service asks every second, and must hear of one that is busy.
+constexpr std::chrono::milliseconds kReportWait{100};
+
+}  // namespace
 
 WorldDesk::WorldDesk(WorldSolver solver, const SpeakerPolicy& policy, const std::string& suffix,
                      const Clock& clock, Outlet& outlet)
@@ -15,26 +21,24 @@ WorldDesk::WorldDesk(WorldSolver solver, const SpeakerPolicy& policy, const std:
       world_(std::move(solver), policy) {}
 
 void WorldDesk::take(Mail& mail) {
-  const Heard heard{mail.sender, mail.receiveUtimeUs, mail.payload};
   const std::lock_guard lock(mutex_);
-  const Reject reason = mail.kind == MailKind::Body ? world_.take(heard, mail.body, *this)
-                                                    : world_.take(heard, mail.rigid, *this);
-  if (reason == Reject::None) advance(mail.receiveUtimeUs);
+  if (tell(mail) == Reject::None) advance(mail.receiveUtimeUs);
+}
+
+Reject WorldDesk::tell(Mail& mail) {
+  const Heard heard{mail.sender, mail.receiveUtimeUs, mail.payload};
+  if (mail.kind == MailKind::Body) return world_.take(heard, mail.body, *this);
+  if (mail.kind == MailKind::RigidPose) return world_.take(heard, mail.rigid, *this);
+  StepMail& step = mail.step;
+  step.held.flush(outlet_);
+  if (!step.isAccepted) return Reject::UnknownAvatar;
+  return world_.solver().take(step.avatar, step.step(), mail.receiveUtimeUs);
 }
 
 void WorldDesk::refused(MailKind kind, std::size_t poses, Reject reason) {
   const std::lock_guard lock(mutex_);
   if (kind == MailKind::Body) return world_.solver().refusedState(reason);
-  for (std::size_t i = 0; i < poses; ++i) world_.solver().refusedPose(reason);
-}
-
-void WorldDesk::take(HeldRecords& held, BodyNumber avatar, const StreamStep* step,
-                     std::int64_t receiveUtimeUs) {
-  const std::lock_guard lock(mutex_);
-  held.flush(outlet_);
-  if (step == nullptr) return;
-  if (world_.solver().take(avatar, *step, receiveUtimeUs) != Reject::None) return;
-  advance(receiveUtimeUs);
+  for (std::size_t i = 0; i < poses; ++i) world_.solver().refusedPose(kNoBody, reason, 0);
 }
 
 void WorldDesk::advance(std::int64_t receiveUtimeUs) {
@@ -54,8 +58,16 @@ void WorldDesk::advance(std::int64_t receiveUtimeUs) {
 }
 
 WorldReport WorldDesk::report() const {
-  const std::lock_guard lock(mutex_);
-  return {world_.solver().counts(), times_};
+  std::unique_lock lock(mutex_, kReportWait);
+  if (!lock.owns_lock()) {
+    const std::lock_guard last(reportMutex_);
+    return lastReport_;
+  }
+  WorldReport report{world_.solver().counts(), times_};
+  lock.unlock();
+  const std::lock_guard last(reportMutex_);
+  lastReport_ = report;
+  return report;
 }
 
 void WorldDesk::speaker(const SpeakerMessage& message) {

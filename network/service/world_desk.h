@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "network/service/clock.h"
-#include "network/service/held_records.h"
 #include "network/service/mail_room.h"
 #include "network/service/world_report.h"
 #include "network/stream/bound_stream.h"
@@ -22,15 +21,12 @@ class WorldDesk final : WorldRecord {
   WorldDesk(WorldSolver solver, const SpeakerPolicy& policy, const std::string& suffix,
             const Clock& clock, Outlet& outlet);
 
-  /// A message about bodies.
+  /// A message about bodies; or what an avatar's stream said, which is recorded, and the step that
+  /// its pose ended.
   void take(Mail& mail);
   /// Refused before it came here: not decodable, or pushed out.
   void refused(MailKind kind, std::size_t poses, Reject reason);
-  /// Records `held`, which an avatar's stream said, and then tells the world of the step that its
-  /// pose ended, if it was accepted.
-  void take(HeldRecords& held, BodyNumber avatar, const StreamStep* step,
-            std::int64_t receiveUtimeUs);
-
+  /// Where the world is busy for longer than a tenth of a second: the last one.
   [[nodiscard]] WorldReport report() const;
   [[nodiscard]] const std::string& bodyChannel() const { return bodyChannel_; }
   [[nodiscard]] const std::string& rigidChannel() const { return rigidChannel_; }
@@ -39,16 +35,19 @@ class WorldDesk final : WorldRecord {
   void speaker(const SpeakerMessage& message) override;
   void body(ByteView payload, std::int64_t receiveUtimeUs) override;
   void rigidPose(ByteView payload, std::int64_t receiveUtimeUs) override;
+  [[nodiscard]] Reject tell(Mail& mail);
   void advance(std::int64_t receiveUtimeUs);
 
   const std::string bodyChannel_, rigidChannel_, eventsChannel_, speakerChannel_;
   const Clock& clock_;
   Outlet& outlet_;
-  mutable std::mutex mutex_;  // of the next members
+  mutable std::timed_mutex mutex_;  // of all but the last two members
   BoundWorld world_;
   std::vector<EventsMessage> answers_;
   Bytes payload_;
   WorldTimes times_;
+  mutable std::mutex reportMutex_;  // of the next member
+  mutable WorldReport lastReport_;
 };
 
 }  // namespace foretouch::internal

@@ -34,9 +34,22 @@ bool BoundWorld::mayPass(const Heard& heard, BodyNumber body, WorldRecord& recor
   }
 }
 
+bool BoundWorld::hasRoomFor(const UdpmSender& sender) const {
+  if (sender == UdpmSender()) return true;  // liblcm does not say who
+  const std::size_t there = solver_.numBodies(), most = solver_.policy().maxBodies;
+  const auto isOfSender = [&](const auto& known) {
+    return known.second->isSpeaker(sender) && solver_.isThere(known.first);
+  };
+  const auto own = std::count_if(gates_.begin(), gates_.end(), isOfSender);
+  return there < most && static_cast<std::size_t>(own) < most - there;
+}
+
 Reject BoundWorld::take(const Heard& heard, const BodyMessage& message, WorldRecord& record) {
   Reject reason = sessionFault(message.session, heard.receiveUtimeUs);
   const bool isThere = solver_.isThere(message.body);
+  if (reason == Reject::None && !isThere && message.isPresent && !hasRoomFor(heard.sender)) {
+    reason = Reject::Limit;
+  }
   if (reason == Reject::None && isThere && !mayPass(heard, message.body, record)) {
     reason = Reject::OtherSender;
   }
@@ -64,14 +77,14 @@ Reject BoundWorld::take(const Heard& heard, RigidPoseMessage& message, WorldReco
         !mayPass(heard, pose.body, record)) {
       reason = Reject::OtherSender;
     }
-    if (reason != Reject::None) solver_.refusedPose(reason);
+    if (reason != Reject::None) solver_.refusedPose(pose.body, reason, heard.receiveUtimeUs);
     return reason != Reject::None;
   };
   auto& bodies = message.bodies;
   bodies.erase(std::remove_if(bodies.begin(), bodies.end(), isRefused), bodies.end());
   if (bodies.empty() && told > 0) return future != Reject::None ? future : Reject::OtherSender;
   const Reject reason = solver_.take(message, heard.receiveUtimeUs);
-  if (reason != Reject::None) return reason;
+  if (reason != Reject::None && !solver_.isNoted()) return reason;
   ByteView payload = heard.payload;
   if (bodies.size() < told) {
     encode(message, payload_);

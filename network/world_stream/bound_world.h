@@ -2,6 +2,9 @@
 // for them (network/stream/speaker_gate.h), each for itself: what others say of it does not reach
 // the solver, and is not recorded. So a recorded stream repeats the answers without knowing who
 // sent what. Avatars are bound by their own streams.
+//
+// A sender may have as many bodies as there are places left. So nobody takes all of them: the first
+// one leaves half, the next one a quarter, and so on.
 #pragma once
 
 #include <cstdint>
@@ -33,12 +36,14 @@ class BoundWorld {
   /// As WorldSolver's; OtherSender for what another sender says. Records what was accepted.
   [[nodiscard]] Reject take(const Heard& heard, const BodyMessage& message, WorldRecord& record);
   /// Takes out of `message` what another sender may not say; what is recorded lacks it, too.
+  /// Records what was accepted, or noted (WorldSolver::isNoted()).
   [[nodiscard]] Reject take(const Heard& heard, RigidPoseMessage& message, WorldRecord& record);
 
   [[nodiscard]] WorldSolver& solver() { return solver_; }
   [[nodiscard]] const WorldSolver& solver() const { return solver_; }
 
  private:
+  [[nodiscard]] bool hasRoomFor(const UdpmSender& sender) const;
   [[nodiscard]] bool mayPass(const Heard& heard, BodyNumber body, WorldRecord& record);
   SpeakerGate& gateOf(BodyNumber body);
 

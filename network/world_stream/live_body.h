@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct LiveChange {
   RigidPose pose;
   std::int64_t poseUs = 0;  ///< The pose is that of this instant; `sinceUs` may have to be later.
 
+  [[nodiscard]] bool hasCarrier() const { return isPresent && carrier != kNoBody; }
   /// Where it is from `sinceUs` on is known then.
   [[nodiscard]] bool hasPlace() const { return !awaitsPoses() || poseUs == sinceUs; }
   /// Held fast, a body has no poses.
@@ -76,6 +78,9 @@ struct LiveBody {
   std::deque<LiveChange> announced;
   bool isAwaited = true;      ///< As awaitsPoses(), of the last state that was due.
   std::int64_t stateUs = -1;  ///< Until when states that were due say where it is.
+  /// A pose of it came in time, and yet too late: the watermark, which stood here, waits for one
+  /// that does not; -1: no.
+  std::int64_t backUs = -1;
   bool skips = false;  ///< Something between its last accepted pose and the next one is missing.
   std::deque<LiveKnot> knots;      ///< Not told to the world.
   std::deque<LiveChange> changes;  ///< Likewise, by time.
@@ -103,6 +108,8 @@ struct LiveBody {
   /// Whether the link (kEveryLink: any of them) is unknown at an instant in [fromUs, toUs].
   [[nodiscard]] bool isUnknown(LinkId link, std::int64_t fromUs, std::int64_t toUs) const;
 };
+
+using LiveBodies = std::map<BodyNumber, LiveBody>;
 
 /// To the last bit.
 [[nodiscard]] bool isSamePose(const RigidPose& x, const RigidPose& y);

@@ -1,6 +1,9 @@
 #include "network/world_stream/live_world.h"
 
 #include <algorithm>
+#include <functional>
+#include <limits>
+#include <tuple>
 #include <utility>
 
 #include "articulated/try.h"
@@ -11,6 +14,11 @@ namespace {
 
 /// Bodies that have come and gone stay in a World: beyond so many it is made anew.
 constexpr std::size_t kMostSlots = 4096;
+
+constexpr std::int64_t kEarliest = std::numeric_limits<std::int64_t>::min();
+
+/// LiveWorld::Due::rank. Of who is carried: one more each time that it waits for its carrier.
+constexpr int kIsPose = 0, kIsLetGo = 1, kIsCarried = 2;
 
 Pose poseOf(const RigidPose& rigid) {
   return {{rigid.rotation}, {rigid.translation}};
@@ -27,6 +35,11 @@ bool isNext(const LiveBody& body, const LiveChange& change, std::int64_t untilUs
   if (!body.slot || body.isHeldFast) return false;
   if (body.toldUntilUs > change.sinceUs) return true;
   return isShort(body, untilUs) && (!body.knots.empty() || body.stateUs >= change.sinceUs);
+}
+
+/// Whether its next change has ended, by the one after it, at that instant.
+bool isOver(const LiveBody& body, std::int64_t utimeUs) {
+  return body.changes.size() > 1 && body.changes[1].sinceUs <= utimeUs;
 }
 
 RigidPose rigidPoseOf(const Pose& pose) {
@@ -53,36 +66,118 @@ std::optional<BodyNumber> LiveWorld::numberOf(BodyId slot, std::int64_t utimeUs)
   return place.number;
 }
 
-void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs) {
-  tell(bodies, body, untilUs, 0);
+bool LiveWorld::comesLater(const Due& x, const Due& y) {
+  return std::tie(x.us, x.rank, x.body->number) > std::tie(y.us, y.rank, y.body->number);
+}
+
+/// Nothing: all is told until `untilUs`.
+std::optional<LiveWorld::Due> LiveWorld::dueOf(LiveBody& body, std::int64_t untilUs) {
+  const bool hasKnot = !body.knots.empty();
+  // A pose at the very instant of a change is in the frame before it.
+  const bool isChange = !body.changes.empty() &&
+                        (!hasKnot || body.changes.front().sinceUs < body.knots.front().utimeUs);
+  if (isChange) {
+    const LiveChange& change = body.changes.front();
+    if (change.sinceUs > untilUs && !isNext(body, change, untilUs)) return std::nullopt;
+    return Due{change.sinceUs, change.hasCarrier() ? kIsCarried : kIsLetGo, &body};
+  }
+  if (!hasKnot || (body.knots.front().utimeUs > untilUs && !isShort(body, untilUs))) {
+    return std::nullopt;
+  }
+  return Due{body.knots.front().utimeUs, kIsPose, &body};
+}
+
+void LiveWorld::offer(LiveBody& body, std::int64_t untilUs, std::int64_t notBeforeUs) {
+  std::optional<Due> due = dueOf(body, untilUs);
+  if (!due) return;
+  due->us = std::max(due->us, notBeforeUs);
+  due_.push_back(*due);
+  std::push_heap(due_.begin(), due_.end(), comesLater);
+}
+
+void LiveWorld::tell(LiveBodies& bodies, std::int64_t untilUs) {
+  for (auto& [number, body] : bodies) offer(body, untilUs, kEarliest);
+  tellDue(bodies, untilUs);
+  // Of those that still wait, what was to follow.
+  while (!waiting_.empty()) {
+    tellWaiting(untilUs);
+    tellDue(bodies, untilUs);
+  }
+  for (auto& [number, body] : bodies) holdShort(body, untilUs);
+}
+
+void LiveWorld::tellDue(LiveBodies& bodies, std::int64_t untilUs) {
+  while (!due_.empty()) {
+    std::pop_heap(due_.begin(), due_.end(), comesLater);
+    const Due due = due_.back();
+    due_.pop_back();
+    tellNext(bodies, due, untilUs);
+  }
+}
+
+void LiveWorld::tellNext(LiveBodies& bodies, const Due& due, std::int64_t untilUs) {
+  LiveBody& body = *due.body;
+  if (waitsForCarrier(bodies, due, untilUs)) {
+    due_.push_back({due.us, due.rank + 1, &body});
+    return std::push_heap(due_.begin(), due_.end(), comesLater);
+  }
+  const bool wasThere = body.slot.has_value();
+  if (due.rank == kIsPose) {
+    takeKnot(body, body.knots.front());
+    body.knots.pop_front();
+  } else if (takeChange(bodies, body, body.changes.front(), untilUs)) {
+    body.changes.pop_front();
+  } else {
+    waiting_.push_back(&body);
+    return;
+  }
+  offer(body, untilUs, due.us);
+  if (!wasThere && body.slot) wake(body, due.us, untilUs);
+}
+
+/// Of two who change their carriers at one instant the carrier comes first.
+bool LiveWorld::waitsForCarrier(LiveBodies& bodies, const Due& due, std::int64_t untilUs) {
+  if (due.rank < kIsCarried || due.rank > kIsCarried + kMostCarriers) return false;
+  const auto carrier = bodies.find(due.body->changes.front().carrier);
+  if (carrier == bodies.end()) return false;
+  const auto next = dueOf(carrier->second, untilUs);
+  return next && next->us == due.us && next->rank == kIsCarried;
+}
+
+/// `carrier` is there from `utimeUs` on: who waits for it goes on.
+void LiveWorld::wake(const LiveBody& carrier, std::int64_t utimeUs, std::int64_t untilUs) {
+  const auto waits = [&](const LiveBody* other) {
+    return other->changes.front().carrier == carrier.number;
+  };
+  const auto first = std::partition(waiting_.begin(), waiting_.end(), std::not_fn(waits));
+  for (auto other = first; other != waiting_.end(); ++other) {
+    if (isOver(**other, utimeUs)) giveUp(**other);
+    offer(**other, untilUs, utimeUs);
+  }
+  waiting_.erase(first, waiting_.end());
+}
+
+/// Nobody will carry them by now. A change whose time is over by the next one is given up.
+void LiveWorld::tellWaiting(std::int64_t untilUs) {
+  const std::vector<LiveBody*> waiting = std::exchange(waiting_, {});
+  for (LiveBody* const body : waiting) {
+    if (!isOver(*body, untilUs)) {
+      markSince(*body, body->changes.front(), untilUs);
+      continue;
+    }
+    giveUp(*body);
+    offer(*body, untilUs, kEarliest);
+  }
+}
+
+/// What nobody has said until `untilUs`.
+void LiveWorld::holdShort(LiveBody& body, std::int64_t untilUs) {
   if (!isShort(body, untilUs)) return;
   body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, untilUs);
   if (!holdsStill_) return;
   const Pose still = body.told;
   push(body, untilUs, still);
   body.isElsewhere = true;
-}
-
-void LiveWorld::tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, int depth) {
-  for (;;) {
-    const bool needsMore = isShort(body, untilUs);
-    const bool hasKnot = !body.knots.empty();
-    // A pose at the very instant of a change is in the frame before it.
-    const bool isChange = !body.changes.empty() &&
-                          (!hasKnot || body.changes.front().sinceUs < body.knots.front().utimeUs);
-    if (isChange) {
-      LiveChange& change = body.changes.front();
-      if (change.sinceUs > untilUs && !isNext(body, change, untilUs)) return;
-      if (!takeChange(bodies, body, change, untilUs, depth) && !isOver(body, untilUs)) {
-        return markSince(body, change, untilUs);
-      }
-      body.changes.pop_front();
-      continue;
-    }
-    if (!hasKnot || (body.knots.front().utimeUs > untilUs && !needsMore)) return;
-    takeKnot(body, body.knots.front());
-    body.knots.pop_front();
-  }
 }
 
 /// The change cannot be followed; poses beyond it may have been told as if it were none.
@@ -92,14 +187,13 @@ void LiveWorld::markSince(LiveBody& body, const LiveChange& change, std::int64_t
   if (fromUs < untilUs) body.addUnknown(kEveryLink, UndecidedReason::Gap, fromUs, untilUs);
 }
 
-/// Whether the body's next change, which nobody could follow, has ended by the one after it. What
-/// was said in between is of no use.
-bool LiveWorld::isOver(LiveBody& body, std::int64_t untilUs) {
-  if (body.changes.size() < 2 || body.changes[1].sinceUs > untilUs) return false;
+/// The body's next change, which nobody could follow, has ended by the one after it. What was said
+/// in between is of no use.
+void LiveWorld::giveUp(LiveBody& body) {
   const std::int64_t endUs = body.changes[1].sinceUs;
   body.addUnknown(kEveryLink, UndecidedReason::Gap, body.changes[0].sinceUs, endUs);
   while (!body.knots.empty() && body.knots.front().utimeUs <= endUs) body.knots.pop_front();
-  return true;
+  body.changes.pop_front();
 }
 
 /// False if the world does not take it.
@@ -167,7 +261,7 @@ void LiveWorld::holdUntil(LiveBody& body, std::int64_t utimeUs) {
 }
 
 bool LiveWorld::takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& change,
-                           std::int64_t untilUs, int depth) {
+                           std::int64_t untilUs) {
   const std::int64_t saidUs = change.sinceUs;
   const bool isFree = change.isPresent && change.carrier == kNoBody;
   // A pose of that instant has said so.
@@ -185,7 +279,7 @@ bool LiveWorld::takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& chang
   } else if (change.carrier == kNoBody) {
     letGo(body, change);
   } else {
-    isTaken = attach(bodies, body, change, untilUs, depth);
+    isTaken = attach(bodies, body, change, untilUs);
   }
   // Put off for a later answer as well: that one does not know since when it was said.
   if (change.sinceUs > saidUs) {
@@ -194,15 +288,14 @@ bool LiveWorld::takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& chang
   return isTaken;
 }
 
-bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, std::int64_t untilUs,
-                       int depth) {
+bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change,
+                       std::int64_t untilUs) {
   const auto carrier = bodies.find(change.carrier);
-  if (carrier == bodies.end() || depth > kMostCarriers) {
+  if (carrier == bodies.end()) {
     ++failures_;
     body.isElsewhere = true;
     return true;
   }
-  tell(bodies, carrier->second, untilUs, depth + 1);
   if (!carrier->second.slot) return false;
   change.sinceUs = std::max(change.sinceUs, carrier->second.beginUs);
   if (change.sinceUs > untilUs && !isNext(body, change, untilUs)) return false;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,8 +15,6 @@
 #include "network/world_stream/world_setup.h"
 
 namespace foretouch::internal {
-
-using LiveBodies = std::map<BodyNumber, LiveBody>;
 
 /// A body that was there in a window, and is gone.
 struct GoneBody {
@@ -34,8 +31,9 @@ class LiveWorld {
 
   /// Whether so many more bodies may come before it must be made anew.
   [[nodiscard]] bool hasRoomFor(std::size_t bodies) const;
-  /// Tells the world what `body` has said until `untilUs`, and the next pose after it.
-  void tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs);
+  /// Tells the world what all have said until `untilUs`, and of each the next pose after it.
+  /// O(n log n) of what there is to tell.
+  void tell(LiveBodies& bodies, std::int64_t untilUs);
   /// As WorldFollower::follow().
   Result<Done> follow(std::int64_t untilUs, WorldEvents& events) {
     return follower_.follow(world_, untilUs, events);
@@ -61,18 +59,34 @@ class LiveWorld {
         holdsStill_(holdsStill),
         world_(std::move(world)),
         follower_(std::move(follower)) {}
-  void tell(LiveBodies& bodies, LiveBody& body, std::int64_t untilUs, int depth);
+  /// What a body has to tell next. What everybody tells comes in the order of time, whoever tells
+  /// it: so where one is to carry another, all is told that came before.
+  struct Due {
+    std::int64_t us = 0;
+    /// At one instant: poses, which are in the frame before it, then who is let go of, then who is
+    /// carried, each after its carrier.
+    int rank = 0;
+    LiveBody* body = nullptr;
+  };
+  static bool comesLater(const Due& x, const Due& y);
+  [[nodiscard]] static std::optional<Due> dueOf(LiveBody& body, std::int64_t untilUs);
+  void offer(LiveBody& body, std::int64_t untilUs, std::int64_t notBeforeUs);
+  void tellNext(LiveBodies& bodies, const Due& due, std::int64_t untilUs);
+  [[nodiscard]] static bool waitsForCarrier(LiveBodies& bodies, const Due& due,
+                                            std::int64_t untilUs);
+  void wake(const LiveBody& carrier, std::int64_t utimeUs, std::int64_t untilUs);
+  void tellDue(LiveBodies& bodies, std::int64_t untilUs);
+  void tellWaiting(std::int64_t untilUs);
+  void holdShort(LiveBody& body, std::int64_t untilUs);
   static void markSince(LiveBody& body, const LiveChange& change, std::int64_t untilUs);
-  [[nodiscard]] static bool isOver(LiveBody& body, std::int64_t untilUs);
+  static void giveUp(LiveBody& body);
   [[nodiscard]] bool addTo(LiveBody& body);
   void push(LiveBody& body, std::int64_t utimeUs, const Pose& pose);
   void takeKnot(LiveBody& body, const LiveKnot& knot);
   void holdUntil(LiveBody& body, std::int64_t utimeUs);
   /// False: its carrier is not there yet.
-  bool takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& change, std::int64_t untilUs,
-                  int depth);
-  bool attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, std::int64_t untilUs,
-              int depth);
+  bool takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& change, std::int64_t untilUs);
+  bool attach(LiveBodies& bodies, LiveBody& body, LiveChange& change, std::int64_t untilUs);
   static void changed(LiveBody& body, const LiveChange& change);
   void letGo(LiveBody& body, const LiveChange& change);
   void letGoUnheard(LiveBody& body, const LiveChange& change);
@@ -84,6 +98,8 @@ class LiveWorld {
   WorldFollower follower_;
   std::vector<Slot> slots_;
   std::vector<GoneBody> gone_;
+  std::vector<Due> due_;            // a heap
+  std::vector<LiveBody*> waiting_;  // for a carrier that is not there yet
   std::uint64_t failures_ = 0;
 };
 

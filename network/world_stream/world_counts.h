@@ -5,9 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "network/wire/reject.h"
 #include "network/wire/world_messages.h"
+#include "network/world_stream/refused_bodies.h"
 
 namespace foretouch {
 
@@ -29,7 +31,9 @@ struct WorldCounts {
   // Now.
   std::size_t bodies = 0, silent = 0, waiting = 0;  ///< `waiting`: poses ahead of the watermark.
   std::int64_t answeredUntilUs = -1;
-  BodyNumber waitsFor = kNoBody;  ///< Whose next pose the watermark waits for.
+  BodyNumber waitsFor = kNoBody;            ///< Whose next pose the watermark waits for.
+  std::size_t refusedBodies = 0;            ///< Of which poses come, and none is accepted.
+  std::vector<RefusedBody> refusedLongest;  ///< As RefusedBodies::list().
 
   [[nodiscard]] std::uint64_t rejected() const {
     std::uint64_t sum = 0;

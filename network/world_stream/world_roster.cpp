@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lss/index.h"
+#include "network/world_stream/carrier_times.h"
 
 namespace foretouch::internal {
 namespace {
@@ -46,6 +47,7 @@ Reject WorldRoster::refuse(Reject reason) {
 
 Reject WorldRoster::take(const BodyMessage& message, std::int64_t receiveUtimeUs) {
   ++counts_.states;
+  isNoted_ = false;
   Reject reason = whyNot(message);
   const std::int64_t latestUs = std::max(nowUs_, receiveUtimeUs) + policy_.aheadUs;
   if (reason == Reject::None && message.sinceUs > latestUs) reason = Reject::FutureStamp;
@@ -80,7 +82,7 @@ Reject WorldRoster::whyNot(const BodyMessage& message) const {
     if (bodies_.size() >= policy_.maxBodies) return Reject::Limit;
     const WorldShape& made = setup_.shapes[shape->second];
     const bool isRigid = made.mesh || made.avatar->numLinks() == 1;
-    return isRigid ? carrierFault(message) : Reject::UnknownShape;
+    return isRigid ? carrierFaultOf(message) : Reject::UnknownShape;
   }
   const LiveBody& body = known->second;
   if (body.shape != shape->second) return Reject::UnknownShape;
@@ -93,24 +95,24 @@ Reject WorldRoster::whyNot(const BodyMessage& message) const {
     if (isSession && message.sequence < body.stateSequence) return Reject::OutOfOrder;
   }
   if (!body.state.isPresent) return Reject::Late;  // gone, and told so already
-  if (body.changes.size() >= kMostWaitingKnots) return Reject::Overrun;
-  return carrierFault(message);
+  if (body.changes.size() >= kMostWaitingChanges) return Reject::Overrun;
+  return carrierFaultOf(message);
 }
 
-/// By what is announced, whenever it takes effect: a circle would be one for a moment at least.
-Reject WorldRoster::carrierFault(const BodyMessage& message) const {
-  BodyNumber next = message.carrier;
-  for (int depth = 0; next != kNoBody; ++depth) {
-    if (next == message.body) return Reject::CarrierLoop;
-    if (depth == kMostCarriers) return Reject::Limit;
-    const auto carrier = bodies_.find(next);
-    if (carrier == bodies_.end()) return Reject::UnknownBody;
-    const WorldShape& shape = setup_.shapes[carrier->second.shape];
-    const std::int32_t links = shape.avatar ? shape.avatar->numLinks() : 1;
-    if (depth == 0 && message.carrierLink >= links) return Reject::UnknownBody;
-    next = carrier->second.state.carrier;
-  }
-  return Reject::None;
+Reject WorldRoster::carrierFaultOf(const BodyMessage& message) const {
+  if (message.carrier == kNoBody) return Reject::None;
+  const auto carrier = bodies_.find(message.carrier);
+  if (carrier == bodies_.end()) return Reject::UnknownBody;
+  const WorldShape& shape = setup_.shapes[carrier->second.shape];
+  const std::int32_t links = shape.avatar ? shape.avatar->numLinks() : 1;
+  if (message.carrierLink >= links) return Reject::UnknownBody;
+  const std::int64_t sinceUs = std::max(message.sinceUs, earliestChangeUs());
+  return carrierFault(bodies_, message.body, message.carrier, sinceUs);
+}
+
+/// As early as anything can still take effect.
+std::int64_t WorldRoster::earliestChangeUs() const {
+  return std::max(nowUs_ - policy_.waitUs, answeredUs_ ? *answeredUs_ + 1 : 0);
 }
 
 /// A state that is repeated changes nothing.
@@ -120,9 +122,7 @@ void WorldRoster::change(LiveBody& body, const BodyMessage& message) {
   const bool isFirst = body.state.sinceUs == 0 && body.changes.empty() && !body.slot;
   if (!isFirst && isSameState(change, body.state)) return;
   body.state = change;
-  // As early as anything can still take effect.
-  const std::int64_t floorUs =
-      std::max(nowUs_ - policy_.waitUs, answeredUs_ ? *answeredUs_ + 1 : 0);
+  const std::int64_t floorUs = earliestChangeUs();
   const bool isLate = change.sinceUs < floorUs;
   // Where a body without a carrier was long ago says nothing of where it is.
   if (isLate && isFirst && change.isPresent && change.carrier == kNoBody) return;
@@ -142,9 +142,26 @@ void WorldRoster::change(LiveBody& body, const BodyMessage& message) {
 
 // Poses.
 
-Reject WorldRoster::timeFault(std::int64_t utimeUs, std::int64_t receiveUtimeUs) const {
-  if (answeredUs_ && utimeUs <= *answeredUs_) return Reject::Late;
+Reject WorldRoster::refusePose(BodyNumber body, Reject reason, std::int64_t receiveUtimeUs) {
+  if (reason == Reject::None) {
+    refused_.accepted(body);
+  } else if (body != kNoBody) {
+    refused_.refused(body, reason, receiveUtimeUs);
+  }
+  return refuse(reason);
+}
+
+Reject WorldRoster::timeFault(LiveBody& body, std::int64_t utimeUs, std::int64_t receiveUtimeUs) {
   const std::int64_t nowUs = std::max(nowUs_, receiveUtimeUs);
+  if (answeredUs_ && utimeUs <= *answeredUs_) {
+    // It speaks in time, of what is answered already, as it said nothing before: the others must
+    // not go on like that for ever.
+    if (utimeUs >= nowUs - policy_.waitUs && !isWaitedFor(body)) {
+      body.backUs = *answeredUs_;
+      isNoted_ = true;
+    }
+    return Reject::Late;
+  }
   if (utimeUs > nowUs + policy_.aheadUs || utimeUs > kMostUtimeUs) return Reject::FutureStamp;
   // Nobody waits for so long.
   return utimeUs < nowUs - std::max(policy_.waitUs, kMostWorldWaitUs) ? Reject::Late : Reject::None;
@@ -163,6 +180,7 @@ void WorldRoster::keep(LiveBody& body, LiveKnot knot, bool isGap, std::int64_t r
     ++counts_.gaps;
     body.addUnknown(kEveryLink, UndecidedReason::Gap, std::min(fromUs, knot.utimeUs), knot.utimeUs);
   }
+  body.backUs = -1;
   body.skips = !isKnown;
   body.hasStream = true;
   body.isOtherSpeaker = false;
@@ -175,13 +193,16 @@ void WorldRoster::keep(LiveBody& body, LiveKnot knot, bool isGap, std::int64_t r
 
 Reject WorldRoster::take(const RigidPoseMessage& message, std::int64_t receiveUtimeUs) {
   reasons_.clear();
+  isNoted_ = false;
   bool isAny = false;
   for (const BodyPose& told : message.bodies) {
     ++counts_.rigidPoses;
     const auto body = bodies_.find(told.body);
     const bool isThere = body != bodies_.end() && !body->second.isAvatar;
-    const Reject reason =
-        refuse(isThere ? take(body->second, told, message, receiveUtimeUs) : Reject::UnknownBody);
+    const Reject reason = refusePose(
+        told.body,
+        isThere ? take(body->second, told, message, receiveUtimeUs) : Reject::UnknownBody,
+        receiveUtimeUs);
     isAny = isAny || reason == Reject::None;
     reasons_.push_back(reason);
   }
@@ -197,7 +218,7 @@ Reject WorldRoster::take(LiveBody& body, const BodyPose& told, const RigidPoseMe
   bool isGap = false;
   const RigidPlace place{message.session, message.sequence, message.utimeUs};
   Reject reason = rigidPlaceFault(body, place, receiveUtimeUs, kRestartUs, isGap);
-  if (reason == Reject::None) reason = timeFault(message.utimeUs, receiveUtimeUs);
+  if (reason == Reject::None) reason = timeFault(body, message.utimeUs, receiveUtimeUs);
   if (reason == Reject::None && body.knots.size() >= kMostWaitingKnots) reason = Reject::Overrun;
   if (reason != Reject::None) return reason;
   LiveKnot knot{message.utimeUs, std::nullopt};
@@ -218,17 +239,19 @@ Reject WorldRoster::take(LiveBody& body, const BodyPose& told, const RigidPoseMe
 
 Reject WorldRoster::take(BodyNumber avatar, const StreamStep& step, std::int64_t receiveUtimeUs) {
   ++counts_.avatarPoses;
+  isNoted_ = false;
   const auto found = bodies_.find(avatar);
   if (found == bodies_.end() || !found->second.isAvatar) return refuse(Reject::UnknownAvatar);
   LiveBody& body = found->second;
-  Reject reason = timeFault(step.utimeToUs, receiveUtimeUs);
+  Reject reason = timeFault(body, step.utimeToUs, receiveUtimeUs);
   if (reason == Reject::None && body.hasStream && step.utimeToUs <= body.knownUntilUs) {
     reason = Reject::StaleStamp;
   }
   if (reason == Reject::None && body.knots.size() >= kMostWaitingKnots) reason = Reject::Overrun;
+  static_cast<void>(refusePose(avatar, reason, receiveUtimeUs));
   if (reason != Reject::None) {
     body.skips = true;
-    return refuse(reason);
+    return reason;
   }
   const bool isGap =
       step.kind != StepKind::Consecutive || body.skips || step.utimeFromUs != body.knownUntilUs;
@@ -258,7 +281,13 @@ void WorldRoster::received(std::int64_t receiveUtimeUs) {
   nowUs_ = isSetBack_ ? receiveUtimeUs : std::max(nowUs_, receiveUtimeUs);
 }
 
+/// So the watermark stands where it was for at most waitUs: as long as clocks may differ.
+bool WorldRoster::isBack(const LiveBody& body) const {
+  return body.backUs >= 0 && body.backUs >= nowUs_ - policy_.waitUs;
+}
+
 bool WorldRoster::isWaitedFor(const LiveBody& body) const {
+  if (isBack(body)) return true;
   if (body.saidUntilUs() < 0 || !body.isAwaited) return false;
   return policy_.whenSilent == WhenSilent::Wait || body.saidUntilUs() >= nowUs_ - policy_.waitUs;
 }
@@ -269,14 +298,16 @@ std::optional<std::int64_t> WorldRoster::watermark() {
   std::optional<std::int64_t> slowest, latest;
   waitsFor_ = kNoBody;
   for (const auto& [number, body] : bodies_) {
-    const std::int64_t saidUs = body.saidUntilUs();
+    const std::int64_t saidUs = std::max(body.saidUntilUs(), isBack(body) ? body.backUs : -1);
     if (saidUs < 0) continue;
     latest = latest ? std::max(*latest, saidUs) : saidUs;
     if (!isWaitedFor(body) || (slowest && saidUs >= *slowest)) continue;
     slowest = saidUs;
     waitsFor_ = number;
   }
-  return slowest ? slowest : latest;
+  const auto furthest = slowest ? slowest : latest;
+  // Stamps of what has not happened hurry nobody: who speaks now speaks of now.
+  return furthest ? std::optional(std::min(*furthest, nowUs_)) : std::nullopt;
 }
 
 /// Whoever is gone by this makes place for others.
@@ -330,7 +361,7 @@ void WorldRoster::beginAnew(std::int64_t fromUs, bool keepsBodies) {
       body.announced.clear();
       body.unknown.clear();
       body.hasStream = false;
-      body.knownUntilUs = body.stateUs = -1;
+      body.knownUntilUs = body.stateUs = body.backUs = -1;
       body.isSilent = false;
     } else if (!body.knots.empty()) {
       body.addUnknown(kEveryLink, UndecidedReason::Gap, fromUs, body.knots.front().utimeUs);
@@ -341,29 +372,6 @@ void WorldRoster::beginAnew(std::int64_t fromUs, bool keepsBodies) {
     again.sinceUs = fromUs + 1;
     body.changes.push_front(again);
   }
-}
-
-bool WorldRoster::isUnknown(BodyNumber number, LinkId link, std::int64_t fromUs,
-                            std::int64_t toUs) const {
-  return isUnknown(number, link, fromUs, toUs, 0);
-}
-
-bool WorldRoster::isUnknown(BodyNumber number, LinkId link, std::int64_t fromUs, std::int64_t toUs,
-                            int depth) const {
-  if (number < 0) return false;  // the scene, everybody
-  const auto found = bodies_.find(number);
-  if (found == bodies_.end() || depth > 2 * kMostCarriers) return true;
-  const LiveBody& body = found->second;
-  if (body.isUnknown(link, fromUs, toUs)) return true;
-  if (!body.isHeldFast && body.saidUntilUs() < toUs) return true;
-  // At the instant of a change, by whoever carried it until then as well.
-  for (std::size_t i = 0; i < body.carriers.size(); ++i) {
-    const LiveCarrier& by = body.carriers[i];
-    const bool isOver = i + 1 < body.carriers.size() && body.carriers[i + 1].sinceUs < fromUs;
-    if (isOver || by.sinceUs > toUs) continue;
-    if (isUnknown(by.carrier, by.link, fromUs, toUs, depth + 1)) return true;
-  }
-  return false;
 }
 
 }  // namespace foretouch::internal

@@ -41,27 +41,28 @@ class WorldRoster {
   [[nodiscard]] LiveBodies& bodies() { return bodies_; }
   [[nodiscard]] const LiveBodies& bodies() const { return bodies_; }
   [[nodiscard]] bool isWaitedFor(const LiveBody& body) const;
-  /// Whether a link of a body (kEveryLink: any) is unknown in [fromUs, toUs], itself or by who
-  /// carries it.
-  [[nodiscard]] bool isUnknown(BodyNumber body, LinkId link, std::int64_t fromUs,
-                               std::int64_t toUs) const;
   [[nodiscard]] WorldCounts& counts() { return counts_; }
   [[nodiscard]] const WorldCounts& counts() const { return counts_; }
   [[nodiscard]] BodyNumber waitsFor() const { return waitsFor_; }
+  [[nodiscard]] const RefusedBodies& refusedBodies() const { return refused_; }
+  /// Counts it, unless it is None.
+  [[nodiscard]] Reject refusePose(BodyNumber body, Reject reason, std::int64_t receiveUtimeUs);
+  /// As WorldSolver's.
+  [[nodiscard]] bool isNoted() const { return isNoted_; }
 
  private:
-  [[nodiscard]] bool isUnknown(BodyNumber body, LinkId link, std::int64_t fromUs, std::int64_t toUs,
-                               int depth) const;
   [[nodiscard]] Reject refuse(Reject reason);
   [[nodiscard]] Reject whyNot(const BodyMessage& message) const;
-  [[nodiscard]] Reject carrierFault(const BodyMessage& message) const;
-  [[nodiscard]] Reject timeFault(std::int64_t utimeUs, std::int64_t receiveUtimeUs) const;
+  [[nodiscard]] Reject carrierFaultOf(const BodyMessage& message) const;
+  [[nodiscard]] std::int64_t earliestChangeUs() const;
+  [[nodiscard]] Reject timeFault(LiveBody& body, std::int64_t utimeUs, std::int64_t receiveUtimeUs);
   [[nodiscard]] Reject take(LiveBody& body, const BodyPose& told, const RigidPoseMessage& message,
                             std::int64_t receiveUtimeUs);
   void change(LiveBody& body, const BodyMessage& message);
   void keep(LiveBody& body, LiveKnot knot, bool isGap, std::int64_t receiveUtimeUs);
   void received(std::int64_t receiveUtimeUs);
   void forgetSilent();
+  [[nodiscard]] bool isBack(const LiveBody& body) const;
   void noteSilence(std::int64_t utimeUs);
 
   const WorldSetup& setup_;
@@ -75,6 +76,8 @@ class WorldRoster {
   BodyNumber waitsFor_ = kNoBody;
   WorldCounts counts_;
   std::vector<Reject> reasons_;
+  RefusedBodies refused_;
+  bool isNoted_ = false;
 };
 
 }  // namespace foretouch::internal

@@ -63,6 +63,11 @@ struct WorldPolicy {
 inline constexpr std::int64_t kMostWorldWaitUs = 60'000'000;
 /// Accepted poses of a body that wait for the watermark; more are refused (Overrun).
 inline constexpr std::size_t kMostWaitingKnots = 1024;
+/// Changes of who carries a body that wait likewise.
+inline constexpr std::size_t kMostWaitingChanges = 64;
+/// The watermark moves by at least so much (us): whoever sends more often than that, or much of
+/// many bodies by turns, does not make as many answers, each of which lists all bodies.
+inline constexpr std::int64_t kLeastAdvanceUs = 1000;
 /// How many bodies may hang on one another.
 inline constexpr int kMostCarriers = 8;
 

@@ -9,6 +9,7 @@
 
 #include "articulated/quoted.h"
 #include "articulated/try.h"
+#include "network/world_stream/carrier_times.h"
 #include "network/world_stream/live_world.h"
 #include "network/world_stream/world_roster.h"
 
@@ -125,14 +126,14 @@ struct WorldSolver::Impl {
     const auto until = roster.watermark();
     // Not before all who begin together have said where they do.
     if (until && !world && *until > firstUs()) begin(firstUs(), true);
-    if (until && world && *until > fromUs) answerUntil(*until, answers, count);
+    if (until && world && *until - fromUs >= kLeastAdvanceUs) answerUntil(*until, answers, count);
     answers.resize(count);
   }
 
   void answerUntil(std::int64_t untilUs, std::vector<EventsMessage>& answers, std::size_t& count) {
     const WorldClock::time_point start = WorldClock::now();
     if (!world->hasRoomFor(roster.bodies().size())) begin(fromUs, true);
-    for (auto& [number, body] : roster.bodies()) world->tell(roster.bodies(), body, untilUs);
+    world->tell(roster.bodies(), untilUs);
     // Nobody may be there yet: then there is no world to ask.
     const auto knownUs = world->knownUntilUs();
     bool isAnswered = knownUs && *knownUs >= untilUs;
@@ -182,8 +183,8 @@ struct WorldSolver::Impl {
       next.cause = event.cause == LeaveCause::NotAsked ? ToldCause::NotAsked : ToldCause::Apart;
       const std::int64_t toUs = event.time.us + (event.time.fraction > 0.0 ? 1 : 0);
       next.event.isAssumed = event.isAssumed ||
-                             roster.isUnknown(*a, event.a.link, event.time.us, toUs) ||
-                             roster.isUnknown(*b, event.b.link, event.time.us, toUs);
+                             isUnknown(roster.bodies(), *a, event.a.link, event.time.us, toUs) ||
+                             isUnknown(roster.bodies(), *b, event.b.link, event.time.us, toUs);
     }
   }
 
@@ -281,9 +282,13 @@ void WorldSolver::refusedState(Reject reason) {
   ++impl_->roster.counts().rejects[static_cast<std::size_t>(reason)];
 }
 
-void WorldSolver::refusedPose(Reject reason) {
+void WorldSolver::refusedPose(BodyNumber body, Reject reason, std::int64_t receiveUtimeUs) {
   ++impl_->roster.counts().rigidPoses;
-  ++impl_->roster.counts().rejects[static_cast<std::size_t>(reason)];
+  static_cast<void>(impl_->roster.refusePose(body, reason, receiveUtimeUs));
+}
+
+bool WorldSolver::isNoted() const {
+  return impl_->roster.isNoted();
 }
 
 const std::vector<Reject>& WorldSolver::reasons() const {
@@ -298,6 +303,10 @@ bool WorldSolver::isThere(BodyNumber body) const {
   return impl_->roster.bodies().count(body) > 0;
 }
 
+std::size_t WorldSolver::numBodies() const {
+  return impl_->roster.bodies().size();
+}
+
 bool WorldSolver::isAvatar(BodyNumber body) const {
   const auto found = impl_->roster.bodies().find(body);
   return found != impl_->roster.bodies().end() && found->second.isAvatar;
@@ -307,6 +316,7 @@ WorldCounts WorldSolver::counts() const {
   WorldCounts counts = impl_->roster.counts();
   counts.bodies = impl_->roster.bodies().size();
   counts.waitsFor = impl_->roster.waitsFor();
+  counts.refusedLongest = impl_->roster.refusedBodies().list(counts.refusedBodies);
   counts.answeredUntilUs = impl_->world ? impl_->fromUs : -1;
   if (impl_->world) counts.failures += impl_->world->failures();
   for (const auto& [number, body] : impl_->roster.bodies()) counts.waiting += body.knots.size();

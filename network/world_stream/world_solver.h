@@ -7,10 +7,13 @@
 // The watermark is where all is known that is waited for: the earliest last pose of the bodies that
 // are not silent (WorldPolicy::waitUs). Nothing is claimed of who is not known: messages list what
 // (UnknownPart), and mark events that rest on it. Clocks of senders are compared with the receipts,
-// by one clock: no sender can hold up the others for longer than waitUs, or hurry them.
+// by one clock: no sender can hold up the others for longer than waitUs, or hurry them: the
+// watermark never passes the newest receipt, and whoever comes too late for it, but in time, is
+// waited for from then on.
 // docs/streaming.md, "A moving world", has the whole story.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -43,7 +46,11 @@ class WorldSolver {
   void changeSpeaker(BodyNumber body);
   /// A state, or a body's pose, was refused before it came here.
   void refusedState(Reject reason);
-  void refusedPose(Reject reason);
+  /// `body`: kNoBody where nobody knows of whom it is.
+  void refusedPose(BodyNumber body, Reject reason, std::int64_t receiveUtimeUs);
+  /// The last take() changed who is waited for, though it refused the message: so a replay needs it
+  /// as well.
+  [[nodiscard]] bool isNoted() const;
   /// Of the last rigid_pose_t: why the pose of each of its bodies was refused.
   [[nodiscard]] const std::vector<Reject>& reasons() const;
 
@@ -52,6 +59,7 @@ class WorldSolver {
   void advance(std::vector<EventsMessage>& answers);
 
   [[nodiscard]] bool isThere(BodyNumber body) const;
+  [[nodiscard]] std::size_t numBodies() const;
   /// It is one of WorldSetup::avatars: pose_t says where it is.
   [[nodiscard]] bool isAvatar(BodyNumber body) const;
   [[nodiscard]] WorldCounts counts() const;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <sys/prctl.h>
 #include <system_error>
@@ -145,12 +146,32 @@ class JournalWatch {
   bool hasTold_ = false;
 };
 
+/// Names each body of which no pose is accepted, once until one is.
+class RefusedWatch {
+ public:
+  void look(const Service& service) {
+    const auto world = service.world();
+    if (!world) return;
+    std::set<BodyNumber> named;
+    for (const RefusedBody& body : world->counts.refusedLongest) {
+      named.insert(body.body);
+      if (named_.count(body.body) == 0) printNote(foretouch::describe(body));
+    }
+    named_ = std::move(named);
+  }
+
+ private:
+  std::set<BodyNumber> named_;
+};
+
 /// Waits until a signal comes or the service cannot continue.
 void waitForEnd(const Service& service, const ServiceManager& manager, StopSignal& stop,
                 JournalWatch& journal) {
+  RefusedWatch refused;
   const milliseconds every = std::min(kLookEvery, manager.aliveEvery().value_or(kLookEvery));
   while (!stop.wait(every) && !service.failure()) {
     journal.look(service);
+    refused.look(service);
     if (manager.aliveEvery() && service.health().isAlive) manager.alive();
   }
 }

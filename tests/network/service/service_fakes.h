@@ -120,11 +120,13 @@ struct Said {
 /// Sent messages.
 class Outbox {
  public:
-  Gate gate;  ///< Of answers.
+  Gate gate;        ///< Of answers.
+  Gate worldsGate;  ///< Of a world's events.
   std::atomic<bool> refuses{false};
 
   bool take(std::string_view channel, ByteView payload) {
     if (channel.find("CONTACTS") != std::string_view::npos) gate.pass();
+    if (channel.find("EVENTS") != std::string_view::npos) worldsGate.pass();
     if (refuses) return false;
     const std::lock_guard lock(mutex_);
     said_.push_back({std::string(channel), Bytes(payload.data, payload.data + payload.size)});

@@ -18,8 +18,6 @@ using Eigen::Vector3d;
 const std::string kBodies = kBodyChannel;
 const std::string kRigid = kRigidPoseChannel;
 const std::string kEvents = kEventsChannel;
-constexpr std::int64_t kStart = 1'000'000'000;
-
 std::int64_t tick(std::int64_t n) {
   return kStart + n * kStepUs;
 }
@@ -360,6 +358,48 @@ TEST(WorldService, NamesEveryRefusal) {
 }
 
 /// Random bytes, cut and bent messages, floods of bodies: nothing is lost of what is right.
+TEST(WorldService, NobodyTakesAllPlaces) {
+  WorldPolicy policy;
+  policy.maxBodies = 33;  // one is the avatar's
+  WorldStage stage(1, policy, 1);
+  BodyNumber next = 100;
+  std::vector<std::size_t> places;
+  for (std::uint16_t sender = 1; sender <= 4; ++sender) {
+    const std::size_t before = stage.service().world()->counts.bodies;
+    for (int i = 0; i < 40; ++i) stage.say(ballMessage(next++), tick(0), {0x0100007F, sender});
+    ASSERT_TRUE(stage.isTold());
+    places.push_back(stage.service().world()->counts.bodies - before);
+  }
+  EXPECT_EQ(places, (std::vector<std::size_t>{16, 8, 4, 2}));
+  EXPECT_EQ(stage.refused(Reject::Limit), 160U - 30U);
+  EXPECT_EQ(stage.service().world()->counts.states, 160U);
+}
+
+TEST(WorldService, AnAvatarsAnswersDoNotWaitForTheWorld) {
+  // The world is busy for as long as its events are not sent.
+  WorldStage stage(1, {}, 1);
+  stage.sendSkeletons(1);
+  for (const BodyNumber body : {7, 8}) stage.say(ballMessage(body), tick(0));
+  for (std::int64_t n = 0; n < 2; ++n) {
+    stage.say(rigidPoses(n, tick(n), {ballAt(7, Vector3d::Zero()), ballAt(8, Vector3d::Zero())}));
+    stage.move(0, n, Vector3d(0.0, 5.0, 0.0));
+  }
+  ASSERT_TRUE(stage.isTold() && stage.settles(2));
+  stage.outbox->worldsGate.set(false);
+  for (std::int64_t n = 2; n < 40; ++n) {
+    stage.say(rigidPoses(n, tick(n), {ballAt(7, Vector3d::Zero()), ballAt(8, Vector3d::Zero())}));
+    stage.move(0, n, Vector3d(0.0, 5.0, 0.0));
+  }
+  EXPECT_TRUE(stage.settles(40)) << "they wait for the world";
+  EXPECT_EQ(stage.outbox->on(kContacts).size(), 40U);
+  EXPECT_EQ(stage.outbox->worldsGate.held(), 1) << "the world is busy";
+  EXPECT_GT(stage.service().world()->counts.advances, 0U) << "and yet it can be looked at";
+  stage.outbox->worldsGate.set(true);
+  ASSERT_TRUE(stage.isTold());
+  stage.service().stop();
+  expectReplaysAlike(stage, 1, {});
+}
+
 TEST(WorldService, HostileMessagesHarmNobody) {
   WorldPolicy policy;
   policy.maxBodies = 20;

@@ -104,8 +104,9 @@ void Telling::hear(const BodyMessage& message, const CrowdArrival& arrival) {
 }
 
 void Telling::hear(const RigidPoseMessage& message, const CrowdArrival& arrival) {
-  if (solver_.take(message, arrival.timeUs) != Reject::None) return;
-  told_.accepted.push_back(arrival);
+  const Reject reason = solver_.take(message, arrival.timeUs);
+  if (reason == Reject::None || solver_.isNoted()) told_.accepted.push_back(arrival);
+  if (reason != Reject::None) return;
   present(message.bodies[0].body, message.utimeUs);
   world_.hear(solver_);
 }

@@ -14,6 +14,12 @@
 namespace foretouch::test {
 
 inline constexpr double kBallRadius = 0.1;
+/// Where it begins, and from pose to pose: microseconds.
+inline constexpr std::int64_t kStart = 1'000'000'000, kTick = 10'000;
+
+inline std::int64_t tick(std::int64_t n) {
+  return kStart + n * kTick;
+}
 
 inline Avatar ball(double radius = kBallRadius) {
   RawSkeleton raw;
