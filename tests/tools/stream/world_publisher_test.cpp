@@ -152,8 +152,7 @@ TEST(WorldPublisher, IsHeardAsTheFileIsReplayed) {
   EXPECT_TRUE(isOfCarried);
 }
 
-/// Who is heard to meet whom, by names and times, in any order. Of whom nothing is claimed for a
-/// moment hangs on which message comes first.
+/// What is heard of a world, by names and times, in any order.
 std::vector<std::string> heardOf(const SmallStage& stage, const std::string& text) {
   const LoadedWorld world = loaded(stage, text);
   Heard heard(world);
@@ -163,9 +162,10 @@ std::vector<std::string> heardOf(const SmallStage& stage, const std::string& tex
   EXPECT_EQ(heard.counts().lateChanges, 0U);
   std::vector<std::string> told;
   for (const ToldEvent& event : heard.events) {
-    if (event.cause == ToldCause::BodyGone || event.event.b.body == kEveryBody) continue;
-    std::vector<std::string> who{world.nameOf(event.event.a.body - 1),
-                                 world.nameOf(event.event.b.body - 1)};
+    if (event.cause == ToldCause::BodyGone) continue;
+    std::vector<std::string> who{"everybody", "everybody"};
+    if (event.event.a.body > 0) who[0] = world.nameOf(event.event.a.body - 1);
+    if (event.event.b.body > 0) who[1] = world.nameOf(event.event.b.body - 1);
     std::sort(who.begin(), who.end());
     told.push_back(who[0] + " " + who[1] + " " + toString(event.event.kind) + " " +
                    std::to_string(event.event.time.us));
