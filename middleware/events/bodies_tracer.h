@@ -49,7 +49,10 @@ class BodiesTracer {
   Result<Done> trace(const WorldParts& world, SystemPlans& plans, const BodyMasses& masses,
                      const TraceWindow& window, const TracedBodies& bodies, TraceAnswer& answer);
   /// Forgets what belongs to a world.
-  void clear() { span_.system.motions.clear(); }
+  void clear() {
+    span_.system.motions.clear();
+    spanBefore_.system.motions.clear();
+  }
 
  private:
   struct Asked;
@@ -58,6 +61,7 @@ class BodiesTracer {
     std::int64_t beginUs = 0, endUs = 0;
     bool isFresh = false;    ///< What touches at its begin may have begun before anybody looked.
     bool isAssumed = false;  ///< Somebody is silent and taken to hold still.
+    bool isChanged = false;  ///< At its begin somebody changes his carrier, or appears.
   };
 
   Result<Done> traceSpans(const Asked& asked, SpanSides& span);
@@ -79,7 +83,8 @@ class BodiesTracer {
   [[nodiscard]] bool tellContact(const Asked& asked, SpanSides& span, FollowedSides& side);
   void tellDetails(const Asked& asked, SpanSides& span, const FollowedSides& side, double t,
                    double within);
-  void endOpen(const Asked& asked, FollowedSides& side, const WorldTime& time, LeaveCause cause);
+  void tellLast(const Asked& asked, const FollowedSides& side, std::int64_t utimeUs);
+  void endOpen(const Asked& asked, FollowedSides& side, std::int64_t utimeUs, LeaveCause cause);
   void endAll(const Asked& asked, std::int64_t utimeUs);
   void loseAll(const Asked& asked, std::int64_t utimeUs, UndecidedReason reason);
   void begin(const Asked& asked, EventKind kind, const WorldTime& time, UndecidedReason reason,
@@ -87,9 +92,10 @@ class BodiesTracer {
   void end(const Asked& asked, EventKind kind, const WorldTime& time, FollowedSides& side);
   void tell(const Asked& asked, EventKind kind, const WorldTime& time, const FollowedSides& side);
   [[nodiscard]] static bool isFresh(const TraceWindow& window, const SystemSpans& spans);
+  [[nodiscard]] static bool isChanged(const SystemSpans& spans);
 
-  SpanScratch span_;
-  MovingSides sides_;
+  SpanScratch span_, spanBefore_;
+  MovingSides sides_, sidesBefore_;
   IntervalTracer tracer_;
   EventDetails details_;
   std::vector<SidesPair> near_;

@@ -30,6 +30,7 @@ struct FollowedSides {
   bool isTraced = false;
   std::size_t nextPart = 0, endPart = 0;
   bool startsInside = false;  ///< The next part begins where nobody looked before.
+  bool isMoved = false;       ///< The next part ends where it began: one was put elsewhere there.
 
   [[nodiscard]] bool isPending() const { return nextPart < endPart; }
 };
@@ -57,7 +58,7 @@ struct FollowedBodies {
     parts.clear();
     collected.clear();
     for (FollowedSides& side : sides) {
-      side.isTraced = side.startsInside = false;
+      side.isTraced = side.startsInside = side.isMoved = false;
       side.nextPart = side.endPart = 0;
     }
   }

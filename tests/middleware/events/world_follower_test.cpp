@@ -259,8 +259,56 @@ TEST(WorldFollower, EndsWhatIsNotAskedAnyMore) {
     ASSERT_EQ(kindsOf(answer), "starts_inside leave starts_inside leave ") << cutUs;
     EXPECT_EQ(answer.events[1].cause, LeaveCause::NotAsked);
     EXPECT_EQ(answer.events[1].time.us, 25'000);
+    EXPECT_NEAR(answer.events[1].penetration, 0.05, 1e-12);
+    EXPECT_NEAR((answer.events[1].a.p_W - Vector3d(0.1, 0, 0)).norm(), 0.0, 1e-12);
     EXPECT_EQ(answer.events[2].time.us, 35'000);
     EXPECT_EQ(answer.events[3].cause, LeaveCause::Apart);
+  }
+}
+
+// A ball lies in two sheets and slides; a hand takes it 3 m away, and swings it back into the
+// first.
+TEST(WorldFollower, TellsWhereWhoIsPutElsewhereWasLast) {
+  for (const std::int64_t cutUs : {0, 30'000, 100'000, 300'000}) {
+    for (const bool forgets : {false, true}) {
+      World world = worldOf(sheets({0.0, 0.05}, false));
+      const BodyId hand = world.add(ball(0.1)).value(), cup = world.add(ball(0.1)).value();
+      ASSERT_TRUE(world.push(hand, 0, at(3.0, 5.0)).ok());
+      ASSERT_TRUE(world.push(hand, 100'000, at(3.0, 5.0)).ok());
+      ASSERT_TRUE(world.push(hand, 300'000, at(0.0, 5.0)).ok());
+      ASSERT_TRUE(world.push(cup, 0, at(0.02, 0.0)).ok());
+      ASSERT_TRUE(world.push(cup, 150'000, at(0.02, 0.3)).ok());
+      ASSERT_TRUE(world.attach(cup, {hand, 0}, 100'000, at(0.0, -5.0)).ok());
+      FollowOptions options;
+      options.cutUs = cutUs;
+      WorldFollower follower = followerFrom(0, options);
+      std::vector<WorldEvent> events;
+      for (const std::int64_t us : {100'000, 300'000}) {
+        const WorldEvents answer = followed(follower, world, us);
+        events.insert(events.end(), answer.events.begin(), answer.events.end());
+        if (forgets) world.forgetBefore(follower.followedUntilUs());
+      }
+      ASSERT_EQ(events.size(), 6u) << cutUs;
+      for (int i = 0; i < 2; ++i) {
+        const WorldEvent &start = events[i], &leave = events[2 + i], &enter = events[5 - i];
+        EXPECT_EQ(start.kind, EventKind::StartsInside);
+        EXPECT_EQ(start.object, i);
+        ASSERT_EQ(leave.kind, EventKind::Leave);
+        EXPECT_EQ(leave.cause, LeaveCause::Moved);
+        EXPECT_EQ(leave.time.us, 100'000);
+        EXPECT_EQ(leave.object, i);
+        // It slides at 2 m/s; 2 cm off the one sheet, and 3 cm off the other, on its other side.
+        const double sheet = 0.05 * i, off = i == 0 ? 0.02 : 0.03, side = i == 0 ? 1.0 : -1.0;
+        EXPECT_NEAR((leave.b.p_W - Vector3d(sheet, 0.2, 0)).norm(), 0.0, 1e-9);
+        EXPECT_NEAR((leave.a.p_W - Vector3d(0.02 - 0.1 * side, 0.2, 0)).norm(), 0.0, 1e-9);
+        EXPECT_NEAR(leave.penetration, 0.1 - off, 1e-9);
+        EXPECT_NEAR((leave.velocity_W - Vector3d(0, 2, 0)).norm(), 0.0, 1e-6);
+        EXPECT_GE(leave.numPoints, 1u);
+        // It was a metre away in between: nobody finds it inside.
+        EXPECT_EQ(enter.kind, EventKind::Enter) << cutUs;
+        EXPECT_EQ(enter.object, i);
+      }
+    }
   }
 }
 
