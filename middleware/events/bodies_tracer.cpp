@@ -62,8 +62,15 @@ Result<Done> BodiesTracer::trace(const WorldParts& world, SystemPlans& plans,
                                  const BodyMasses& masses, const TraceWindow& window,
                                  const TracedBodies& bodies, TraceAnswer& answer) {
   const Asked asked{world, plans, masses, window, bodies, answer};
+  if (bodies.isGivenUp()) {
+    part_ = {};
+    loseAll(asked, window.fromUs, UndecidedReason::WorkBudget);
+    return Done{};
+  }
   SpanSides span(world, plans, span_);
   const std::uint64_t looks = sides_.looks;
+  sides_.work = 0;
+  sides_.mostWork = bodies.work;
   const Result<Done> done = traceSpans(asked, span);
   answer.counters.pairs += sides_.looks - looks;
   return done;
@@ -79,7 +86,7 @@ Result<Done> BodiesTracer::traceSpans(const Asked& asked, SpanSides& span) {
   }
   SystemSpans& spans = span.spans();
   while (spans.next()) {
-    part_ = {spans.beginUs(), spans.endUs(), isFresh(window, spans), spans.isAssumed(),
+    part_ = {spans.beginUs(), spans.endUs(), isFresh(asked, spans), spans.isAssumed(),
              isChanged(spans)};
     static_cast<void>(spans.widenToPieces(kMostMotionUs));
     enterMotion(asked, spans);
@@ -92,9 +99,14 @@ Result<Done> BodiesTracer::traceSpans(const Asked& asked, SpanSides& span) {
 }
 
 /// What it is in contact with there may have begun before anybody looked.
-bool BodiesTracer::isFresh(const TraceWindow& window, const SystemSpans& spans) {
+bool BodiesTracer::isFresh(const Asked& asked, const SystemSpans& spans) {
+  const TraceWindow& window = asked.window;
   const bool isBegin = spans.beginUs() == window.fromUs;
   if (isBegin && window.isFirst) return true;
+  const BodyPair& both = asked.followed().bodies;
+  const BodyPair asGivenUp{both.a, both.b == both.a ? kStillScene : both.b};
+  const std::vector<BodyPair>& returned = window.returnedPairs;
+  if (isBegin && std::binary_search(returned.begin(), returned.end(), asGivenUp)) return true;
   const auto& members = spans.members();
   return isChanged(spans) ||
          (isBegin && std::any_of(members.begin(), members.end(), [&](const SystemMember& member) {
@@ -129,6 +141,7 @@ void BodiesTracer::enterMotion(const Asked& asked, const SystemSpans& spans) {
 Result<bool> BodiesTracer::traceSpan(const Asked& asked, SpanSides& span) {
   FollowedBodies& followed = asked.followed();
   if (part_.endUs < followed.nextUs && !isAnyNew(asked)) return true;
+  sides_.work += kSpanWork;
   FORETOUCH_TRY(const SystemPlan* const plan, span.prepare());
   if (plan == nullptr) {
     endAll(asked, part_.beginUs);
@@ -270,7 +283,7 @@ void BodiesTracer::tellParts(const Asked& asked, SpanSides& span, FollowedSides&
     }
     const WorldTime time = beginAt(span, part);
     if (!isDue(asked, time, false)) break;
-    begin(asked, EventKind::UnresolvedFrom, time, UndecidedReason::Resolution, side);
+    begin(asked, EventKind::UnresolvedFrom, time, part.reason, side);
   }
   if (part_.isAssumed && side.isOpen && side.kind == PartKind::Contact) {
     asked.answer.assumed.push_back({asked.keyOf(side), {part_.endUs, 0.0}});

@@ -21,6 +21,8 @@ struct TraceWindow {
   bool isFirst = false;            ///< Nothing is known of what was before.
   std::vector<ListedPair> listed;  ///< By bodies, then by links.
   std::vector<BodyId> returned;    ///< Were unknown before: by number.
+  /// Were given up before, and are not any more: in order. kStillScene stands for own links, too.
+  std::vector<BodyPair> returnedPairs;
 };
 
 /// A contact that goes on at the instant, after a motion that is assumed.
@@ -44,7 +46,8 @@ struct TraceAnswer {
 /// For one thread; keeps its memory.
 class BodiesTracer {
  public:
-  /// Brings what is followed to the window's end, and appends what happens. Errors: as
+  /// Brings what is followed to the window's end, and appends what happens; where the work is
+  /// spent, that nothing is known from there on. Errors: as
   /// SystemPlans::planOf().
   Result<Done> trace(const WorldParts& world, SystemPlans& plans, const BodyMasses& masses,
                      const TraceWindow& window, const TracedBodies& bodies, TraceAnswer& answer);
@@ -91,7 +94,7 @@ class BodiesTracer {
              FollowedSides& side);
   void end(const Asked& asked, EventKind kind, const WorldTime& time, FollowedSides& side);
   void tell(const Asked& asked, EventKind kind, const WorldTime& time, const FollowedSides& side);
-  [[nodiscard]] static bool isFresh(const TraceWindow& window, const SystemSpans& spans);
+  [[nodiscard]] static bool isFresh(const Asked& asked, const SystemSpans& spans);
   [[nodiscard]] static bool isChanged(const SystemSpans& spans);
 
   SpanScratch span_, spanBefore_;

@@ -12,6 +12,7 @@
 #include "middleware/events/interval_tracer.h"
 #include "middleware/events/span_sides.h"
 #include "middleware/events/world_event.h"
+#include "middleware/world/work_shares.h"
 
 namespace foretouch::internal {
 
@@ -79,6 +80,9 @@ struct ListedPair {
 struct TracedBodies {
   FollowedBodies* followed = nullptr;
   std::size_t first = 0, count = 0;  ///< Of TraceWindow::listed.
+  std::uint64_t work = 0;            ///< That they may cost; with too little nobody looks.
+
+  [[nodiscard]] bool isGivenUp() const { return work < kSpanWork; }
 };
 
 }  // namespace foretouch::internal

@@ -312,6 +312,103 @@ TEST(WorldFollower, TellsWhereWhoIsPutElsewhereWasLast) {
   }
 }
 
+/// Balls that lie in one another, and shift; and a ball far from them that flies through another
+/// one: the last two bodies.
+World heapAndPair(int heap, std::uint64_t workPerWindow) {
+  WorldOptions options;
+  options.workPerWindow = workPerWindow;
+  World world = World::build(std::nullopt, options).value();
+  const Avatar one = ball(0.1);
+  for (int i = 0; i < heap + 2; ++i) {
+    const BodyId body = world.add(one).value();
+    for (const int k : {0, 1, 2, 3}) {
+      const double x = i < heap ? 0.001 * (i + k) : i == heap ? 10.0 : 9.7 + 0.2 * k;
+      EXPECT_TRUE(
+          world.push(body, 10'000 * k + (i < heap && k != 0 && k != 3 ? 10 * i : 0), at(x)).ok());
+    }
+  }
+  return world;
+}
+
+// Whoever has too little work is told as unresolved, for as long as he has; the pair beside the
+// heap is told as it is without a bound.
+TEST(WorldFollower, LeavesUnresolvedWhatCostsTooMuch) {
+  constexpr int kHeap = 24;
+  std::vector<WorldEvent> truth;
+  for (const std::uint64_t work :
+       {std::numeric_limits<std::uint64_t>::max(), std::uint64_t{60'000}, std::uint64_t{2'000}}) {
+    for (const int threads : {1, 3}) {
+      const World world = heapAndPair(kHeap, work);
+      FollowOptions options;
+      options.cutUs = 2'000;
+      options.threads = threads;
+      WorldFollower follower = followerFrom(0, options);
+      const WorldEvents answer = followed(follower, world, 30'000);
+      std::vector<WorldEvent> beside;
+      std::size_t unresolved = 0;
+      for (const WorldEvent& event : answer.events) {
+        if (event.a.body == kHeap) beside.push_back(event);
+        if (event.kind != EventKind::UnresolvedFrom) continue;
+        ++unresolved;
+        EXPECT_EQ(event.reason, UndecidedReason::WorkBudget);
+      }
+      if (truth.empty()) truth = beside;
+      ASSERT_EQ(truth.size(), 2u);
+      if (work > 2'000) {
+        ASSERT_EQ(beside.size(), 2u) << work;
+        for (int i = 0; i < 2; ++i) {
+          EXPECT_EQ(beside[i].kind, truth[i].kind);
+          EXPECT_TRUE(beside[i].time == truth[i].time);
+        }
+      }
+      EXPECT_EQ(unresolved > 0, work <= 60'000) << work;
+      // All pairs of the heap touch throughout: nothing between their parts is free.
+      for (BodyId a = 0; a < kHeap; ++a) {
+        for (BodyId b = a + 1; b < kHeap; ++b) {
+          WorldTime covered{0, 0.0};
+          for (bool goesOn = true; goesOn && covered < WorldTime{30'000, 0.0};) {
+            goesOn = false;
+            for (const WorldPart& part : answer.parts) {
+              if (part.a.body != a || part.b.body != b) continue;
+              if (covered < part.from || !(covered < part.to)) continue;
+              covered = part.to;
+              goesOn = true;
+            }
+          }
+          ASSERT_FALSE(covered < (WorldTime{30'000, 0.0}))
+              << a << " and " << b << ", work " << work;
+        }
+      }
+    }
+  }
+}
+
+// With a few units of work nobody is looked at; when the budget is for more, what touches starts
+// inside: nobody saw it enter.
+TEST(WorldFollower, FindsInsideWhomItHadGivenUp) {
+  WorldOptions options;
+  options.workPerWindow = 3'000;
+  World world = World::build(std::nullopt, options).value();
+  const Avatar one = ball(0.1);
+  // Two that come to touch at 8 ms, beside a heap that leaves at 20 ms.
+  for (int i = 0; i < 20; ++i) {
+    const BodyId body = world.add(one).value();
+    const bool isHeap = i > 1;
+    for (const int k : {0, 1, 2, 3, 4}) {
+      double x = i == 0 ? 0.0 : 0.3 - 0.05 * k;
+      if (isHeap) x = k < 2 ? 0.11 : 5.0 + i;
+      ASSERT_TRUE(world.push(body, 10'000 * k, at(x, isHeap && k < 2 ? 0.05 : 0.0)).ok());
+    }
+  }
+  WorldFollower follower = followerFrom(0);
+  const WorldEvents answer = followed(follower, world, 40'000);
+  std::string kinds;
+  for (const WorldEvent& event : answer.events) {
+    if (event.a.body == 0 && event.b.body == 1) kinds += std::string(toString(event.kind)) + " ";
+  }
+  EXPECT_EQ(kinds, "unresolved_from unresolved_to starts_inside ");
+}
+
 // It leaves the one before it enters the other, which are a millimetre apart.
 TEST(WorldFollower, TellsEventsInTheirTrueOrder) {
   World world = worldOf();
