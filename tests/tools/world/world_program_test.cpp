@@ -318,8 +318,12 @@ TEST(WorldProgram, RefusesByNameABodyThatIsTooLarge) {
   const std::string path = stage.write(
       "[[body]]\nname = \"crate\"\nbox = {low = [0, 0, 0], high = [1, 1, 1]}\n"
       "[[body]]\nname = \"gate\"\nbox = {low = [-1e7, -1e7, -1e7], high = [1e7, 1e7, 1e7]}\n");
-  for (const char* const command : {"replay", "view"}) {
-    const Ended ended = runForetouch({"world", command, path, "-o", stage.folder / "out"});
+  for (const char* const command : {"check", "replay", "view"}) {
+    std::vector<std::string> arguments{"world", command, path};
+    if (command != std::string("check")) {
+      arguments.insert(arguments.end(), {"-o", stage.folder / "out"});
+    }
+    const Ended ended = runForetouch(arguments);
     EXPECT_EQ(ended.exitCode, 2) << command << ended.err;
     EXPECT_TRUE(holds(ended.err, "world.toml:6: [[body]] 'gate': ")) << ended.err;
   }
