@@ -1,6 +1,7 @@
 # Before anything is installed: is all of it built? A build of some targets alone lacks files, and
 # CMake would name the first one, not what builds it.
-#   build   the build folder; its products-CONFIG.cmake lists what foretouch_product() was told
+#   build      the build folder, for the message
+#   products   products-CONFIG.cmake lists what foretouch_product() was told
 set(missing)
 set(components)
 set(incomplete)
@@ -13,7 +14,7 @@ macro(product component target file)
     endif()
   endif()
 endmacro()
-include(${build}/products-${CMAKE_INSTALL_CONFIG_NAME}.cmake)
+include(${products}-${CMAKE_INSTALL_CONFIG_NAME}.cmake)
 if(missing)
   list(REMOVE_DUPLICATES components)
   if(incomplete)

@@ -94,7 +94,8 @@ expect_what_to_build() {
     echo 'product(c foretouch_c /nowhere/libforetouch.so)'
   } >"$folder/partial/products-Release.cmake"
   install_partial() {
-    "$cmake" -Dbuild="$folder/partial" -DCMAKE_INSTALL_CONFIG_NAME=Release "$@" \
+    "$cmake" -Dbuild="$folder/partial" -Dproducts="$folder/partial/products" \
+      -DCMAKE_INSTALL_CONFIG_NAME=Release "$@" \
       -P "$source/cmake/check_built.cmake" 2>&1
   }
   install_partial -DCMAKE_INSTALL_COMPONENT=dev
