@@ -115,6 +115,13 @@ file(MAKE_DIRECTORY ${foretouch_built_headers}/foretouch)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/assets/foretouch.hpp
      ${foretouch_built_headers}/foretouch/foretouch.hpp SYMBOLIC)
 
+# What a build must have made before it is installed: cmake/check_built.cmake says what is missing.
+#   foretouch_product(<component> <target> <file>)
+function(foretouch_product component target file)
+  set_property(GLOBAL APPEND_STRING PROPERTY FORETOUCH_PRODUCTS
+    "product(${component} ${target} \"${file}\")\n")
+endfunction()
+
 # foretouch_library(<folder> [UNITY] HEADERS ... SOURCES ... LINKS ... PRIVATE_LINKS ...)
 # makes target foretouch_<folder>, alias foretouch::<folder>, installed and exported.
 function(foretouch_library folder)
@@ -144,6 +151,12 @@ function(foretouch_library folder)
   foreach(header ${ARG_HEADERS})
     set_property(GLOBAL APPEND PROPERTY FORETOUCH_HEADERS ${folder}/${header})
   endforeach()
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL STATIC_LIBRARY)
+    foretouch_product(dev ${target} $<TARGET_FILE:${target}>)
+  else()
+    foretouch_product(runtime ${target} $<TARGET_FILE:${target}>)
+  endif()
   install(TARGETS ${target} EXPORT foretouchTargets
           ARCHIVE COMPONENT dev
           LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev)

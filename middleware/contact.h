@@ -29,7 +29,7 @@ enum class Verdict : std::uint8_t {
 /// Why a link is undecided. The numbers are those on the wire.
 enum class UndecidedReason : std::uint8_t {
   None = 0,        ///< Decided; or no answer, because the query failed.
-  WorkBudget = 1,  ///< QueryOptions::workBudget or deadlineUs was spent.
+  WorkBudget = 1,  ///< QueryOptions::workBudget or deadlineUs, or a world's, was spent.
   Resolution = 2,  ///< Doubles cannot resolve the tolerance at these coordinates.
   AfterFirst = 3,  ///< Scope::FirstOfAvatar: another link's contact is earlier.
   // The next ones come only from streams of poses, never from queries (docs/streaming.md).

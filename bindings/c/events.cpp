@@ -18,6 +18,7 @@ static_assert(static_cast<int>(EventKind::Enter) == FT_EVENT_ENTER);
 static_assert(static_cast<int>(EventKind::UnresolvedFrom) == FT_EVENT_UNRESOLVED_FROM);
 static_assert(static_cast<int>(LeaveCause::Apart) == FT_LEAVE_APART);
 static_assert(static_cast<int>(LeaveCause::NotAsked) == FT_LEAVE_NOT_ASKED);
+static_assert(static_cast<int>(LeaveCause::Moved) == FT_LEAVE_MOVED);
 static_assert(kEveryBody == FT_EVERY_BODY);
 
 ft_follow_options defaultFollowOptions() {

@@ -50,6 +50,8 @@ ft_world_options defaultWorldOptions() {
   options.size = sizeof options;
   options.asks_meshes = WorldOptions().askMeshes ? 1 : 0;
   options.tolerance = WorldOptions().tolerance;
+  options.work_per_pair = WorldOptions().workPerPair;
+  options.work_per_window = WorldOptions().workPerWindow;
   return options;
 }
 
@@ -69,6 +71,8 @@ ft_status readWorldOptions(const ft_world_options* given, WorldOptions& options)
     if (const auto s = readStruct(given, "ft_world_options", known); s != FT_OK) return s;
   }
   options.tolerance = known.tolerance;
+  options.workPerPair = known.work_per_pair;
+  options.workPerWindow = known.work_per_window;
   return readTruth(known.asks_meshes, "asks_meshes", options.askMeshes);
 }
 

@@ -47,12 +47,15 @@ class Tales {
         points.append(pointType(Numbers(3, e.points[i].p_WA.data()),
                                 Numbers(3, e.points[i].p_WB.data()), e.points[i].separation));
       }
-      const bool isNotAsked = e.kind == EventKind::Leave && e.cause == LeaveCause::NotAsked;
+      const auto isOf = [&](LeaveCause cause) {
+        return e.kind == EventKind::Leave && e.cause == cause;
+      };
       all.append(type(toString(e.kind), e.time.us, e.time.fraction, e.since.us, e.since.fraction,
                       sideOf(e.a, e.object), sideOf(e.b, e.object), e.separation, e.penetration,
                       Numbers(3, e.nhat_BA_W.data()), Numbers(3, e.velocity_W.data()),
                       e.approachSpeed, e.approachLower, e.approachUpper, e.effectiveMass, points,
-                      reasonOf(e.reason), isNotAsked, e.isAssumed));
+                      reasonOf(e.reason), isOf(LeaveCause::NotAsked), e.isAssumed,
+                      isOf(LeaveCause::Moved)));
     }
     return all;
   }

@@ -153,10 +153,18 @@ std::int64_t instantFrom(py::handle given, const char* what) {
 
 std::unique_ptr<World> createWorld(std::shared_ptr<Scene> still,
                                    const Shown<shown::Number>& tolerance,
-                                   const Shown<shown::Truth>& askMeshes) {
+                                   const Shown<shown::Truth>& askMeshes,
+                                   const Shown<shown::Integer>& workPerPair,
+                                   const Shown<shown::Integer>& workPerWindow) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   WorldOptions options;
   options.tolerance = number(tolerance, "tolerance");
   options.askMeshes = boolean(askMeshes, "ask_meshes");
+  options.workPerPair = static_cast<std::uint64_t>(integer(workPerPair, "work_per_pair", 0, kMost));
+  if (!workPerWindow.is_none()) {
+    options.workPerWindow =
+        static_cast<std::uint64_t>(integer(workPerWindow, "work_per_window", 0, kMost));
+  }
   return std::make_unique<World>(std::move(still), options);
 }
 
@@ -237,10 +245,17 @@ void bindWorld(py::module_& module) {
       "Everything that moves, on one timeline: avatars, rigid props and what they carry, each\n"
       "known at instants of its own (whole microseconds since any epoch), beside an optional\n"
       "scene that stands still. Threads that call one wait for one another.")
-      .def(py::init(&createWorld), py::arg("still") = py::none(), py::kw_only(),
-           py::arg("tolerance") = WorldOptions().tolerance,
-           py::arg("ask_meshes") = WorldOptions().askMeshes,
-           "ask_meshes: whether two meshes are asked if they meet, and a mesh and `still`.")
+      .def(
+          py::init(&createWorld), py::arg("still") = py::none(), py::kw_only(),
+          py::arg("tolerance") = WorldOptions().tolerance,
+          py::arg("ask_meshes") = WorldOptions().askMeshes,
+          py::arg("work_per_pair") = WorldOptions().workPerPair,
+          py::arg("work_per_window") = py::none(),
+          "ask_meshes: whether two meshes are asked if they meet, and a mesh and `still`.\n"
+          "work_per_pair: evaluations (about 10 ns each) that two bodies may cost in a window, "
+          "and\n"
+          "a body by itself between two poses. work_per_window: that all pairs may cost together,\n"
+          "shared by bodies. Beyond it: undecided.")
       .def("add", &addBody, py::arg("shape"), py::kw_only(), py::arg("group") = 0,
            py::arg("when_silent") = toString(WhenSilent::Wait), py::arg("self_pairs") = py::none(),
            py::arg("surface") = py::none(),

@@ -47,23 +47,31 @@ double LinkPlace::roundingAt(double rho) const {
 
 PlaceKnown BodyPlaces::at(const WorldParts& world, BodyId body, const WorldTime& time,
                           std::vector<LinkPlace>& places) {
-  const WorldBody& known = world.body(body);
-  const Episode* const episode = known.episodeAt(time.us);
-  if (episode == nullptr || time.us < episode->track.knownFromUs()) return PlaceKnown::NotThere;
-  LinkPlace carrier;
   PlaceKnown how = PlaceKnown::Known;
-  if (episode->carrier) {
-    how = at(world, episode->carrier->body, time, places);
-    if (how == PlaceKnown::Silent || how == PlaceKnown::NotThere) return how;
-    carrier = places[slotOf(episode->carrier->link)];
+  // From the one whom nobody carries on.
+  for (world.chainAt(body, time.us, chain_); !chain_.empty(); chain_.pop_back()) {
+    const PlaceKnown own = place(world.body(chain_.back()), time, places);
+    if (own == PlaceKnown::Silent || own == PlaceKnown::NotThere) return own;
+    if (own == PlaceKnown::Assumed) how = own;
   }
+  return how;
+}
+
+/// Of one body; `places` has those of whoever carries it.
+PlaceKnown BodyPlaces::place(const WorldBody& body, const WorldTime& time,
+                             std::vector<LinkPlace>& places) {
+  const Episode* const episode = body.episodeAt(time.us);
+  if (episode == nullptr || time.us < episode->track.knownFromUs()) return PlaceKnown::NotThere;
+  PlaceKnown how = PlaceKnown::Known;
   const TrackPiece piece = episode->track.pieceAt(time.us);
   // At its last pose it is known; the piece that begins there is a guess.
   const bool isAfter = piece.isHeld && (time.us > piece.beginUs || time.fraction > 0.0);
   if (isAfter && !episode->isHeldFast()) {
-    if (known.options.whenSilent != WhenSilent::HoldStill) return PlaceKnown::Silent;
+    if (body.options.whenSilent != WhenSilent::HoldStill) return PlaceKnown::Silent;
     how = PlaceKnown::Assumed;
   }
+  LinkPlace carrier;
+  if (episode->carrier) carrier = places[slotOf(episode->carrier->link)];
   motion_.assign(episode->track.skeleton(), *piece.from, *piece.to);
   motion_.statesAt(instantOf(piece, time), states_);
   places.resize(states_.size());

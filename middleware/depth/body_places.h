@@ -43,8 +43,12 @@ class BodyPlaces {
                               std::vector<LinkPlace>& places);
 
  private:
+  [[nodiscard]] PlaceKnown place(const WorldBody& body, const WorldTime& time,
+                                 std::vector<LinkPlace>& places);
+
   ChainMotion motion_;
   std::vector<LinkState> states_;
+  std::vector<BodyId> chain_;
 };
 
 /// The LSS in W, or in the frame of a mesh that is at `frame`; `rounding` grows to what no point of

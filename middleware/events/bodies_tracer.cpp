@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "articulated/try.h"
 #include "lss/index.h"
@@ -28,10 +29,11 @@ WorldTime earliestTimeAt(const SystemSpans& spans, double t) {
   return worldTimeAt(spans.beginUs(), spans.endUs(), t);
 }
 
-/// The instant as a part of the span, rounded down; 0 before it.
+/// The instant as a part of the span, rounded down; 0 before it, 1 at its end.
 double partAt(const SystemSpans& spans, const WorldTime& time) {
   const auto length = static_cast<double>(spans.endUs() - spans.beginUs());
   const double part = microsecondsAfter(spans.beginUs(), time) / length;
+  if (time == WorldTime{spans.endUs(), 0.0}) return 1.0;
   return part > 0.0 ? std::nextafter(part, 0.0) : 0.0;
 }
 
@@ -40,6 +42,7 @@ double partAt(const SystemSpans& spans, const WorldTime& time) {
 /// What one call is about.
 struct BodiesTracer::Asked {
   const WorldParts& world;
+  SystemPlans& plans;
   const BodyMasses& masses;
   const TraceWindow& window;
   const TracedBodies& bodies;
@@ -58,9 +61,16 @@ struct BodiesTracer::Asked {
 Result<Done> BodiesTracer::trace(const WorldParts& world, SystemPlans& plans,
                                  const BodyMasses& masses, const TraceWindow& window,
                                  const TracedBodies& bodies, TraceAnswer& answer) {
-  const Asked asked{world, masses, window, bodies, answer};
+  const Asked asked{world, plans, masses, window, bodies, answer};
+  if (bodies.isGivenUp()) {
+    part_ = {};
+    loseAll(asked, window.fromUs, UndecidedReason::WorkBudget);
+    return Done{};
+  }
   SpanSides span(world, plans, span_);
   const std::uint64_t looks = sides_.looks;
+  sides_.work = 0;
+  sides_.mostWork = bodies.work;
   const Result<Done> done = traceSpans(asked, span);
   answer.counters.pairs += sides_.looks - looks;
   return done;
@@ -76,7 +86,8 @@ Result<Done> BodiesTracer::traceSpans(const Asked& asked, SpanSides& span) {
   }
   SystemSpans& spans = span.spans();
   while (spans.next()) {
-    part_ = {spans.beginUs(), spans.endUs(), isFresh(window, spans), spans.isAssumed()};
+    part_ = {spans.beginUs(), spans.endUs(), isFresh(asked, spans), spans.isAssumed(),
+             isChanged(spans)};
     static_cast<void>(spans.widenToPieces(kMostMotionUs));
     enterMotion(asked, spans);
     FORETOUCH_TRY(const bool isResolved, traceSpan(asked, span));
@@ -88,14 +99,25 @@ Result<Done> BodiesTracer::traceSpans(const Asked& asked, SpanSides& span) {
 }
 
 /// What it is in contact with there may have begun before anybody looked.
-bool BodiesTracer::isFresh(const TraceWindow& window, const SystemSpans& spans) {
+bool BodiesTracer::isFresh(const Asked& asked, const SystemSpans& spans) {
+  const TraceWindow& window = asked.window;
   const bool isBegin = spans.beginUs() == window.fromUs;
   if (isBegin && window.isFirst) return true;
+  const BodyPair& both = asked.followed().bodies;
+  const BodyPair asGivenUp{both.a, both.b == both.a ? kStillScene : both.b};
+  const std::vector<BodyPair>& returned = window.returnedPairs;
+  if (isBegin && std::binary_search(returned.begin(), returned.end(), asGivenUp)) return true;
+  const auto& members = spans.members();
+  return isChanged(spans) ||
+         (isBegin && std::any_of(members.begin(), members.end(), [&](const SystemMember& member) {
+            return std::binary_search(window.returned.begin(), window.returned.end(), member.body);
+          }));
+}
+
+bool BodiesTracer::isChanged(const SystemSpans& spans) {
   const auto& members = spans.members();
   return std::any_of(members.begin(), members.end(), [&](const SystemMember& member) {
-    if (member.episode->beginUs == spans.beginUs()) return true;
-    return isBegin &&
-           std::binary_search(window.returned.begin(), window.returned.end(), member.body);
+    return member.episode->beginUs == spans.beginUs();
   });
 }
 
@@ -119,6 +141,7 @@ void BodiesTracer::enterMotion(const Asked& asked, const SystemSpans& spans) {
 Result<bool> BodiesTracer::traceSpan(const Asked& asked, SpanSides& span) {
   FollowedBodies& followed = asked.followed();
   if (part_.endUs < followed.nextUs && !isAnyNew(asked)) return true;
+  sides_.work += kSpanWork;
   FORETOUCH_TRY(const SystemPlan* const plan, span.prepare());
   if (plan == nullptr) {
     endAll(asked, part_.beginUs);
@@ -208,7 +231,7 @@ void BodiesTracer::traceSides(const Asked& asked, SpanSides& span, FollowedSides
   std::vector<StepPart>& parts = asked.followed().parts;
   side.isTraced = true;
   side.nextPart = side.endPart = parts.size();
-  if (!set(asked, span, side)) return endOpen(asked, side, begin, LeaveCause::NotAsked);
+  if (!set(asked, span, side)) return endOpen(asked, side, begin.us, LeaveCause::NotAsked);
   TraceStart start = TraceStart::Free;
   if (side.isOpen) {
     start = side.kind == PartKind::Contact ? TraceStart::Contact : TraceStart::Unknown;
@@ -229,7 +252,11 @@ void BodiesTracer::traceSides(const Asked& asked, SpanSides& span, FollowedSides
     }
     end(asked, EventKind::UnresolvedTo, begin, side);
   }
-  side.startsInside = beginsThere && isFromBegin && (part_.isFresh || start == TraceStart::Unknown);
+  // What was in contact before does not begin anew; if it is over at once, it was torn apart.
+  side.isMoved = part_.isChanged && start == TraceStart::Contact && beginsThere &&
+                 !parts[side.nextPart].goesOn && parts[side.nextPart].to == from;
+  side.startsInside =
+      !side.isOpen && beginsThere && isFromBegin && (part_.isFresh || start == TraceStart::Unknown);
 }
 
 IntervalTolerance BodiesTracer::toleranceOf(const Asked& asked, const SpanSides& span) const {
@@ -256,7 +283,7 @@ void BodiesTracer::tellParts(const Asked& asked, SpanSides& span, FollowedSides&
     }
     const WorldTime time = beginAt(span, part);
     if (!isDue(asked, time, false)) break;
-    begin(asked, EventKind::UnresolvedFrom, time, UndecidedReason::Resolution, side);
+    begin(asked, EventKind::UnresolvedFrom, time, part.reason, side);
   }
   if (part_.isAssumed && side.isOpen && side.kind == PartKind::Contact) {
     asked.answer.assumed.push_back({asked.keyOf(side), {part_.endUs, 0.0}});
@@ -289,6 +316,10 @@ bool BodiesTracer::tellContact(const Asked& asked, SpanSides& span, FollowedSide
   WorldTime time = std::max(latestTimeAt(span.spans(), part.to), WorldTime{part_.beginUs, 0.0});
   if (!(side.since < time)) time = justAfter(side.since);
   if (!isDue(asked, time, true)) return false;
+  if (std::exchange(side.isMoved, false)) {
+    endOpen(asked, side, part_.beginUs, LeaveCause::Moved);
+    return true;
+  }
   end(asked, EventKind::Leave, time, side);
   tellDetails(asked, span, side, part.to, toleranceOf(asked, span).limit);
   return true;
@@ -301,19 +332,40 @@ void BodiesTracer::tellDetails(const Asked& asked, SpanSides& span, const Follow
   details_.fill(span, sides_, t, within, asked.masses, asked.answer.events.back());
 }
 
-void BodiesTracer::endOpen(const Asked& asked, FollowedSides& side, const WorldTime& time,
+/// What ends there although nobody moves apart.
+void BodiesTracer::endOpen(const Asked& asked, FollowedSides& side, std::int64_t utimeUs,
                            LeaveCause cause) {
   if (!side.isOpen) return;
   const bool isContact = side.kind == PartKind::Contact;
-  end(asked, isContact ? EventKind::Leave : EventKind::UnresolvedTo, time, side);
-  if (isContact) asked.answer.events.back().cause = cause;
+  end(asked, isContact ? EventKind::Leave : EventKind::UnresolvedTo, {utimeUs, 0.0}, side);
+  if (!isContact) return;
+  asked.answer.events.back().cause = cause;
+  tellLast(asked, side, utimeUs);
+}
+
+/// Of the event that was told last, where the motion before ends. Nothing, where that is unknown.
+void BodiesTracer::tellLast(const Asked& asked, const FollowedSides& side, std::int64_t utimeUs) {
+  SpanSides before(asked.world, asked.plans, spanBefore_);
+  // They need not be asked any more.
+  static_cast<void>(before.begin(asked.followed().bodies, utimeUs - 1, utimeUs));
+  SystemSpans& spans = before.spans();
+  if (!spans.next()) return;
+  static_cast<void>(spans.widenToPieces(kMostMotionUs));
+  const auto plan = before.prepare();
+  if (!plan.ok() || plan.value() == nullptr || !before.set(side.links, sidesBefore_)) return;
+  if (isOfObjects(asked.world, asked.followed().bodies)) {
+    sidesBefore_.setScene(sidesBefore_.scene(), side.object);
+  }
+  const double t = partAt(spans, {utimeUs, 0.0});
+  details_.fill(before, sidesBefore_, t, toleranceOf(asked, before).limit, asked.masses,
+                asked.answer.events.back());
 }
 
 /// Nothing of the two is asked from there on.
 void BodiesTracer::endAll(const Asked& asked, std::int64_t utimeUs) {
   FollowedBodies& followed = asked.followed();
   for (FollowedSides& side : followed.sides) {
-    endOpen(asked, side, {utimeUs, 0.0}, LeaveCause::NotAsked);
+    endOpen(asked, side, utimeUs, LeaveCause::NotAsked);
   }
   followed.clear();
 }

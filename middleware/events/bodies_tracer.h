@@ -21,6 +21,8 @@ struct TraceWindow {
   bool isFirst = false;            ///< Nothing is known of what was before.
   std::vector<ListedPair> listed;  ///< By bodies, then by links.
   std::vector<BodyId> returned;    ///< Were unknown before: by number.
+  /// Were given up before, and are not any more: in order. kStillScene stands for own links, too.
+  std::vector<BodyPair> returnedPairs;
 };
 
 /// A contact that goes on at the instant, after a motion that is assumed.
@@ -44,12 +46,16 @@ struct TraceAnswer {
 /// For one thread; keeps its memory.
 class BodiesTracer {
  public:
-  /// Brings what is followed to the window's end, and appends what happens. Errors: as
+  /// Brings what is followed to the window's end, and appends what happens; where the work is
+  /// spent, that nothing is known from there on. Errors: as
   /// SystemPlans::planOf().
   Result<Done> trace(const WorldParts& world, SystemPlans& plans, const BodyMasses& masses,
                      const TraceWindow& window, const TracedBodies& bodies, TraceAnswer& answer);
   /// Forgets what belongs to a world.
-  void clear() { span_.system.motions.clear(); }
+  void clear() {
+    span_.system.motions.clear();
+    spanBefore_.system.motions.clear();
+  }
 
  private:
   struct Asked;
@@ -58,6 +64,7 @@ class BodiesTracer {
     std::int64_t beginUs = 0, endUs = 0;
     bool isFresh = false;    ///< What touches at its begin may have begun before anybody looked.
     bool isAssumed = false;  ///< Somebody is silent and taken to hold still.
+    bool isChanged = false;  ///< At its begin somebody changes his carrier, or appears.
   };
 
   Result<Done> traceSpans(const Asked& asked, SpanSides& span);
@@ -79,17 +86,19 @@ class BodiesTracer {
   [[nodiscard]] bool tellContact(const Asked& asked, SpanSides& span, FollowedSides& side);
   void tellDetails(const Asked& asked, SpanSides& span, const FollowedSides& side, double t,
                    double within);
-  void endOpen(const Asked& asked, FollowedSides& side, const WorldTime& time, LeaveCause cause);
+  void tellLast(const Asked& asked, const FollowedSides& side, std::int64_t utimeUs);
+  void endOpen(const Asked& asked, FollowedSides& side, std::int64_t utimeUs, LeaveCause cause);
   void endAll(const Asked& asked, std::int64_t utimeUs);
   void loseAll(const Asked& asked, std::int64_t utimeUs, UndecidedReason reason);
   void begin(const Asked& asked, EventKind kind, const WorldTime& time, UndecidedReason reason,
              FollowedSides& side);
   void end(const Asked& asked, EventKind kind, const WorldTime& time, FollowedSides& side);
   void tell(const Asked& asked, EventKind kind, const WorldTime& time, const FollowedSides& side);
-  [[nodiscard]] static bool isFresh(const TraceWindow& window, const SystemSpans& spans);
+  [[nodiscard]] static bool isFresh(const Asked& asked, const SystemSpans& spans);
+  [[nodiscard]] static bool isChanged(const SystemSpans& spans);
 
-  SpanScratch span_;
-  MovingSides sides_;
+  SpanScratch span_, spanBefore_;
+  MovingSides sides_, sidesBefore_;
   IntervalTracer tracer_;
   EventDetails details_;
   std::vector<SidesPair> near_;

@@ -12,6 +12,7 @@
 #include "middleware/events/interval_tracer.h"
 #include "middleware/events/span_sides.h"
 #include "middleware/events/world_event.h"
+#include "middleware/world/work_shares.h"
 
 namespace foretouch::internal {
 
@@ -30,6 +31,7 @@ struct FollowedSides {
   bool isTraced = false;
   std::size_t nextPart = 0, endPart = 0;
   bool startsInside = false;  ///< The next part begins where nobody looked before.
+  bool isMoved = false;       ///< The next part ends where it began: one was put elsewhere there.
 
   [[nodiscard]] bool isPending() const { return nextPart < endPart; }
 };
@@ -57,7 +59,7 @@ struct FollowedBodies {
     parts.clear();
     collected.clear();
     for (FollowedSides& side : sides) {
-      side.isTraced = side.startsInside = false;
+      side.isTraced = side.startsInside = side.isMoved = false;
       side.nextPart = side.endPart = 0;
     }
   }
@@ -78,6 +80,9 @@ struct ListedPair {
 struct TracedBodies {
   FollowedBodies* followed = nullptr;
   std::size_t first = 0, count = 0;  ///< Of TraceWindow::listed.
+  std::uint64_t work = 0;            ///< That they may cost; with too little nobody looks.
+
+  [[nodiscard]] bool isGivenUp() const { return work < kSpanWork; }
 };
 
 }  // namespace foretouch::internal

@@ -35,7 +35,7 @@ void FollowedList::plan(std::int64_t fromUs, const std::vector<ListedPair>& list
   for (const auto& both : bodies_) {
     std::size_t last = first;
     while (last < listed.size() && listed[last].bodies == both->bodies) ++last;
-    if (last > first || both->isActive()) tasks.push_back({both.get(), first, last - first});
+    if (last > first || both->isActive()) tasks.push_back({both.get(), first, last - first, 0});
     first = last;
   }
 }

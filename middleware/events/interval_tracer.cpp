@@ -39,8 +39,14 @@ void IntervalTracer::trace(MovingSides& sides, const IntervalTolerance& toleranc
   witness = last_;
 }
 
+void IntervalTracer::leaveUnresolved(double from, std::vector<StepPart>& parts) const {
+  const auto reason = sides_->isSpent() ? UndecidedReason::WorkBudget : UndecidedReason::Resolution;
+  parts.push_back({PartKind::Unresolved, from, 1.0, true, reason});
+}
+
 void IntervalTracer::traceParts(double from, TraceStart start, std::vector<StepPart>& parts,
                                 EventCounters& counters) {
+  if (sides_->isSpent()) return leaveUnresolved(from, parts);
   double t = from;
   bool isContact = start == TraceStart::Contact;
   if (!isContact) {
@@ -53,18 +59,14 @@ void IntervalTracer::traceParts(double from, TraceStart start, std::vector<StepP
       const Search search = searchContact(t, counters);
       if (search.found == Found::Nothing) return;
       if (search.found == Found::Unresolved) {
-        parts.push_back({PartKind::Unresolved, search.t, 1.0, true});
-        return;
+        return leaveUnresolved(search.t, parts);
       }
       t = search.t;
     }
     const double begin = t;
     const bool isKnown = followContact(t, counters);
-    parts.push_back({PartKind::Contact, begin, t, isKnown && t >= 1.0});
-    if (!isKnown) {
-      parts.push_back({PartKind::Unresolved, t, 1.0, true});
-      return;
-    }
+    parts.push_back({PartKind::Contact, begin, t, isKnown && t >= 1.0, UndecidedReason::None});
+    if (!isKnown) return leaveUnresolved(t, parts);
     if (t >= 1.0) return;
     isContact = false;
   }
@@ -113,6 +115,7 @@ IntervalTracer::Hold IntervalTracer::holdAt(double t, double within) {
 
 bool IntervalTracer::followContact(double& t, EventCounters& counters) {
   while (t < 1.0) {
+    if (sides_->isSpent()) return false;
     ++counters.contactLooks;
     const Hold hold = holdAt(t, tolerance_.leave);
     if (!hold.isContact) return true;
@@ -126,6 +129,7 @@ bool IntervalTracer::followContact(double& t, EventCounters& counters) {
 IntervalTracer::Search IntervalTracer::searchContact(double from, EventCounters& counters) {
   double begin = from, end = 1.0;
   while (begin < 1.0) {
+    if (sides_->isSpent()) return {Found::Unresolved, begin};
     sides_->collect(begin, end, tolerance_.enter, near_);
     end = cutPiece(begin, end);
     const Search search = searchPiece(begin, end, counters);
@@ -164,6 +168,7 @@ IntervalTracer::Search IntervalTracer::searchPiece(double from, double to,
     Candidate& candidate = heap_.back();
     const double t = candidate.freeUntil;
     if (t >= to) return {};
+    if (sides_->isSpent()) return {Found::Unresolved, t};
     counters.freeLooks += t != looked ? 1 : 0;
     looked = t;
     const MovingPair pair = sides_->at(candidate.pair, t);

@@ -24,6 +24,7 @@ struct StepPart {
   double from = 0.0, to = 1.0;
   bool goesOn =
       false;  ///< To the step's end; else they are free, or it is known again, from `to` on.
+  UndecidedReason reason = UndecidedReason::None;  ///< Of Unresolved.
 };
 
 /// The distances that decide (m). What the motion is off by is taken off (world.md 2).
@@ -40,13 +41,14 @@ class IntervalTracer {
   /// Appends the parts of [from, 1] in which the two are not free, in order.
   /// - Contact: they stay within `limit`, and are within `enter` at its begin, unless that is
   ///   `from` and they were in contact before.
-  /// - Unresolved: doubles cannot tell; goes on to the step's end.
+  /// - Unresolved: doubles cannot tell, or the sides' work is spent; goes on to the step's end.
   /// - Elsewhere they stay `floor` apart.
   /// `witness`: the pair that held the two together last, if one did; it is tried first.
   void trace(MovingSides& sides, const IntervalTolerance& tolerance, double from, TraceStart start,
              SidesPair& witness, std::vector<StepPart>& parts, EventCounters& counters);
 
  private:
+  void leaveUnresolved(double from, std::vector<StepPart>& parts) const;
   void traceParts(double from, TraceStart start, std::vector<StepPart>& parts,
                   EventCounters& counters);
   /// Where a search ends.

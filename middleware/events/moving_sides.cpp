@@ -9,6 +9,12 @@
 #include "middleware/scene/scene_parts.h"
 
 namespace foretouch::internal {
+namespace {
+
+/// As measured, roughly: a distance, two boxes, and what a tree of triangles takes.
+constexpr std::uint64_t kLookWork = 40, kBoxWork = 4, kTreeWork = 50;
+
+}  // namespace
 
 void MovingSides::begin(MotionEvaluator& evaluator, LinkId frame) {
   evaluator_ = &evaluator;
@@ -59,6 +65,7 @@ const MovingSides::States& MovingSides::statesAt(double t) {
 
 MovingPair MovingSides::at(const SidesPair& pair, double t) {
   ++looks;
+  work += kLookWork;
   const States& now = statesAt(t);
   const auto sideOf = [](const LinkSide& side, std::int32_t lss, const LinkState& state) {
     return MovingHull::of((*side.lss)[slotOf(lss)], side.bounds[slotOf(lss)], state);
@@ -96,8 +103,9 @@ Aabb MovingSides::sweptBoxOf(const LinkSide& side, std::size_t i, const LinkStat
 }
 
 void MovingSides::collectLinks(const States& begin, const States& end, double reach,
-                               std::vector<SidesPair>& pairs) const {
+                               std::vector<SidesPair>& pairs) {
   const double span = end.t - begin.t;
+  work += kBoxWork * one_.bounds.size() * other_.bounds.size();
   for (std::size_t i = 0; i < one_.bounds.size(); ++i) {
     const Aabb box = sweptBoxOf(one_, i, begin.one, end.one, span, reach);
     for (std::size_t j = 0; j < other_.bounds.size(); ++j) {
@@ -118,6 +126,7 @@ void MovingSides::collectScene(const States& begin, const States& end, double re
     found_.clear();
     std::uint64_t visited = 0;
     scene_->parts().bvh.collect(box, found_, visited);
+    work += kTreeWork + kBoxWork * (visited + found_.size());
     for (const TriangleId id : found_) {
       if (object_ != kNoObject && scene_->object(id) != object_) continue;
       const Triangle& triangle = scene_->triangle(id);

@@ -63,6 +63,9 @@ class MovingSides {
   }
 
   std::uint64_t looks = 0;  ///< Distances of two parts.
+  /// In the units of QueryOptions::workBudget: done, and beyond which nothing more is looked at.
+  std::uint64_t work = 0, mostWork = std::numeric_limits<std::uint64_t>::max();
+  [[nodiscard]] bool isSpent() const { return work >= mostWork; }
 
  private:
   struct States {
@@ -74,7 +77,7 @@ class MovingSides {
   [[nodiscard]] static Aabb sweptBoxOf(const LinkSide& side, std::size_t i, const LinkState& begin,
                                        const LinkState& end, double span, double reach);
   void collectLinks(const States& begin, const States& end, double reach,
-                    std::vector<SidesPair>& pairs) const;
+                    std::vector<SidesPair>& pairs);
   void collectScene(const States& begin, const States& end, double reach,
                     std::vector<SidesPair>& pairs);
 

@@ -37,6 +37,7 @@ inline constexpr std::size_t kNumEventKinds = 5;
 enum class LeaveCause : std::uint8_t {
   Apart,     ///< They are apart: proven.
   NotAsked,  ///< They are not asked any more: one carries the other, or World::ask() says so.
+  Moved,     ///< One of them, or who carries it, is put elsewhere there, with a jump.
 };
 
 /// Two points, one of each side, that are near at an event's instant.
@@ -51,7 +52,8 @@ struct WorldEvent {
   static constexpr std::size_t kMostPoints = 4;
 
   EventKind kind = EventKind::Enter;
-  LeaveCause cause = LeaveCause::Apart;  ///< Of Leave.
+  LeaveCause cause = LeaveCause::Apart;  ///< Of Leave. Apart from Apart: the places, speeds and
+                                         ///< points are the last ones, of the motion before.
   /// Of UnresolvedFrom and UnresolvedTo. Gap: a body is silent.
   UndecidedReason reason = UndecidedReason::None;
   bool isAssumed = false;  ///< As WorldContact::isAssumed.

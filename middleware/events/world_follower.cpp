@@ -70,6 +70,13 @@ PairKey keyOf(const WorldContact& contact) {
   return internal::keyOf(contact, internal::kNoObject);
 }
 
+/// Two bodies altogether of which nothing is known from an instant on.
+struct GivenUp {
+  PairKey key;
+  WorldTime time;
+  UndecidedReason reason = UndecidedReason::None;
+};
+
 /// One thread's memory, and its part of a window's events.
 struct alignas(128) Worker {
   BodiesTracer tracer;
@@ -93,6 +100,8 @@ struct WorldFollower::Impl {
   internal::FollowedLinks known;
   TraceWindow window;
   std::vector<TracedBodies> tasks;
+  internal::WorkShares shares;                 // of the tasks
+  std::vector<GivenUp> givenUp;                // in the window, by pair
   std::vector<BodyId> unknown, unknownBefore;  // silent and undecided, by number; as openBefore
   bool isSaved = false;                        // what was before the call
   std::vector<std::unique_ptr<Worker>> workers;
@@ -174,9 +183,11 @@ struct WorldFollower::Impl {
     window.toUs = toUs;
     window.isFirst = untilUs == startUs;
     own.clear();
-    tellUnknown();
     listPairs();
     followed.plan(window.fromUs, window.listed, tasks);
+    shareTasks(parts);
+    listGivenUp();
+    tellUnknown();
     for (const auto& worker : workers) {
       worker->answer.clear();
       worker->failure.clear();
@@ -187,6 +198,7 @@ struct WorldFollower::Impl {
   /// Bodies of which nothing is known, or is known again, and pairs that are given up.
   void tellUnknown() {
     window.returned.clear();
+    window.returnedPairs.clear();
     const auto isNow = [this](BodyId body) {
       return std::any_of(contacts.silent.begin(), contacts.silent.end(), [&](const SilentBody& s) {
         return s.body == body && s.takenTo == WhenSilent::Undecided && s.sinceUs == window.fromUs;
@@ -200,8 +212,9 @@ struct WorldFollower::Impl {
       const PairKey key = internal::keyOf(part, part.object);
       if (!isOfEveryLink(key)) continue;
       const bool goesOn = key.bodyOfB == kEveryBody ? isNow(key.bodyOfA) : isGivenUp(key);
-      if (!goesOn)
-        tellOwn(EventKind::UnresolvedTo, key, {window.fromUs, 0.0}, part.since, part.reason);
+      if (goesOn) continue;
+      tellOwn(EventKind::UnresolvedTo, key, {window.fromUs, 0.0}, part.since, part.reason);
+      if (key.bodyOfB != kEveryBody) window.returnedPairs.push_back({key.bodyOfA, key.bodyOfB});
     }
     unknown.clear();
     for (const SilentBody& silent : contacts.silent) {
@@ -210,19 +223,46 @@ struct WorldFollower::Impl {
       const PairKey key{silent.body, kEveryLink, kEveryBody, kEveryLink, internal::kNoObject};
       tellNew(key, {silent.sinceUs, 0.0}, UndecidedReason::Gap);
     }
+    for (const GivenUp& pair : givenUp) tellNew(pair.key, pair.time, pair.reason);
+  }
+
+  /// What each two may cost while they are followed, as while they are asked.
+  void shareTasks(const WorldParts& parts) {
+    shares.begin(parts.bodies.size());
+    for (const TracedBodies& task : tasks) {
+      shares.add(task.followed->bodies.a, task.followed->bodies.b);
+    }
+    shares.share(parts.options.workPerWindow, parts.options.workPerPair);
+    for (std::size_t i = 0; i < tasks.size(); ++i) tasks[i].work = shares.of(i);
+  }
+
+  void listGivenUp() {
+    givenUp.clear();
     for (const WorldContact& contact : contacts.contacts) {
       const PairKey key = keyOf(contact);
-      if (isOfEveryLink(key)) tellNew(key, contact.time, contact.reason);
+      if (isOfEveryLink(key)) givenUp.push_back({key, contact.time, contact.reason});
     }
+    for (const TracedBodies& task : tasks) {
+      if (!task.isGivenUp()) continue;
+      const internal::BodyPair& both = task.followed->bodies;
+      const BodyId with = both.b == both.a ? kStillScene : both.b;
+      const PairKey key{both.a, kEveryLink, with, kEveryLink, internal::kNoObject};
+      givenUp.push_back({key, {window.fromUs, 0.0}, UndecidedReason::WorkBudget});
+    }
+    std::sort(givenUp.begin(), givenUp.end(), [](const GivenUp& x, const GivenUp& y) {
+      return x.key == y.key ? x.time < y.time : x.key < y.key;
+    });
+    const auto isSame = [](const GivenUp& x, const GivenUp& y) { return x.key == y.key; };
+    givenUp.erase(std::unique(givenUp.begin(), givenUp.end(), isSame), givenUp.end());
   }
 
   /// The window begins with what is unknown of the two.
   [[nodiscard]] bool isGivenUp(const PairKey& key) const {
-    const WorldTime begin{window.fromUs, 0.0};
-    return std::any_of(contacts.contacts.begin(), contacts.contacts.end(),
-                       [&](const WorldContact& contact) {
-                         return keyOf(contact) == key && contact.time == begin;
-                       });
+    const auto found = std::lower_bound(
+        givenUp.begin(), givenUp.end(), key,
+        [](const GivenUp& pair, const PairKey& wanted) { return pair.key < wanted; });
+    return found != givenUp.end() && found->key == key &&
+           found->time == WorldTime{window.fromUs, 0.0};
   }
 
   void tellNew(const PairKey& key, const WorldTime& time, UndecidedReason reason) {

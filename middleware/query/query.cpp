@@ -78,22 +78,25 @@ const QueryOptions& Query::options() const {
   return plan_->options;
 }
 
-void Query::answer(const ChainMotion& motion, QueryScratch& scratch, StepContacts& step) const {
-  const internal::WorkMeter meter(plan_->options);
+void internal::answerStep(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
+                          ScratchParts& scratch, StepContacts& step) {
   step.counters = {};
-  internal::leaveUnanswered(plan_->avatar.numLinks(), step.links);
+  leaveUnanswered(plan.avatar.numLinks(), step.links);
   step.perObject.clear();
   step.pairs.clear();
   step.arePairsAnswered = false;
-  FORETOUCH_ASSERT(motion.numLinks() == plan_->avatar.numLinks());
-  if (motion.numLinks() != plan_->avatar.numLinks()) return;
-  internal::ScratchParts& parts = scratch.parts();
-  parts.beginStep(motion);
-  const auto ask = internal::isRung(plan_->options.fidelity) ? internal::rungQuery : linkQuery;
-  ask(*plan_, motion, meter, parts, step);
+  FORETOUCH_ASSERT(motion.numLinks() == plan.avatar.numLinks());
+  if (motion.numLinks() != plan.avatar.numLinks()) return;
+  scratch.beginStep(motion);
+  const auto ask = isRung(plan.options.fidelity) ? rungQuery : linkQuery;
+  ask(plan, motion, meter, scratch, step);
   FORETOUCH_ASSERT(isAnswered(step));
-  if (plan_->options.scope == Scope::FirstOfAvatar) keepFirst(*plan_, step);
-  if (plan_->self.isAsked()) internal::SelfQuery(*plan_, motion, meter, parts).run(step);
+  if (plan.options.scope == Scope::FirstOfAvatar) keepFirst(plan, step);
+  if (plan.self.isAsked()) SelfQuery(plan, motion, meter, scratch).run(step);
+}
+
+void Query::answer(const ChainMotion& motion, QueryScratch& scratch, StepContacts& step) const {
+  internal::answerStep(*plan_, motion, internal::WorkMeter(plan_->options), scratch.parts(), step);
 }
 
 ContactDetails Query::details(const ChainMotion& motion, const LinkContact& contact,

@@ -18,7 +18,15 @@
 #include "middleware/surface/skin_parts.h"
 #include "tessellation/lss_table.h"
 
+namespace foretouch {
+class ChainMotion;
+struct StepContacts;
+}  // namespace foretouch
+
 namespace foretouch::internal {
+
+struct ScratchParts;
+class WorkMeter;
 
 /// Above link fidelity.
 [[nodiscard]] inline bool isRung(Fidelity fidelity) {
@@ -72,6 +80,10 @@ struct QueryPlan {
   static Result<QueryPlan> make(const Avatar& avatar, const Scene& scene,
                                 const QueryOptions& options, double startShare = 0.0);
 };
+
+/// As Query::answer(), with the meter's budget in place of the options'.
+void answerStep(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
+                ScratchParts& scratch, StepContacts& step);
 
 /// Every pair names a link of the avatar, and an object of the scene or all of them.
 [[nodiscard]] Result<Done> checkedIgnored(const Avatar& avatar, const Scene& scene,

@@ -64,6 +64,7 @@ void SelfQuery::run(StepContacts& step) {
 }
 
 void SelfQuery::runAmong(const FoundPairs& found, StepContacts& step) {
+  stopsWhenSpent_ = meter_.isLimited();
   // Curves need the slabs.
   if (slabsOf(table_, motion_, plan_.tolerances.least) != 1) return run(step);
   own_.left.clear();
@@ -237,6 +238,10 @@ void SelfQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   const LinkId frame = self_.frames()[slotOf(pairs->frame)];
   one_.link = table_[pairs->i].link;
   other_.link = table_[pairs->j].link;
+  if (stopsWhenSpent_ && meter_.isSpent(step.counters)) {
+    const auto undone = undecidedContact(one_.link, begin_, UndecidedReason::WorkBudget);
+    return keep(PairContact{undone}, kNoParent, step);
+  }
   double times[kNodes];
   for (int k = 0; k < kNodes; ++k) {
     times[k] = k + 1 == kNodes ? end_ : begin_ + (end_ - begin_) * ChainNodes::time(k);

@@ -37,7 +37,8 @@ class SelfQuery final : private Neighbours, private LaneFrames {
 
   /// Fills `step.pairs`.
   void run(StepContacts& step);
-  /// The same for those that were found, of which only asked ones count.
+  /// The same for those that were found, of which only asked ones count. Once the work is spent,
+  /// all that are left are undecided without a look.
   void runAmong(const FoundPairs& found, StepContacts& step);
   /// The same from `begin` in (0,1) on: who touches there starts in contact. Of LSS alone. False:
   /// the motion is too long or too far away to begin anywhere but at 0, and nothing is answered.
@@ -96,6 +97,7 @@ class SelfQuery final : private Neighbours, private LaneFrames {
   const WorkMeter& meter_;
   ScratchParts& scratch_;
   SelfScratch& own_;
+  bool stopsWhenSpent_ = false;
   double start_ = 0.0;              // nothing is asked before
   double begin_ = 0.0, end_ = 1.0;  // of the current slab
   Side one_, other_;                // of the current pair of links

@@ -27,6 +27,9 @@ class WorkMeter {
     part_ = whole_;
   }
 
+  /// Without a deadline.
+  explicit WorkMeter(std::uint64_t work) : whole_{work, {}}, part_(whole_) {}
+
   [[nodiscard]] bool isLimited() const { return whole_.work != kUnlimited || hasDeadline_; }
   /// Of the whole query.
   [[nodiscard]] bool isSpent(const QueryCounters& counters) const {

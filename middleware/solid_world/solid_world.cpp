@@ -97,7 +97,7 @@ class SolidWorld::Parts {
   Result<Done> checkedInstant(std::int64_t utimeUs) const {
     if (utimeUs <= atUs_ || utimeUs - atUs_ > kLongestTickUs || utimeUs > kMostUtimeUs) {
       return Error::in("utime", ErrorCode::OutOfRange,
-                       "expected an instant within 10 s after the last one, at " + us(atUs_) +
+                       "expected an instant 1 us to 10 s after the last one, at " + us(atUs_) +
                            ", found " + us(utimeUs));
     }
     if (atUs_ < parts().forgottenUs) {

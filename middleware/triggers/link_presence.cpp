@@ -37,13 +37,14 @@ LinkId linksOf(const WorldParts& world, BodyId body) {
 
 void appendCuts(const WorldParts& world, BodyId body, const Stretch& stretch,
                 std::vector<std::int64_t>& cuts) {
-  const auto& episodes = world.body(body).episodes;
-  for (std::size_t i = 0; i < episodes.size(); ++i) {
-    const Episode& episode = episodes[i];
-    const bool isOver = i + 1 < episodes.size() && episodes[i + 1].beginUs <= stretch.fromUs;
-    if (isOver || episode.beginUs >= stretch.toUs) continue;
-    if (episode.beginUs >= stretch.fromUs) cuts.push_back(episode.beginUs);
-    if (episode.carrier) appendCuts(world, episode.carrier->body, stretch, cuts);
+  std::vector<BodyId> chain;
+  for (std::int64_t us = stretch.fromUs; us < stretch.toUs; us = world.chainEndUs(chain, us)) {
+    world.chainAt(body, us, chain);
+    const bool isCut = std::any_of(chain.begin(), chain.end(), [&](BodyId id) {
+      const Episode* const episode = world.body(id).episodeAt(us);
+      return episode != nullptr && episode->beginUs == us;
+    });
+    if (isCut) cuts.push_back(us);
   }
 }
 

@@ -22,8 +22,8 @@ struct Stretch {
   std::int64_t fromUs = 0, toUs = 0;
 };
 
-/// Who carries whom, and who is there, changes at these instants of the stretch, in order: what is
-/// known of before says nothing of after. Appends those of a body and of all that carry it.
+/// Who carries whom, and who is there, changes at these instants of the stretch: what is known of
+/// before says nothing of after. Appends those of a body and of all that carry it there, in order.
 void appendCuts(const WorldParts& world, BodyId body, const Stretch& stretch,
                 std::vector<std::int64_t>& cuts);
 

@@ -118,18 +118,22 @@ void SystemSpans::narrow() {
   endUs_ = nextUs_;
 }
 
-/// False: the body is not there at the span's begin. Whoever carries is there before he does.
+/// Behind those who carry it. False: one of them is not there at the span's begin. Whoever carries
+/// is there before he does.
 bool SystemSpans::addMember(BodyId body) {
-  if (placeOf(body) >= 0) return true;
-  const Episode* const episode = world_->body(body).episodeAt(beginUs_);
-  if (episode == nullptr) return false;
-  SystemMember member{body, world_->body(body).kind, -1, kNoParent, episode, {}};
-  if (episode->carrier) {
-    if (!addMember(episode->carrier->body)) return false;
-    member.carrier = placeOf(episode->carrier->body);
-    member.link = episode->carrier->link;
+  world_->chainAt(body, beginUs_, chain_);
+  for (; !chain_.empty(); chain_.pop_back()) {
+    const BodyId id = chain_.back();
+    if (placeOf(id) >= 0) continue;
+    const Episode* const episode = world_->body(id).episodeAt(beginUs_);
+    if (episode == nullptr) return false;
+    SystemMember member{id, world_->body(id).kind, -1, kNoParent, episode, {}};
+    if (episode->carrier) {
+      member.carrier = placeOf(episode->carrier->body);
+      member.link = episode->carrier->link;
+    }
+    members_.push_back(member);
   }
-  members_.push_back(member);
   return true;
 }
 

@@ -104,6 +104,7 @@ class SystemSpans {
   std::int64_t spanUs_ = 0, nextUs_ = 0;  // the span that next() went to, and where it goes on
   bool isAssumed_ = false;
   std::vector<SystemMember> members_;
+  std::vector<BodyId> chain_;  // memory of addMember()
 };
 
 }  // namespace foretouch::internal

@@ -67,13 +67,13 @@ bool SystemQuery::isResolved() const {
   return scratch_.poses.rounding <= kPartShare * world_.options.tolerance;
 }
 
-void SystemQuery::ask(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
+bool SystemQuery::ask(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
                       std::vector<WorldContact>& found, QueryCounters& counters) {
   answer(plan);
-  keepAll(plan, a, b, first, found, counters);
+  return keepAll(plan, a, b, first, found, counters);
 }
 
-void SystemQuery::askAmong(const SystemPlan& plan, BodyId a, BodyId b, const MeetingPairs& meeting,
+bool SystemQuery::askAmong(const SystemPlan& plan, BodyId a, BodyId b, const MeetingPairs& meeting,
                            const std::vector<PlanePair>& open, std::size_t first,
                            std::vector<WorldContact>& found, QueryCounters& counters) {
   const LssTable& table = plan.plan->table;
@@ -96,7 +96,7 @@ void SystemQuery::askAmong(const SystemPlan& plan, BodyId a, BodyId b, const Mee
     scratch_.open.push_back(pair);
   }
   answerAmong(plan);
-  keepAll(plan, a, b, first, found, counters);
+  return keepAll(plan, a, b, first, found, counters);
 }
 
 void SystemQuery::askAgain(const SystemPlan& plan, BodyId a, const std::vector<WorldContact>& met,
@@ -119,7 +119,7 @@ bool SystemQuery::askAgainFrom(std::int64_t fromUs, const SystemPlan& plan, Body
   if (areTriangles || !(begin > 0.0)) return false;
   nameAll(plan, met);
   beginStep();
-  const WorkMeter meter(plan.plan->options);
+  const WorkMeter meter(work_);
   SelfQuery query(*plan.plan, scratch_.motion, meter, scratch_.query.parts());
   if (!query.runAmongFrom(begin, foundPairs(), scratch_.step)) return false;
   const std::size_t count = found.size();
@@ -144,9 +144,10 @@ void SystemQuery::nameAll(const SystemPlan& plan, const std::vector<WorldContact
   }
 }
 
-void SystemQuery::keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
+bool SystemQuery::keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
                           std::vector<WorldContact>& found, QueryCounters& counters) {
   addCounters(scratch_.step.counters, counters);
+  undoneFrom_ = 1.0;
   if (plan.chain) {
     keepSeenFromMesh(plan, a, b, first, found);
   } else if (plan.query) {
@@ -154,23 +155,39 @@ void SystemQuery::keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_
       if (contact.verdict != Verdict::Clear) keep(ofScene(plan, contact), first, found);
     }
   }
-  for (const PairContact& contact : scratch_.step.pairs) keep(ofPair(plan, contact), first, found);
+  for (const PairContact& contact : scratch_.step.pairs) {
+    if (!isUndone(b, contact)) keep(ofPair(plan, contact), first, found);
+  }
+  if (undoneFrom_ == 1.0) return true;
+  const WorldTime from = worldTimeAt(scratch_.spans.beginUs(), scratch_.spans.endUs(), undoneFrom_);
+  found.push_back(givenUp(a, b, from, UndecidedReason::WorkBudget));
+  return false;
+}
+
+/// Of two bodies: thousands of links of a heap are told as one.
+bool SystemQuery::isUndone(BodyId b, const LinkContact& contact) {
+  const bool isSpent =
+      contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::WorkBudget;
+  if (b == kStillScene || !isSpent) return false;
+  undoneFrom_ = std::min(undoneFrom_, contact.freeUntil);
+  return true;
 }
 
 /// Fills the step with what the plan's query says of the span.
 void SystemQuery::answer(const SystemPlan& plan) {
   if (plan.query) {
-    plan.query->answer(scratch_.motion, scratch_.query, scratch_.step);
+    answerStep(plan.query->plan(), scratch_.motion, WorkMeter(work_), scratch_.query.parts(),
+               scratch_.step);
   } else {
     beginStep();
-    const WorkMeter meter(plan.plan->options);
+    const WorkMeter meter(work_);
     SelfQuery(*plan.plan, scratch_.motion, meter, scratch_.query.parts()).run(scratch_.step);
   }
 }
 
 void SystemQuery::answerAmong(const SystemPlan& plan) {
   beginStep();
-  const WorkMeter meter(plan.plan->options);
+  const WorkMeter meter(work_);
   SelfQuery(*plan.plan, scratch_.motion, meter, scratch_.query.parts())
       .runAmong(foundPairs(), scratch_.step);
 }
@@ -194,7 +211,7 @@ void SystemQuery::keepSeenFromMesh(const SystemPlan& plan, BodyId a, BodyId b, s
   const LinkId mesh = plan.first[slotOf(scratch_.spans.placeOf(b))];
   for (LinkId link = 0; link < plan.skeleton.numJoints(); ++link) {
     LinkContact contact = scratch_.step.links[slotOf(plan.chain->linkOf(link))];
-    if (contact.verdict == Verdict::Clear) continue;
+    if (contact.verdict == Verdict::Clear || isUndone(b, contact)) continue;
     if (!hasMotion) {
       scratch_.ofSystem.assign(plan.skeleton, scratch_.poses.from, scratch_.poses.to);
     }
@@ -251,16 +268,22 @@ WorldContact SystemQuery::ofPair(const SystemPlan& plan, const PairContact& cont
   return kept;
 }
 
-/// Doubles cannot tell the bodies' places between their knots well enough.
-void SystemQuery::giveUp(BodyId a, BodyId b, std::vector<WorldContact>& found) const {
+WorldContact SystemQuery::givenUp(BodyId a, BodyId b, const WorldTime& from,
+                                  UndecidedReason reason) {
   WorldContact open;
   open.a.body = a;
   open.b.body = b;
   open.a.link = open.b.link = kEveryLink;
-  open.reason = UndecidedReason::Resolution;
-  open.time = {scratch_.spans.beginUs(), 0.0};
+  open.reason = reason;
+  open.time = from;
   if (b != kStillScene && b < a) turnAround(open);
-  found.push_back(open);
+  return open;
+}
+
+/// Doubles cannot tell the bodies' places between their knots well enough, or the work is spent.
+void SystemQuery::giveUp(BodyId a, BodyId b, std::vector<WorldContact>& found,
+                         UndecidedReason reason) const {
+  found.push_back(givenUp(a, b, {scratch_.spans.beginUs(), 0.0}, reason));
 }
 
 }  // namespace foretouch::internal

@@ -42,8 +42,10 @@ struct SystemScratch {
 class SystemQuery {
  public:
   SystemQuery(const WorldParts& world, SystemPlans& plans, SystemScratch& scratch)
-      : world_(world), plans_(plans), scratch_(scratch) {}
+      : world_(world), plans_(plans), scratch_(scratch), work_(world.options.workPerPair) {}
 
+  /// What each question from now on may cost; WorldOptions::workPerPair to begin with.
+  void limit(std::uint64_t work) { work_ = work; }
   /// The plan of the question for the span that the scratch's spans are at, and the motion of its
   /// chain there: scratch.motion, relative to scratch.origin. Null if nothing can touch. Errors: as
   /// SystemPlans::planOf().
@@ -51,12 +53,13 @@ class SystemQuery {
   /// The places at the span's instants are known well enough.
   [[nodiscard]] bool isResolved() const;
   /// Appends to `found` what meets in the span, unless the two links are among those from `first`
-  /// on. Precondition: as prepare() has left it; not Boxes.
-  void ask(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
+  /// on. Precondition: as prepare() has left it; not Boxes. What two bodies have not got to when
+  /// the work is spent is told as one: nothing is known of the two from there on. False if it was.
+  bool ask(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
            std::vector<WorldContact>& found, QueryCounters& counters);
   /// The same for those pairs of LSS of a and b (i of a's, j of b's) alone: everything else of the
   /// two is proven apart. Pieces are those of the span's nodes. Precondition: a question of Pair.
-  void askAmong(const SystemPlan& plan, BodyId a, BodyId b, const MeetingPairs& meeting,
+  bool askAmong(const SystemPlan& plan, BodyId a, BodyId b, const MeetingPairs& meeting,
                 const std::vector<PlanePair>& open, std::size_t first,
                 std::vector<WorldContact>& found, QueryCounters& counters);
   /// The same for all LSS of those of a's own links that `met` names. Precondition: a question of
@@ -68,8 +71,9 @@ class SystemQuery {
   [[nodiscard]] bool askAgainFrom(std::int64_t fromUs, const SystemPlan& plan, BodyId a,
                                   const std::vector<WorldContact>& met, std::size_t first,
                                   std::vector<WorldContact>& found, QueryCounters& counters);
-  /// Appends that nothing is known of the two from the span's begin on.
-  void giveUp(BodyId a, BodyId b, std::vector<WorldContact>& found) const;
+  /// Appends that nothing is known of the two from the span's begin on, or from an instant on.
+  void giveUp(BodyId a, BodyId b, std::vector<WorldContact>& found,
+              UndecidedReason reason = UndecidedReason::Resolution) const;
 
  private:
   [[nodiscard]] Eigen::Vector3d originOf(SystemQuestion question) const;
@@ -78,7 +82,7 @@ class SystemQuery {
   void nameAll(const SystemPlan& plan, const std::vector<WorldContact>& met);
   [[nodiscard]] FoundPairs foundPairs() const;
   void beginStep();
-  void keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
+  bool keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
                std::vector<WorldContact>& found, QueryCounters& counters);
   void keepSeenFromMesh(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
                         std::vector<WorldContact>& found);
@@ -88,9 +92,14 @@ class SystemQuery {
                                    std::int32_t triangle, const Eigen::Vector3d& p_W) const;
   [[nodiscard]] WorldContact ofPair(const SystemPlan& plan, const PairContact& contact) const;
 
+  [[nodiscard]] bool isUndone(BodyId b, const LinkContact& contact);
+  static WorldContact givenUp(BodyId a, BodyId b, const WorldTime& from, UndecidedReason reason);
+
   const WorldParts& world_;
   SystemPlans& plans_;
   SystemScratch& scratch_;
+  std::uint64_t work_;
+  double undoneFrom_ = 1.0;  // of the two bodies that were asked last
 };
 
 /// The same two links.

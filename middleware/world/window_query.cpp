@@ -11,6 +11,7 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "middleware/query/link_query.h"
+#include "middleware/query/work_meter.h"
 #include "middleware/world/body_sweeper.h"
 #include "middleware/world/world_parts.h"
 
@@ -56,10 +57,22 @@ class PairAsker {
         worker_(worker),
         query_(world, scratch.plans, worker.system) {}
 
-  Result<Done> ask(BodyId a, BodyId b) {
+  /// `work`: that it may cost. What remains undone is left apart with the pair's number.
+  Result<Done> ask(std::size_t pair, std::uint64_t work) {
+    const auto [a, b] = scratch_.meeting[pair];
     if (!world_.isAsked(a, b)) return Done{};
     ++worker_.counters.pairs;
-    return askSpans(a, b);
+    const std::uint64_t before = workSoFar();
+    const std::size_t first = worker_.contacts.size();
+    limit_ = work;
+    startsAt_ = before;
+    FORETOUCH_TRY(const bool isDone, askSpans(a, b));
+    worker_.spent += workSoFar() - before;
+    if (isDone) return Done{};
+    const auto from = worker_.contacts.begin() + static_cast<std::ptrdiff_t>(first);
+    worker_.undone.push_back({pair, {from, worker_.contacts.end()}});
+    worker_.contacts.erase(from, worker_.contacts.end());
+    return Done{};
   }
 
  private:
@@ -77,14 +90,26 @@ class PairAsker {
     return isFrame ? SystemQuestion::Mesh : SystemQuestion::Pair;
   }
 
-  /// Span by span, until nothing is known any more.
-  Result<Done> askSpans(BodyId a, BodyId b) {
+  [[nodiscard]] std::uint64_t workSoFar() const {
+    return WorkMeter::workOf(worker_.counters.queries) + kSpanWork * worker_.counters.spans;
+  }
+  [[nodiscard]] std::uint64_t left() const {
+    return limit_ - std::min(limit_, workSoFar() - startsAt_);
+  }
+
+  /// Span by span, until nothing is known any more; false if the work was spent before.
+  Result<bool> askSpans(BodyId a, BodyId b) {
     const BodySweep &one = scratch_.sweeps[slotOf(a)], &other = scratch_.sweeps[slotOf(b)];
     const std::size_t first = worker_.contacts.size();
-    bool isNear = false;
+    bool isNear = false, isDone = true;
     SystemSpans& spans = worker_.system.spans;
     spans.begin(world_, a, b, window_.fromUs, window_.toUs);
-    while (spans.next()) {
+    while (isDone && spans.next()) {
+      if (left() < kLeastShare) {
+        query_.giveUp(a, b, worker_.contacts, UndecidedReason::WorkBudget);
+        isDone = false;
+        break;
+      }
       const SpanSweep& ofA = one.at(spans.beginUs());
       const Apart apart = worker_.apart.prove(ofA, other.at(spans.beginUs()), spans.beginUs(),
                                               spans.endUs(), floor(), worker_.counters.queries);
@@ -94,28 +119,33 @@ class PairAsker {
       if (question == SystemQuestion::Pair && !leaveOpen(a, b, first, ofA)) continue;
       const bool isTurned = question == SystemQuestion::Mesh && isMesh(a);
       const BodyId asked = isTurned ? b : a, with = isTurned ? a : b;
+      if (left() <= kSpanWork) {
+        query_.giveUp(a, b, worker_.contacts, UndecidedReason::WorkBudget);
+        isDone = false;
+        break;
+      }
       FORETOUCH_TRY(const SystemPlan* const plan, query_.prepare(question, asked, with));
       if (plan == nullptr) continue;
       if (!query_.isResolved()) {
         query_.giveUp(a, b, worker_.contacts);
         break;
       }
-      askSpan(*plan, question, asked, with, first);
+      isDone = askSpan(*plan, question, asked, with, first);
     }
     worker_.counters.nearPairs += isNear ? 1 : 0;
-    return Done{};
+    return isDone;
   }
 
-  void askSpan(const SystemPlan& plan, SystemQuestion question, BodyId a, BodyId b,
-               std::size_t first) {
+  [[nodiscard]] bool askSpan(const SystemPlan& plan, SystemQuestion question, BodyId a, BodyId b,
+                             std::size_t first) {
     ++worker_.counters.spans;
+    query_.limit(left());
     QueryCounters& counters = worker_.counters.queries;
     if (question == SystemQuestion::Pair) {
-      query_.askAmong(plan, a, b, worker_.apart.meeting(), worker_.apart.open(), first,
-                      worker_.contacts, counters);
-    } else {
-      query_.ask(plan, a, b, first, worker_.contacts, counters);
+      return query_.askAmong(plan, a, b, worker_.apart.meeting(), worker_.apart.open(), first,
+                             worker_.contacts, counters);
     }
+    return query_.ask(plan, a, b, first, worker_.contacts, counters);
   }
 
   /// Readies the open pairs of LSS for a question about the span: false if there are none but those
@@ -182,6 +212,7 @@ class PairAsker {
   WorldScratchParts& scratch_;
   WindowWorker& worker_;
   SystemQuery query_;
+  std::uint64_t limit_ = 0, startsAt_ = 0;
 };
 
 /// Tasks that a thread takes at a time: each is some microseconds.
@@ -227,6 +258,8 @@ class WindowQuery {
     for (const auto& worker : scratch_.workers) {
       if (isNew) worker->system.motions.clear();
       worker->contacts.clear();
+      worker->undone.clear();
+      worker->spent = 0;
       worker->counters = {};
     }
     if (isNew) {
@@ -291,10 +324,57 @@ class WindowQuery {
   }
 
   Result<Done> askPairs() {
-    return forEach(scratch_.meeting.size(), [this](WindowWorker& worker, std::size_t i) {
-      const MeetingBodies& pair = scratch_.meeting[i];
-      return PairAsker(world_, window_, followed_, scratch_, worker).ask(pair.a, pair.b);
-    });
+    sharePairs();
+    FORETOUCH_CHECK(forEach(scratch_.meeting.size(), [this](WindowWorker& worker, std::size_t i) {
+      return askPair(worker, i);
+    }));
+    // What nobody needed goes to those who need more, until that is not much more.
+    while (shareRest()) {
+      FORETOUCH_CHECK(forEach(scratch_.undone.size(), [this](WindowWorker& worker, std::size_t i) {
+        return askPair(worker, scratch_.undone[i]);
+      }));
+    }
+    return Done{};
+  }
+
+  Result<Done> askPair(WindowWorker& worker, std::size_t pair) {
+    return PairAsker(world_, window_, followed_, scratch_, worker)
+        .ask(pair, scratch_.shares.of(pair));
+  }
+
+  void sharePairs() {
+    WorkShares& shares = scratch_.shares;
+    shares.begin(world_.bodies.size());
+    for (const MeetingBodies& pair : scratch_.meeting) {
+      // Who is not asked costs nothing, and takes nothing from others.
+      world_.isAsked(pair.a, pair.b) ? shares.add(pair.a, pair.b) : shares.addNobody();
+    }
+    shares.share(world_.options.workPerWindow, world_.options.workPerPair);
+  }
+
+  /// False if there is nobody who gets more. All threads together have spent the same, whichever
+  /// did what.
+  bool shareRest() {
+    std::uint64_t spent = 0;
+    std::vector<std::size_t>& undone = scratch_.undone;
+    undone.clear();
+    for (const auto& worker : scratch_.workers) {
+      spent += worker->spent;
+      for (const UndonePair& pair : worker->undone) undone.push_back(pair.pair);
+    }
+    const std::uint64_t total = world_.options.workPerWindow;
+    if (undone.empty() || total == WorkShares::kUnlimited || spent >= total) return false;
+    std::sort(undone.begin(), undone.end());
+    scratch_.shares.shareAgain(total - spent, world_.options.workPerPair, undone);
+    for (const auto& worker : scratch_.workers) {
+      std::vector<UndonePair>& all = worker->undone;
+      all.erase(std::remove_if(all.begin(), all.end(),
+                               [&](const UndonePair& pair) {
+                                 return std::binary_search(undone.begin(), undone.end(), pair.pair);
+                               }),
+                all.end());
+    }
+    return !undone.empty();
   }
 
   /// Does all tasks; the error is that of the first one that fails.
@@ -332,7 +412,11 @@ class WindowQuery {
     later.clear();
     const WorldTime begin{window_.fromUs, 0.0};
     for (const auto& worker : scratch_.workers) {
-      for (const WorldContact& contact : worker->contacts) {
+      std::vector<WorldContact>& own = worker->contacts;
+      for (const UndonePair& pair : worker->undone) {
+        own.insert(own.end(), pair.found.begin(), pair.found.end());
+      }
+      for (const WorldContact& contact : own) {
         (begin < contact.time ? later : atBegin)
             .push_back({contact.time, contact.a.body, contact.a.link, contact.b.body,
                         contact.b.link, &contact});

@@ -14,16 +14,25 @@
 #include "middleware/world/body_sweep.h"
 #include "middleware/world/box_sweep.h"
 #include "middleware/world/system_query.h"
+#include "middleware/world/work_shares.h"
 #include "middleware/world/world.h"
 #include "middleware/world/world_contacts.h"
 
 namespace foretouch::internal {
+
+/// Two bodies whose work was spent before they were answered, and what was found until then.
+struct UndonePair {
+  std::size_t pair = 0;  ///< Place among those that meet.
+  std::vector<WorldContact> found;
+};
 
 /// What one thread keeps between windows, and its part of the answer to one.
 struct alignas(128) WindowWorker {
   SystemScratch system;
   BodiesApart apart;
   std::vector<WorldContact> contacts;
+  std::vector<UndonePair> undone;
+  std::uint64_t spent = 0;  // on pairs
   WorldCounters counters;
   FirstFailure failure{"window"};
 };
@@ -61,7 +70,9 @@ struct WorldScratchParts {
   std::vector<BodyBox> boxes;     // per body, of the whole window
   BoxSweep broad;
   std::vector<MeetingBodies> meeting;
-  std::vector<BodyId> near;  // known roughly so far, though something may be near
+  WorkShares shares;
+  std::vector<std::size_t> undone;  // places of pairs, in order
+  std::vector<BodyId> near;         // known roughly so far, though something may be near
   std::vector<std::unique_ptr<WindowWorker>> workers;  // one per thread
   std::vector<ContactPlace> atBegin, later, merged;
 };

@@ -69,23 +69,19 @@ std::int64_t knownUntil(const WorldBody& body) {
   return last.isHeldFast() ? kNever : last.track.knownUntilUs();
 }
 
-/// Whether `carried` would carry itself: does `carrier` hang on it at any time from `utimeUs` on?
-bool hangsOn(const WorldParts& parts, BodyId carrier, BodyId carried, std::int64_t utimeUs) {
-  std::vector<BodyId> open{carrier};
-  std::vector<bool> isSeen(parts.bodies.size(), false);
-  while (!open.empty()) {
-    const BodyId id = open.back();
-    open.pop_back();
-    if (id == carried) return true;
-    if (isSeen[slotOf(id)]) continue;
-    isSeen[slotOf(id)] = true;
-    const std::vector<Episode>& episodes = parts.body(id).episodes;
-    for (std::size_t i = 0; i < episodes.size(); ++i) {
-      const bool isOver = i + 1 < episodes.size() && episodes[i + 1].beginUs <= utimeUs;
-      if (!isOver && episodes[i].carrier) open.push_back(episodes[i].carrier->body);
-    }
+/// The body, or one that carries it at any time from `utimeUs` on, is one that is looked for, or
+/// carries more above it than any question can have (Skeleton::build()).
+enum class Above : std::uint8_t { Fine, HangsOn, TooDeep };
+
+Above whatIsAbove(const WorldParts& parts, BodyId carrier, BodyId carried, std::int64_t utimeUs) {
+  std::vector<BodyId> chain;
+  for (std::int64_t us = utimeUs; us != kNever; us = parts.chainEndUs(chain, us)) {
+    parts.chainAt(carrier, us, chain);
+    const bool isCircle = std::find(chain.begin(), chain.end(), carried) != chain.end();
+    if (isCircle) return Above::HangsOn;
+    if (chain.size() >= countOf(kMaxChainDepth)) return Above::TooDeep;
   }
-  return false;
+  return Above::Fine;
 }
 
 Pose poseOf(const RigidPose& rigid) {
@@ -164,13 +160,18 @@ Result<Done> checkedCarrier(const WorldParts& parts, BodyId id, const Carrier& c
                      "is not there at " + std::to_string(utimeUs) +
                          " us, when it is to carry body " + std::to_string(id));
   }
-  if (hangsOn(parts, carrier.body, id, utimeUs)) {
-    return bodyError(id, ErrorCode::BadHierarchy,
-                     "carries body " + std::to_string(carrier.body) +
-                         ", itself or through others, at or after " + std::to_string(utimeUs) +
-                         " us; expected a carrier that does not hang on it");
+  switch (whatIsAbove(parts, carrier.body, id, utimeUs)) {
+    case Above::Fine: return Done{};
+    case Above::HangsOn:
+      return bodyError(id, ErrorCode::BadHierarchy,
+                       "carries body " + std::to_string(carrier.body) +
+                           ", itself or through others, at or after " + std::to_string(utimeUs) +
+                           " us; expected a carrier that does not hang on it");
+    case Above::TooDeep: break;
   }
-  return Done{};
+  return bodyError(id, ErrorCode::LimitExceeded,
+                   "would hang on " + std::to_string(kMaxChainDepth) +
+                       " bodies or more, one carried by the other; expected fewer");
 }
 
 Result<Done> beginEpisode(WorldParts& parts, BodyId id, std::optional<Carrier> carrier,
@@ -234,7 +235,10 @@ Result<BodyId> World::add(const Scene& mesh, const BodyOptions& options) {
     return kind.mesh && &kind.mesh->parts() == &mesh.parts();
   });
   const auto kind = static_cast<std::int32_t>(known - kinds.begin());
-  if (known == kinds.end()) kinds.push_back(internal::bodyKindOf(mesh, parts_->options.askMeshes));
+  if (known == kinds.end()) {
+    FORETOUCH_TRY(BodyKind made, internal::bodyKindOf(mesh, parts_->options.askMeshes));
+    kinds.push_back(std::move(made));
+  }
   parts_->mostLss = std::max(parts_->mostLss, kinds[slotOf(kind)].linkOf.size());
   parts_->bodies.push_back({kind, options, -1, {}});
   return static_cast<BodyId>(parts_->bodies.size()) - 1;
@@ -255,6 +259,11 @@ Result<Done> World::push(BodyId body, std::int64_t utimeUs, const Pose& pose) {
     return bodyError(body, ErrorCode::Mismatch,
                      "is held fast by body " + std::to_string(episodes.back().carrier->body) +
                          "; expected no pose until it is detached");
+  }
+  if (utimeUs <= parts_->forgottenUs) {
+    return Error::in("utime", ErrorCode::OutOfRange,
+                     "a knot at " + std::to_string(utimeUs) + " us is in the past; all before " +
+                         std::to_string(parts_->forgottenUs) + " us is forgotten");
   }
   return episodes.back().track.push(utimeUs, pose);
 }
@@ -339,12 +348,14 @@ std::optional<std::int64_t> World::knownUntilUs() const {
 
 void World::forgetBefore(std::int64_t utimeUs) {
   parts_->forgottenUs = std::max(parts_->forgottenUs, utimeUs);
+  // The motions that end there, too: of who is put elsewhere there, the last place is told.
+  const std::int64_t keptUs = std::max(utimeUs, -kMostUtimeUs) - 1;
   for (WorldBody& body : parts_->bodies) {
     std::vector<Episode>& episodes = body.episodes;
     std::size_t over = 0;
-    while (over + 1 < episodes.size() && episodes[over + 1].beginUs <= utimeUs) ++over;
+    while (over + 1 < episodes.size() && episodes[over + 1].beginUs <= keptUs) ++over;
     episodes.erase(episodes.begin(), episodes.begin() + static_cast<std::ptrdiff_t>(over));
-    for (Episode& episode : episodes) episode.track.forgetBefore(utimeUs);
+    for (Episode& episode : episodes) episode.track.forgetBefore(keptUs);
   }
 }
 

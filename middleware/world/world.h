@@ -37,7 +37,8 @@ class World {
   /// A rigid prop: the triangles touch, in its own frame. It meets avatars; two meshes are asked
   /// whether they meet, and a mesh and the static scene, where WorldOptions::askMeshes says so.
   /// O(n log n) for each new mesh of n triangles: 30 ms for 10,000.
-  /// Errors: as above, and own links, which it has none of, and a surface besides.
+  /// Errors: as above, and own links, which it has none of, and a surface besides; a mesh that is
+  /// so large that the LSS around it leaves kMaxCoordinate (OutOfRange).
   Result<BodyId> add(const Scene& mesh, const BodyOptions& options = {});
   [[nodiscard]] std::int32_t numBodies() const;
 
@@ -49,8 +50,9 @@ class World {
 
   /// From `utimeUs` on, the body is carried; `pose` is its pose there in the frame of the carrier's
   /// link. A pair of the body and the link that carries it is not asked. Errors: unknown bodies or
-  /// links; a body that carries the carrier at any time from then on (BadHierarchy); a body or
-  /// carrier that is not known at that instant, or a body that was attached or detached later.
+  /// links; a body that carries the carrier at any time from then on (BadHierarchy); a carrier that
+  /// hangs on kMaxChainDepth bodies or more; a body or carrier that is not known at that instant,
+  /// or a body that was attached or detached later.
   Result<Done> attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs, const Pose& pose);
   Result<Done> attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs,
                       const RigidPose& pose);
@@ -71,7 +73,8 @@ class World {
   /// The body that knownUntilUs() waits for; nothing if nobody waits.
   [[nodiscard]] std::optional<BodyId> waitsFor() const;
 
-  /// Lets go of what no window from `utimeUs` on needs. Poses at or before it are refused from now
+  /// Lets go of what no window from `utimeUs` on needs, nor who tells where somebody was who is put
+  /// elsewhere there. Poses at or before it are refused from now
   /// on, and so are windows that begin before it.
   void forgetBefore(std::int64_t utimeUs);
 

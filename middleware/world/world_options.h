@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "articulated/pair_rules.h"
@@ -20,12 +21,26 @@ inline constexpr BodyGroup kNumBodyGroups = 32;
 /// At most this many bodies.
 inline constexpr std::int32_t kMaxBodies = 100'000;
 
+/// About a second.
+inline constexpr std::uint64_t kDefaultWorkPerPair = 100'000'000;
+
 struct WorldOptions {
   /// eps in metres, of every contact: kMinWorldTolerance to kMaxTolerance.
   double tolerance = kDefaultTolerance;
   /// Asks, too, whether two meshes meet, and a mesh and the static scene: triangles against
   /// triangles. Otherwise one of two must be made of LSS, or bring a surface.
   bool askMeshes = false;
+  /// Work that two bodies may cost in one window, and a body by itself in one span between its
+  /// poses; counted as QueryOptions::workBudget, so the same worlds have the same answers. Beyond
+  /// it the rest is undecided (WorkBudget), free as far as proven. What two do mostly costs a
+  /// thousandth of it; a mesh of many kilometres that turns takes more than any budget.
+  std::uint64_t workPerPair = kDefaultWorkPerPair;
+  /// Work that all pairs of bodies of one window may cost together; without a bound unless set.
+  /// Each pair has a share: one part of it per body, and of a body that is near many others, one
+  /// part for all its pairs. So a heap of bodies leaves those beside it their answers. What some
+  /// leave over goes to those who need more. Who follows the world (WorldFollower) may spend as
+  /// much again. With thousands of pairs and a small budget, most are undecided without a look.
+  std::uint64_t workPerWindow = std::numeric_limits<std::uint64_t>::max();
 };
 /// Below it, parts of motions between knots of different bodies are not known well enough (m).
 inline constexpr double kMinWorldTolerance = 1e-8;

@@ -1,10 +1,12 @@
 #include "middleware/world/world_parts.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <utility>
 
+#include "articulated/try.h"
 #include "lss/fit.h"
 #include "lss/rounding.h"
 #include "middleware/surface/link_surface.h"
@@ -39,6 +41,14 @@ AvatarSurface surfaceOf(std::vector<Triangle> triangles, std::vector<std::int32_
   return AvatarSurface(std::move(parts));
 }
 
+/// The first one that begins after the instant.
+std::vector<Episode>::const_iterator episodeAfter(const std::vector<Episode>& episodes,
+                                                  std::int64_t utimeUs) {
+  return std::upper_bound(
+      episodes.begin(), episodes.end(), utimeUs,
+      [](std::int64_t us, const Episode& episode) { return us < episode.beginUs; });
+}
+
 }  // namespace
 
 BodyKind bodyKindOf(const Avatar& avatar, const std::optional<AvatarSurface>& surface) {
@@ -48,10 +58,11 @@ BodyKind bodyKindOf(const Avatar& avatar, const std::optional<AvatarSurface>& su
   return kind;
 }
 
-BodyKind bodyKindOf(const Scene& mesh, bool meetsMeshes) {
+Result<BodyKind> bodyKindOf(const Scene& mesh, bool meetsMeshes) {
   RawSkeleton raw;
   raw.joints = {{"mesh", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
-  BodyKind kind{Skeleton::build(raw).value(), std::nullopt, mesh, {}, {}, {}, 0.0};
+  FORETOUCH_TRY(Skeleton skeleton, Skeleton::build(raw));
+  BodyKind kind{std::move(skeleton), std::nullopt, mesh, {}, {}, {}, 0.0};
   std::vector<Eigen::Vector3d> points;
   std::vector<Triangle> triangles(mesh.numTriangles());
   std::vector<std::int32_t> finite;
@@ -63,6 +74,12 @@ BodyKind bodyKindOf(const Scene& mesh, bool meetsMeshes) {
     finite.push_back(static_cast<std::int32_t>(i));
   }
   kind.volumes = {{fitLss(points)}};
+  // Chains are made of it later, where nobody could be told.
+  if (!Avatar::build(kind.skeleton, kind.volumes).ok()) {
+    return Error::in("mesh", ErrorCode::OutOfRange,
+                     "the LSS around the mesh has a coordinate or radius beyond 1e7 m; expected a "
+                     "smaller mesh; is the unit right?");
+  }
   if (meetsMeshes || finite.size() <= kMostSpinningTriangles) {
     kind.surface = surfaceOf(std::move(triangles), std::move(finite));
   }
@@ -71,18 +88,27 @@ BodyKind bodyKindOf(const Scene& mesh, bool meetsMeshes) {
 }
 
 const Episode* WorldBody::episodeAt(std::int64_t utimeUs) const {
-  const Episode* found = nullptr;
-  for (const Episode& episode : episodes) {
-    if (episode.beginUs <= utimeUs) found = &episode;
-  }
-  return found;
+  const auto next = episodeAfter(episodes, utimeUs);
+  return next == episodes.begin() ? nullptr : &*std::prev(next);
 }
 
 std::int64_t WorldBody::nextEpisodeUs(std::int64_t utimeUs) const {
-  for (const Episode& episode : episodes) {
-    if (episode.beginUs > utimeUs) return episode.beginUs;
+  const auto next = episodeAfter(episodes, utimeUs);
+  return next == episodes.end() ? std::numeric_limits<std::int64_t>::max() : next->beginUs;
+}
+
+void WorldParts::chainAt(BodyId id, std::int64_t utimeUs, std::vector<BodyId>& chain) const {
+  chain.assign(1, id);
+  for (const Episode* episode = body(id).episodeAt(utimeUs); episode != nullptr && episode->carrier;
+       episode = body(chain.back()).episodeAt(utimeUs)) {
+    chain.push_back(episode->carrier->body);
   }
-  return std::numeric_limits<std::int64_t>::max();
+}
+
+std::int64_t WorldParts::chainEndUs(const std::vector<BodyId>& chain, std::int64_t utimeUs) const {
+  std::int64_t end = std::numeric_limits<std::int64_t>::max();
+  for (const BodyId id : chain) end = std::min(end, body(id).nextEpisodeUs(utimeUs));
+  return end;
 }
 
 bool WorldParts::isAsked(BodyId a, BodyId b) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "articulated/avatar.h"
+#include "articulated/result.h"
 #include "articulated/track.h"
 #include "lss/index.h"
 #include "middleware/scene/scene.h"
@@ -33,7 +34,8 @@ inline constexpr std::size_t kMostSpinningTriangles = 100'000;
 /// Of an avatar, by its LSS or by its surface; and of a mesh.
 [[nodiscard]] BodyKind bodyKindOf(const Avatar& avatar,
                                   const std::optional<AvatarSurface>& surface);
-[[nodiscard]] BodyKind bodyKindOf(const Scene& mesh, bool meetsMeshes);
+/// Error (OutOfRange): the LSS around the mesh, which is larger than the mesh, leaves the limit.
+Result<BodyKind> bodyKindOf(const Scene& mesh, bool meetsMeshes);
 
 /// A body between two changes of its carrier.
 struct Episode {
@@ -50,7 +52,7 @@ struct WorldBody {
   std::int32_t ownRules = -1;     // place in WorldParts::rules, if own links are asked
   std::vector<Episode> episodes;  // none before the first pose
 
-  /// The episode at an instant; null before the first one. O(episodes).
+  /// The episode at an instant; null before the first one. O(log episodes), as the next one.
   [[nodiscard]] const Episode* episodeAt(std::int64_t utimeUs) const;
   /// When the episode after that of the instant begins, or the first one; INT64_MAX if none does.
   [[nodiscard]] std::int64_t nextEpisodeUs(std::int64_t utimeUs) const;
@@ -71,6 +73,13 @@ struct WorldParts {
 
   [[nodiscard]] const WorldBody& body(BodyId id) const { return bodies[slotOf(id)]; }
   [[nodiscard]] const BodyKind& kindOf(BodyId id) const { return kinds[slotOf(body(id).kind)]; }
+  /// The body, who carries it at the instant, who carries him, and so on up; they replace `chain`.
+  /// Whoever is not there is the last one. Never a circle: World::attach() refuses those.
+  void chainAt(BodyId id, std::int64_t utimeUs, std::vector<BodyId>& chain) const;
+  /// Until when the chain of the instant is the same: one of it appears, or changes its carrier,
+  /// there. INT64_MAX if none does.
+  [[nodiscard]] std::int64_t chainEndUs(const std::vector<BodyId>& chain,
+                                        std::int64_t utimeUs) const;
   /// Of two different bodies, by their groups and by what they are made of.
   [[nodiscard]] bool isAsked(BodyId a, BodyId b) const;
   /// Of a body and the static scene, likewise.

@@ -129,6 +129,19 @@ bool isTime(std::int64_t us, double fraction) {
   return us >= 0 && us <= kMaxWireInteger && fraction >= 0.0 && fraction < 1.0;
 }
 
+/// Readers of before LeaveCause::Moved know three causes, and refuse others. They look at the
+/// reason of what is unresolved alone, so that of a LEAVE tells whether it is one.
+constexpr UndecidedReason kReasonOfMoved = UndecidedReason::Gap;
+bool isTornApart(const ToldEvent& told, UndecidedReason reason) {
+  return told.event.kind == EventKind::Leave && told.cause == ToldCause::Apart &&
+         reason == kReasonOfMoved;
+}
+
+UndecidedReason wireReasonOf(const ToldEvent& told) {
+  const bool isMoved = told.event.cause == LeaveCause::Moved;
+  return isMoved && isTornApart(told, kReasonOfMoved) ? kReasonOfMoved : told.event.reason;
+}
+
 Reject readWhen(const events_t& wire, std::size_t i, ToldEvent& told) {
   if (!allFinite({wire.fraction[i], wire.since_fraction[i]})) return Reject::NonFinite;
   if (wire.kinds[i] >= kNumEventKinds || wire.causes[i] >= kNumToldCauses ||
@@ -141,6 +154,10 @@ Reject readWhen(const events_t& wire, std::size_t i, ToldEvent& told) {
   told.cause = static_cast<ToldCause>(wire.causes[i]);
   told.event.cause = told.cause == ToldCause::NotAsked ? LeaveCause::NotAsked : LeaveCause::Apart;
   told.event.reason = static_cast<UndecidedReason>(wire.reasons[i]);
+  if (isTornApart(told, told.event.reason)) {
+    told.event.cause = LeaveCause::Moved;
+    told.event.reason = UndecidedReason::None;
+  }
   told.event.isAssumed = wire.marks[i] != 0;
   told.event.time = {wire.utime[i], wire.fraction[i]};
   told.event.since = {wire.since_utime[i], wire.since_fraction[i]};
@@ -275,7 +292,7 @@ void writeEvent(const ToldEvent& told, std::size_t i, std::size_t& point, events
   const WorldEvent& event = told.event;
   wire.kinds[i] = static_cast<std::uint8_t>(event.kind);
   wire.causes[i] = static_cast<std::uint8_t>(told.cause);
-  wire.reasons[i] = static_cast<std::uint8_t>(event.reason);
+  wire.reasons[i] = static_cast<std::uint8_t>(wireReasonOf(told));
   wire.marks[i] = event.isAssumed ? 1 : 0;
   wire.utime[i] = event.time.us;
   wire.fraction[i] = event.time.fraction;

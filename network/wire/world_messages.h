@@ -74,14 +74,15 @@ struct UnknownPart {
   std::int64_t fromUs = 0, toUs = 0;
 };
 
-/// Why a contact ends: as LeaveCause, and one that only streams know.
+/// Why a contact ends, as messages tell it: LeaveCause::Moved is an Apart there that says so
+/// besides, and one cause only streams know.
 enum class ToldCause : std::uint8_t { Apart = 0, NotAsked = 1, BodyGone = 2 };
 inline constexpr std::uint8_t kNumToldCauses = 3;
 
 /// As WorldEvent, with the numbers that messages give to bodies: kStillScene and kEveryBody stay.
 struct ToldEvent {
   WorldEvent event;                    ///< `isAssumed`: rests on something that is not known.
-  ToldCause cause = ToldCause::Apart;  ///< In place of WorldEvent::cause.
+  ToldCause cause = ToldCause::Apart;  ///< Of Apart, WorldEvent::cause says whether it is Moved.
 };
 
 /// Limits of an events_t, so that its lists fit into kMaxListed, and all into kMaxMessageBytes.

@@ -238,9 +238,11 @@ AT(ft_solid_contact, gap, 72);
 AT(ft_solid_contact, push, 80);
 AT(ft_solid_contact, slip_speed, 88);
 
-static_assert(sizeof(ft_world_options) == 16);
+static_assert(sizeof(ft_world_options) == 32);
 AT(ft_world_options, asks_meshes, 4);
 AT(ft_world_options, tolerance, 8);
+AT(ft_world_options, work_per_pair, 16);
+AT(ft_world_options, work_per_window, 24);
 
 static_assert(sizeof(ft_body_options) == 24);
 AT(ft_body_options, group, 4);

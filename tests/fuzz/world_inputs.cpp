@@ -57,7 +57,7 @@ void checkBody(const tools::FileBody& body) {
   }
   const tools::ClipTiming& timing = body.timing;
   require(timing.speed > 0.0 && std::isfinite(timing.speed), "time goes on");
-  require(timing.fromS >= 0.0 && (!timing.untilS || *timing.untilS >= timing.fromS),
+  require(timing.fromUs >= 0 && (!timing.untilUs || *timing.untilUs >= timing.fromUs),
           "a part of a clip has an end");
 }
 

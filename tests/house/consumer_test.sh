@@ -67,7 +67,53 @@ expect_own_names() {
   [ "$(find "$prefix/include" -name '*.h' | wc -l)" -gt 50 ]
 }
 
+# Each library can be asked for by its name, and what is not there is said.
+expect_components() {  # expect_components PREFIX NAME
+  local prefix=$1 component library built=cxx not_built=
+  for component in lss articulated tessellation middleware assets network c; do
+    library=libforetouch_$component
+    if [ "$component" = c ]; then library=libforetouch; fi
+    if [ -n "$(find "$prefix" -name "$library.so" -o -name "$library.a")" ]; then
+      built+=";$component"
+    else
+      not_built+=";$component"
+    fi
+  done
+  "$cmake" -G "$generator" -S "$source/tests/consumer/components" -B "$folder/$2" \
+    -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$cc" -DCMAKE_CXX_COMPILER="$cxx" \
+    -DBUILT="$built" -DNOT_BUILT="${not_built#;}" >"$folder/$2.log"
+}
+
+# Of a build that is not whole the installation says which targets to build, and which components are
+# whole.
+expect_what_to_build() {
+  mkdir "$folder/partial"
+  {
+    echo "product(dev foretouch_lss \"$0\")"
+    echo 'product(runtime foretouch /nowhere/foretouch)'
+    echo 'product(c foretouch_c /nowhere/libforetouch.so)'
+  } >"$folder/partial/products-Release.cmake"
+  install_partial() {
+    "$cmake" -Dbuild="$folder/partial" -Dproducts="$folder/partial/products" \
+      -DCMAKE_INSTALL_CONFIG_NAME=Release "$@" \
+      -P "$source/cmake/check_built.cmake" 2>&1
+  }
+  install_partial -DCMAKE_INSTALL_COMPONENT=dev
+  if install_partial >"$folder/partial.txt"; then
+    echo "a build that lacks two targets is taken for whole" >&2
+    exit 1
+  fi
+  grep -q -- '--target foretouch foretouch_c$' "$folder/partial.txt"
+  grep -q -- '--component dev$' "$folder/partial.txt"
+  install_partial -DCMAKE_INSTALL_COMPONENT=c >"$folder/partial.txt" || true
+  grep -q -- '--target foretouch_c$' "$folder/partial.txt"
+}
+
 expect_own_names
+expect_what_to_build
+expect_components "$prefix" components
+"$cmake" --install "$build" --prefix "$folder/cxx" --component dev >"$folder/install-cxx.log"
+expect_components "$folder/cxx" components-cxx
 consume consumer "$source/tests/consumer" -DCMAKE_CXX_COMPILER="$cxx"
 expect_kernel_alone "$folder/consumer/consumer"
 products=()
@@ -118,6 +164,7 @@ if [ -f "$prefix/share/foretouch/cpp-example/play_clip.cpp" ]; then
   play_in_cxx play
   tail -n 1 "$folder/play.txt"
   "$folder/play/game_loop"
+  "$folder/play/vr_hands"
   if [ -f "$folder/solid-hand.txt" ]; then "$folder/play/solid_hand" | cmp - "$folder/solid-hand.txt"; fi
   if [ -f "$folder/swinging-door.txt" ]; then "$folder/play/swinging_door" | cmp - "$folder/swinging-door.txt"; fi
   room=$prefix/share/foretouch/examples

@@ -110,7 +110,8 @@ TEST(GameLoop, PageShowsLinesOfTheProgramsThatAreRun) {
   const std::string root(FORETOUCH_SOURCE_DIR);
   const std::string page = house::contentOf(root + "/docs/game-loop.md");
   for (const auto& [heading, program] :
-       {std::pair{"The loop", "game_loop.cpp"}, std::pair{"A solid hand", "solid_hand.cpp"}}) {
+       {std::pair{"The loop", "game_loop.cpp"}, std::pair{"A solid hand", "solid_hand.cpp"},
+        std::pair{"Head and two controllers", "vr_hands.cpp"}}) {
     const std::string block = blockOf(page, heading);
     EXPECT_GT(std::count(block.begin(), block.end(), '\n'), 10);
     EXPECT_NE(house::contentOf(root + "/examples/cpp/" + program).find(block), std::string::npos)

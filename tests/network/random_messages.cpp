@@ -326,6 +326,11 @@ ToldEvent happening(Random& random) {
   told.cause = static_cast<ToldCause>(random.below(kNumToldCauses));
   event.cause = told.cause == ToldCause::NotAsked ? LeaveCause::NotAsked : LeaveCause::Apart;
   event.reason = static_cast<UndecidedReason>(random.below(kNumUndecidedReasons));
+  if (event.kind == EventKind::Leave) {
+    event.reason = UndecidedReason::None;
+    const bool isApart = told.cause == ToldCause::Apart;
+    if (isApart && random.chance(0.4)) event.cause = LeaveCause::Moved;
+  }
   event.isAssumed = random.chance(0.3);
   event.time = instant(random);
   event.since = instant(random);
@@ -338,8 +343,8 @@ ToldEvent happening(Random& random) {
                                &event.approachLower, &event.approachUpper}) {
     *number = random.uniform(-1.0, 1.0);
   }
-  event.effectiveMass = random.chance(0.5) ? std::numeric_limits<double>::infinity()
-                                           : random.magnitude(1e-3, 1e3);
+  event.effectiveMass =
+      random.chance(0.5) ? std::numeric_limits<double>::infinity() : random.magnitude(1e-3, 1e3);
   event.numPoints = static_cast<std::size_t>(random.below(WorldEvent::kMostPoints + 1));
   for (std::size_t i = 0; i < event.numPoints; ++i) {
     event.points[i] = {place(random), place(random), random.uniform(-1.0, 1.0)};
@@ -351,8 +356,8 @@ ToldEvent happening(Random& random) {
 
 EventsMessage randomEventsMessage(Random& random, int numEvents) {
   EventsMessage message;
-  for (std::int64_t* const count : {&message.timeline, &message.sequence, &message.receiveUtimeUs,
-                                    &message.sendUtimeUs}) {
+  for (std::int64_t* const count :
+       {&message.timeline, &message.sequence, &message.receiveUtimeUs, &message.sendUtimeUs}) {
     *count = integer(random);
   }
   std::tie(message.fromUs, message.toUs) = std::minmax({integer(random), integer(random)});

@@ -19,6 +19,7 @@
 #include "tools/report/world_report.h"
 #include "tools/results_output.h"
 #include "tools/world/followed_world.h"
+#include "tools/world/load_world.h"
 #include "tools/world/world_audit.h"
 #include "tools/world/world_event_lines.h"
 #include "tools/world/world_intervals.h"
@@ -114,7 +115,7 @@ class WorldReplay {
     }
     const WorldIntervals* const followed = isFollowed ? &intervals_ : nullptr;
     WorldTouches touches(world_, followed);
-    WorldReport report(world_, asked_.report, followed);
+    FORETOUCH_TRY(auto report, WorldReport::make(world_, asked_.report, followed));
     FORETOUCH_CHECK(askWindows(guard, results, touches, report));
     if (guard.requested()) return Done{};
     touches.finish();
@@ -197,7 +198,7 @@ Result<Done> replay(const AskedWorld& asked, const Settings& settings) {
 Result<Done> view(const AskedWorld& asked, const Settings& settings) {
   FORETOUCH_TRY(const auto world, load(asked, settings));
   FORETOUCH_CHECK(checkOutput(asked.report.path, inputsOf(world.file)));
-  const WorldReport report(world, asked.report, nullptr);
+  FORETOUCH_TRY(const auto report, WorldReport::make(world, asked.report, nullptr));
   const InterruptGuard guard;
   return writeReport(asked.report.path, guard,
                      [&](const ReportProgress& watch) -> Result<ViewDocument> {
@@ -233,12 +234,11 @@ void addWindowSettings(Settings& settings, WindowRequest& windows) {
               "poses: from each pose of any body to the next")
       .in(kInputGroup);
   settings
-      .number("--from", "S", windows.fromS, kAnyNumber, "",
-              "Instant of the world at which to begin; not given: the first pose")
+      .seconds("--from", windows.fromUs,
+               "Instant of the world at which to begin; not given: the first pose")
       .in(kInputGroup);
   settings
-      .number("--until", "S", windows.untilS, kAnyNumber, "",
-              "Instant at which to end; not given: all that is known")
+      .seconds("--until", windows.untilUs, "Instant at which to end; not given: all that is known")
       .in(kInputGroup);
 }
 

@@ -7,12 +7,12 @@
 
 namespace foretouch::tools {
 
-Avatar standInOf(const BodyShape& shape) {
+Result<Avatar> standInOf(const BodyShape& shape) {
   std::vector<Eigen::Vector3d> points;
   for (const Triangle& triangle : *shape.triangles) {
     points.insert(points.end(), triangle.vertices.begin(), triangle.vertices.end());
   }
-  return Avatar::build(shape.skeleton, {{fitLss(points)}}).value();
+  return Avatar::build(shape.skeleton, {{fitLss(points)}});
 }
 
 bool BodyTrack::addAll(std::size_t mostPoses) {

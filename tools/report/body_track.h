@@ -7,14 +7,15 @@
 #include <set>
 #include <vector>
 
+#include "articulated/result.h"
 #include "tools/report/track_builder.h"
 #include "tools/world/loaded_world.h"
 
 namespace foretouch::tools {
 
 /// What stands for a body of triangles where an avatar is expected: for bounds; nothing of it is
-/// shown.
-[[nodiscard]] Avatar standInOf(const BodyShape& shape);
+/// shown. Errors: those of Avatar::build().
+[[nodiscard]] Result<Avatar> standInOf(const BodyShape& shape);
 
 /// The poses of a body in time, and between which of them its motion is known or taken to be.
 class BodyTrack {

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "articulated/quoted.h"
+#include "articulated/try.h"
 #include "lss/index.h"
 #include "tools/report/body_track.h"
 #include "tools/world/outline.h"
@@ -196,12 +198,22 @@ void leaveOutBareTouches(std::vector<ViewTouch>& touches) {
 
 }  // namespace
 
-WorldReport::WorldReport(const LoadedWorld& world, ReportOptions options,
-                         const WorldIntervals* followed)
-    : world_(world), options_(std::move(options)), followed_(followed) {
-  for (const LoadedBody& body : world.bodies) {
-    shownAs_.push_back(body.shape.avatar ? *body.shape.avatar : standInOf(body.shape));
+Result<WorldReport> WorldReport::make(const LoadedWorld& world, ReportOptions options,
+                                      const WorldIntervals* followed) {
+  std::vector<Avatar> shownAs;
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    const BodyShape& shape = world.bodies[i].shape;
+    const FileBody& file = world.file.bodies[i];
+    const auto refused = [&](const Error& error) {
+      return Error::inLine(
+          world.file.path, file.line, error.code,
+          fmt::format("{} {}: {}", file.title(), inQuotes(file.name), error.message));
+    };
+    FORETOUCH_TRY_OR(refused, auto avatar,
+                     shape.avatar ? Result<Avatar>(*shape.avatar) : standInOf(shape));
+    shownAs.push_back(std::move(avatar));
   }
+  return WorldReport(world, std::move(options), followed, std::move(shownAs));
 }
 
 void WorldReport::add(const WorldStep& step) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "articulated/result.h"
 #include "tools/report/document_parts.h"
 #include "tools/report/report_progress.h"
 #include "tools/report/view_document.h"
@@ -19,8 +20,10 @@ namespace foretouch::tools {
 /// Collects the contacts of windows, in bounded memory.
 class WorldReport {
  public:
-  /// `world` and `followed` outlive it. `followed`: as WorldTouches has it.
-  WorldReport(const LoadedWorld& world, ReportOptions options, const WorldIntervals* followed);
+  /// `world` and `followed` outlive it. `followed`: as WorldTouches has it. Errors, which name the
+  /// file and the body: a mesh that is too large for an LSS to hold it.
+  [[nodiscard]] static Result<WorldReport> make(const LoadedWorld& world, ReportOptions options,
+                                                const WorldIntervals* followed);
 
   /// Windows in order.
   void add(const WorldStep& step);
@@ -31,6 +34,12 @@ class WorldReport {
                                       const ReportProgress& progress) const;
 
  private:
+  WorldReport(const LoadedWorld& world, ReportOptions options, const WorldIntervals* followed,
+              std::vector<Avatar> shownAs)
+      : world_(world),
+        options_(std::move(options)),
+        followed_(followed),
+        shownAs_(std::move(shownAs)) {}
   void addBodies(ViewDocument& document, Eigen::AlignedBox3d& action,
                  const ReportProgress& progress) const;
   /// Returns how many contacts there is no room for.

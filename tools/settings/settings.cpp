@@ -9,6 +9,7 @@
 #include "assets/json_writer.h"
 #include "assets/near_names.h"
 #include "lss/assert.h"
+#include "tools/microseconds.h"
 
 namespace foretouch::tools {
 namespace {
@@ -71,6 +72,33 @@ Setting& Settings::number(const char* option, const char* value, std::optional<d
   setting.shown = [&place, word] { return place ? numberText(*place) : word; };
   setting.json = [&place] { return place ? numberText(*place) : "null"; };
   setting.told = [&place, range] { return place ? withSign(*place, range) : ""; };
+  return setting;
+}
+
+Setting& Settings::seconds(const char* option, std::int64_t& placeUs, NumberRange range,
+                           const char* help) {
+  Setting& setting = add(option, "S", ValueKind::Number, help);
+  setting.legal = range.inWords();
+  setting.take = [&placeUs, range](const GivenValue& given) -> Result<Done> {
+    if (!range.contains(given.number)) return notLegal(range.inWords(), given);
+    placeUs = inMicroseconds(given.number);
+    return Done{};
+  };
+  setting.shown = setting.json = [&placeUs] { return numberText(inSeconds(placeUs)); };
+  return setting;
+}
+
+Setting& Settings::seconds(const char* option, std::optional<std::int64_t>& placeUs,
+                           const char* help) {
+  Setting& setting = add(option, "S", ValueKind::Number, help);
+  setting.legal = kTimeInWords;
+  setting.take = [&placeUs](const GivenValue& given) -> Result<Done> {
+    if (!isTime(given.number)) return notLegal(kTimeInWords, given);
+    placeUs = inMicroseconds(given.number);
+    return Done{};
+  };
+  setting.shown = [&placeUs] { return placeUs ? numberText(inSeconds(*placeUs)) : ""; };
+  setting.json = [&placeUs] { return placeUs ? numberText(inSeconds(*placeUs)) : "null"; };
   return setting;
 }
 

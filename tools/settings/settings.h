@@ -50,6 +50,10 @@ class Settings {
   /// option is not given.
   Setting& number(const char* option, const char* value, std::optional<double>& place,
                   NumberRange range, const char* none, const char* help);
+  /// Seconds, kept as the nearest whole microsecond (tools/microseconds.h).
+  Setting& seconds(const char* option, std::int64_t& placeUs, NumberRange range, const char* help);
+  /// An instant, if it is given.
+  Setting& seconds(const char* option, std::optional<std::int64_t>& placeUs, const char* help);
   template <typename Whole>
   Setting& whole(const char* option, const char* value, Whole& place, std::int64_t least,
                  std::int64_t most, const char* help) {

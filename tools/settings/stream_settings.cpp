@@ -1,8 +1,5 @@
 #include "tools/settings/stream_settings.h"
 
-#include <cmath>
-
-#include "assets/json_writer.h"
 #include "network/stream/speaker_gate.h"
 #include "tools/microseconds.h"
 #include "tools/settings/channel_names.h"
@@ -16,22 +13,6 @@ constexpr NumberRange kStepRange{1.0 / kUsPerS, static_cast<double>(kMostStepUs)
                                  "seconds", "s"};
 constexpr NumberRange kTakeoverRange{0.0, static_cast<double>(kMostTakeoverUs) / kUsPerS, "seconds",
                                      "s", true};
-
-/// Microseconds in the place; seconds for people.
-Setting& addSeconds(Settings& settings, const char* option, std::int64_t& placeUs,
-                    const NumberRange& range, const char* help) {
-  Setting& setting = settings.parsed(option, "S", {}, {}, help);
-  setting.kind = ValueKind::Number;
-  setting.legal = range.inWords();
-  setting.take = [&placeUs, range](const GivenValue& given) -> Result<Done> {
-    if (!range.contains(given.number)) return notLegal(range.inWords(), given);
-    placeUs = std::llround(given.number * kUsPerS);
-    return Done{};
-  };
-  setting.shown =
-      setting.json = [&placeUs] { return numberText(static_cast<double>(placeUs) / kUsPerS); };
-  return setting.in(kStreamGroup);
-}
 
 /// Half a minute per pose: slower is not a stream.
 constexpr std::int64_t kMostSolidBudgetUs = 30'000'000;
@@ -83,15 +64,18 @@ Setting& addKeySetting(Settings& settings, std::string& path, const char* help) 
 }
 
 Setting& addTakeoverSetting(Settings& settings, std::int64_t& takeoverUs) {
-  return addSeconds(
-      settings, "--takeover", takeoverUs, kTakeoverRange,
-      "An avatar's sender that has been silent for so long may be replaced by another "
-      "address or port");
+  return settings
+      .seconds("--takeover", takeoverUs, kTakeoverRange,
+               "An avatar's sender that has been silent for so long may be replaced by another "
+               "address or port")
+      .in(kStreamGroup);
 }
 
 void addStreamSettings(Settings& settings, StreamPolicy& policy) {
-  addSeconds(settings, "--max-step", policy.maxStepUs, kStepRange,
-             "Refuse a pose captured later than this after the last one")
+  settings
+      .seconds("--max-step", policy.maxStepUs, kStepRange,
+               "Refuse a pose captured later than this after the last one")
+      .in(kStreamGroup)
       .inConfig("stream", "max_step_s")
       .inHeader("max_step");
   settings
@@ -110,8 +94,10 @@ void addStreamSettings(Settings& settings, StreamPolicy& policy) {
 }
 
 void addWorldStreamSettings(Settings& settings, WorldPolicy& policy) {
-  addSeconds(settings, "--world-wait", policy.waitUs, kWaitRange,
-             "Of a moving world: go on without a body that has told nothing of so long ago")
+  settings
+      .seconds("--world-wait", policy.waitUs, kWaitRange,
+               "Of a moving world: go on without a body that has told nothing of so long ago")
+      .in(kStreamGroup)
       .inConfig("stream", "world_wait_s");
   settings
       .word<WhenSilent>("--world-silent", "undecided|hold-still|wait", policy.whenSilent,

@@ -27,6 +27,7 @@
 #include "tools/stream/stream_touches.h"
 #include "tools/stream/told_events.h"
 #include "tools/stream/touch_lines.h"
+#include "tools/world/load_world.h"
 
 namespace foretouch::tools {
 namespace {

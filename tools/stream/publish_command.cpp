@@ -22,6 +22,7 @@
 #include "tools/settings/world_settings.h"
 #include "tools/stream/stop_signal.h"
 #include "tools/stream/world_publisher.h"
+#include "tools/world/load_world.h"
 
 namespace foretouch::tools {
 namespace {

@@ -207,7 +207,6 @@ ToldEvents::Lines ToldEvents::take(const EventsMessage& message) {
     WorldEvent event = told.event;
     event.a = sideOf(event.a);
     event.b = sideOf(event.b);
-    event.cause = told.cause == ToldCause::NotAsked ? LeaveCause::NotAsked : LeaveCause::Apart;
     if (!hasObject(event.a.body, event.object) || !hasObject(event.b.body, event.object)) {
       event.object = -1;
     }

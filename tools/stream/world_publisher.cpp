@@ -22,17 +22,20 @@ constexpr std::int64_t kEveryUs = 1'000'000;  ///< Skeletons and states are said
 constexpr std::int64_t kNeverUs = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint8_t kKnown = kJointValid | kJointTracked;
 
-/// At equal times what a body is comes before where it is.
-enum class Kind : std::uint8_t { Skeleton, State, Pose };
+/// At equal times what a body is comes before where it is, and that a body is there before whom it
+/// carries.
+enum class Kind : std::uint8_t { Skeleton, FirstState, State, Pose };
 
 /// What is to be sent when, in time of the world.
 struct Due {
   std::int64_t utimeUs = 0;
   Kind kind = Kind::Pose;
   BodyId body = 0;
+  int numCarriers = 0;  ///< Of a state: carriers come before whom they carry.
   /// The queue's top is the first.
   friend bool operator<(const Due& x, const Due& y) {
-    return std::tie(y.utimeUs, y.kind, y.body) < std::tie(x.utimeUs, x.kind, x.body);
+    return std::tie(y.utimeUs, y.kind, y.numCarriers, y.body) <
+           std::tie(x.utimeUs, x.kind, x.numCarriers, x.body);
   }
 };
 
@@ -93,6 +96,15 @@ class WorldRun {
     return stretch < all.size() ? all[stretch].beginUs : kNeverUs;
   }
 
+  /// One above the other, from where a stretch begins on.
+  [[nodiscard]] int numCarriers(const BodyStretch& stretch) const {
+    int found = 0;
+    for (const BodyStretch* on = &stretch; on != nullptr && on->carrier; ++found) {
+      on = stretchAt(stretchesOf(on->carrier->body), stretch.beginUs);
+    }
+    return found;
+  }
+
   void begin(BodyId body);
   Result<Done> send(const Due& due, std::int64_t lateUs);
   void planPose(BodyId body, std::int64_t afterUs);
@@ -146,13 +158,13 @@ void WorldRun::begin(BodyId body) {
         }
       }
     }
-    due_.push({first.beginUs, Kind::Skeleton, body});
+    due_.push({first.beginUs, Kind::Skeleton, body, 0});
   } else {
-    due_.push({first.beginUs, Kind::State, body});
+    due_.push({first.beginUs, Kind::FirstState, body, numCarriers(first)});
   }
   // Where it is first a pose says as well, so that the next one follows on it.
   if (first.isHeldFast() || first.carrier) return planPose(body, first.beginUs);
-  due_.push({first.beginUs, Kind::Pose, body});
+  due_.push({first.beginUs, Kind::Pose, body, 0});
 }
 
 Result<Done> WorldRun::send(const Due& due, std::int64_t lateUs) {
@@ -162,8 +174,8 @@ Result<Done> WorldRun::send(const Due& due, std::int64_t lateUs) {
   if (due.kind == Kind::Skeleton) {
     FORETOUCH_CHECK(sendSkeleton(due.body));
     const std::int64_t againUs = due.utimeUs + inWorld(kEveryUs);
-    if (againUs <= world_.endUs) due_.push({againUs, Kind::Skeleton, due.body});
-  } else if (due.kind == Kind::State) {
+    if (againUs <= world_.endUs) due_.push({againUs, Kind::Skeleton, due.body, 0});
+  } else if (due.kind != Kind::Pose) {
     FORETOUCH_CHECK(sendState(due.body));
     planState(due.body, due.utimeUs);
   } else {
@@ -184,7 +196,7 @@ void WorldRun::planPose(BodyId body, std::int64_t afterUs) {
     const std::int64_t untilUs = std::min(stretch.track.knownUntilUs(), world_.endUs);
     if (stretch.isHeldFast() || fromUs >= untilUs) continue;
     const std::int64_t nextUs = stretch.track.nextKnotUs(fromUs);
-    due_.push({std::min({nextUs, fromUs + inWorld(kMostQuietUs), untilUs}), Kind::Pose, body});
+    due_.push({std::min({nextUs, fromUs + inWorld(kMostQuietUs), untilUs}), Kind::Pose, body, 0});
     return;
   }
 }
@@ -196,13 +208,19 @@ void WorldRun::planState(BodyId body, std::int64_t saidUs) {
   // What was said ahead is said again where it takes effect.
   std::int64_t nextUs = saidUs < changeAtUs ? changeAtUs : saidUs + inWorld(kEveryUs);
   const std::int64_t followingUs = changeUs(body, told.said + 1);
-  const std::int64_t aheadUs =
-      followingUs == kNeverUs ? kNeverUs : std::max(saidUs, followingUs - inWorld(kAnnouncedUs));
+  std::int64_t aheadUs = kNeverUs;
+  if (followingUs != kNeverUs) {
+    aheadUs = std::max(saidUs, followingUs - inWorld(kAnnouncedUs));
+    // Nobody has heard of a carrier that is not there yet.
+    const auto& carrier = stretchesOf(body)[told.said + 1].carrier;
+    if (carrier) aheadUs = std::max(aheadUs, stretchesOf(carrier->body).front().beginUs);
+  }
   if (aheadUs <= nextUs) {
     ++told.said;
     nextUs = aheadUs;
   }
-  if (nextUs <= world_.endUs) due_.push({nextUs, Kind::State, body});
+  if (nextUs > world_.endUs) return;
+  due_.push({nextUs, Kind::State, body, numCarriers(stretchesOf(body)[told.said])});
 }
 
 Result<Done> WorldRun::sendSkeleton(BodyId body) {
@@ -296,6 +314,14 @@ Result<Done> WorldRun::end() {
 Result<Done> checkPublished(const LoadedWorld& world) {
   for (std::size_t i = 0; i < world.numBodies(); ++i) {
     const FileBody& body = world.file.bodies[i];
+    const BodyStretches& stretches = world.bodies[i].stretches;
+    for (const BodyStretch& stretch : stretches) {
+      if (!stretch.carrier || !world.isTrigger(stretch.carrier->body)) continue;
+      return Error::inLine(world.file.path, body.line, ErrorCode::Mismatch,
+                           body.title("attach") +
+                               " to: expected a body: messages do not tell of triggers, as " +
+                               inQuotes(world.nameOf(stretch.carrier->body)));
+    }
     if (body.shape.avatarPath.empty() || body.changes.empty()) continue;
     return Error::inLine(world.file.path, body.changes.front().line, ErrorCode::Mismatch,
                          body.title("attach") +

@@ -1,6 +1,7 @@
 #include "tools/world/body_knots.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,10 +22,6 @@
 namespace foretouch::tools {
 namespace {
 
-std::int64_t inMicroseconds(double seconds) {
-  return std::llround(seconds * kUsPerS);
-}
-
 Pose ofOneJoint(const RigidPose& pose) {
   return {{pose.rotation}, {pose.translation}};
 }
@@ -42,20 +39,23 @@ Result<std::vector<TimedFrame>> framesOf(const FileBody& body, const Clip& clip,
                 inFile(selectSteps(clip.frames.size(), clip.frameTimeS, body.clip.rateHz),
                        body.clip.motionPath));
   const ClipTiming& timing = body.timing;
-  const double untilS = timing.untilS.value_or(clip.durationS());
+  // Half a frame: what one types as an instant of a frame is one, whatever its last digit.
+  const double slackUs = 0.5 * clip.frameTimeS * kUsPerS;
+  const double firstUs = static_cast<double>(timing.fromUs) - slackUs;
+  const double lastUs = timing.untilUs ? static_cast<double>(*timing.untilUs) + slackUs
+                                       : std::numeric_limits<double>::infinity();
   std::vector<TimedFrame> frames;
   for (std::int64_t step = 0; step <= steps.count; ++step) {
     const std::int64_t frame = step * steps.stride;
     const double clipS = static_cast<double>(frame) * clip.frameTimeS;
-    // Half a frame: what one types as an instant of a frame is one, whatever its last digit.
-    const double slackS = 0.5 * clip.frameTimeS;
-    if (clipS < timing.fromS - slackS || clipS > untilS + slackS) continue;
-    const double worldS = timing.startS + (clipS - timing.fromS) / timing.speed;
-    if (std::abs(worldS) > kMostFileTimeS) {
+    if (clipS * kUsPerS < firstUs || clipS * kUsPerS > lastUs) continue;
+    const double sinceS = (clipS - static_cast<double>(timing.fromUs) / kUsPerS) / timing.speed;
+    const std::int64_t utimeUs = timing.startUs + (isTime(sinceS) ? inMicroseconds(sinceS) : 0);
+    if (!isTime(sinceS) || std::abs(utimeUs) > kMostUtimeUs) {
       return Error::inLine(world, body.clipLine, ErrorCode::OutOfRange,
                            "[clip]: expected all of the clip within 285 years of zero");
     }
-    const TimedFrame next{frame, inMicroseconds(worldS)};
+    const TimedFrame next{frame, utimeUs};
     if (!frames.empty() && next.utimeUs <= frames.back().utimeUs) {
       return Error::inLine(world, body.clipLine, ErrorCode::OutOfRange,
                            fmt::format("[clip]: expected frames at least a microsecond apart, "
@@ -65,10 +65,13 @@ Result<std::vector<TimedFrame>> framesOf(const FileBody& body, const Clip& clip,
     frames.push_back(next);
   }
   if (!frames.empty()) return frames;
-  return Error::inLine(world, body.clipLine, ErrorCode::Empty,
-                       fmt::format("[clip]: expected a frame from {} s to {} s of the clip, which "
-                                   "lasts {} s",
-                                   timing.fromS, untilS, clip.durationS()));
+  return Error::inLine(
+      world, body.clipLine, ErrorCode::Empty,
+      fmt::format("[clip]: expected a frame from {} s{} of the clip, which lasts "
+                  "{} s",
+                  inSeconds(timing.fromUs),
+                  timing.untilUs ? fmt::format(" to {} s", inSeconds(*timing.untilUs)) : "",
+                  clip.durationS()));
 }
 
 /// The joint of the clip that moves a prop.
@@ -187,7 +190,7 @@ Result<BodyKnots> KnotLoader::ofProp(const FileBody& body, const BodyShape& shap
     found.file = body.posesPath;
     FORETOUCH_TRY(const auto poses, readRigidPoses(body.posesPath));
     for (const TimedRigidPose& timed : poses) {
-      if (std::abs(timed.timeS) > kMostFileTimeS) {
+      if (!isTime(timed.timeS)) {
         return Error::inLine(body.posesPath, timed.line, ErrorCode::OutOfRange,
                              "expected a time within 285 years of zero");
       }

@@ -1,6 +1,7 @@
 #include "tools/world/body_stretches.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "articulated/motion.h"
 #include "lss/assert.h"
@@ -9,11 +10,10 @@
 namespace foretouch::tools {
 
 const BodyStretch* stretchAt(const BodyStretches& stretches, std::int64_t utimeUs) {
-  const BodyStretch* found = nullptr;
-  for (const BodyStretch& stretch : stretches) {
-    if (stretch.beginUs <= utimeUs) found = &stretch;
-  }
-  return found;
+  const auto after =
+      std::upper_bound(stretches.begin(), stretches.end(), utimeUs,
+                       [](std::int64_t us, const BodyStretch& one) { return us < one.beginUs; });
+  return after == stretches.begin() ? nullptr : &*std::prev(after);
 }
 
 Pose poseOn(const Track& track, std::int64_t utimeUs) {

@@ -28,7 +28,7 @@ using BodyStretches = std::vector<BodyStretch>;
 /// The pose of a track at an instant from its first one on; after its last one it stays.
 [[nodiscard]] Pose poseOn(const Track& track, std::int64_t utimeUs);
 
-/// The stretch of an instant; null before the first one. O(stretches).
+/// The stretch of an instant; null before the first one. O(log stretches).
 [[nodiscard]] const BodyStretch* stretchAt(const BodyStretches& stretches, std::int64_t utimeUs);
 
 /// Where bodies are at instants, by their in-between motion; after its last pose a body stays.

@@ -54,7 +54,8 @@ Result<Watched> watchedOf(const WorldFile& file, const std::vector<const Skeleto
 Result<Done> addTrigger(const FileBody& file, const BodyShape& shape, const std::string& path,
                         World& world, Triggers& triggers) {
   const auto inWorld = [&](Error error) {
-    return Error::inLine(path, file.line, error.code, file.title() + ": " + error.message);
+    return Error::inLine(path, file.line, error.code,
+                         file.title() + " " + inQuotes(file.name) + ": " + error.message);
   };
   FORETOUCH_TRY_OR(inWorld, const auto volume, volumeOf(shape));
   TriggerOptions options;

@@ -76,8 +76,7 @@ Result<Done> followWorld(LoadedWorld& world, std::int64_t fromUs, std::int64_t u
   FORETOUCH_CHECK(checkFollowed(world));
   FORETOUCH_TRY(auto follower, WorldFollower::start(fromUs));
   FORETOUCH_CHECK(weighAll(world, follower));
-  FORETOUCH_TRY(const auto poses, windowsOf(world, {std::nullopt, LoadedWorld::secondsOf(fromUs),
-                                                    LoadedWorld::secondsOf(untilUs)}));
+  FORETOUCH_TRY(const auto poses, windowsOf(world, {std::nullopt, fromUs, untilUs}));
   world.triggers.beginAnew();
   const auto inFile = [&](Error error) {
     error = named(std::move(error), world.file);

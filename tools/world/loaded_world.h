@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "articulated/pair_rules.h"
-#include "articulated/result.h"
 #include "lss/index.h"
 #include "middleware/triggers/triggers.h"
 #include "middleware/world/world.h"
@@ -55,17 +54,12 @@ struct LoadedWorld {
   /// For BodyPlaces: valid until the bodies change.
   [[nodiscard]] std::vector<const BodyStretches*> stretches() const;
   /// Seconds of the file's clock.
-  [[nodiscard]] static double secondsOf(std::int64_t utimeUs) {
-    return static_cast<double>(utimeUs) / kUsPerS;
-  }
+  [[nodiscard]] static double secondsOf(std::int64_t utimeUs) { return inSeconds(utimeUs); }
   [[nodiscard]] static double secondsOf(const WorldTime& time) {
     return (static_cast<double>(time.us) + time.fraction) / kUsPerS;
   }
   /// "LeftHand" of an avatar, "" of what has but one link.
   [[nodiscard]] std::string linkNameOf(BodyId body, LinkId link) const;
 };
-
-/// Reads all that the file names. Errors name the file and, if it is the world's, the line.
-[[nodiscard]] Result<LoadedWorld> loadWorld(WorldFile file);
 
 }  // namespace foretouch::tools

@@ -4,6 +4,7 @@
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
+#include "tools/world/load_world.h"
 #include "tools/world/served_bodies.h"
 
 namespace foretouch::tools {

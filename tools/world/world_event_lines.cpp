@@ -79,8 +79,8 @@ void write(const LoadedWorld& world, const WorldEvent& event, const char* cause,
   writeEventSide(world, event.b, event, out);
   if (isOfTwo(event)) writeContactFields(event, out);
   if (!isTold(event.kind)) out.field("reason", toString(event.reason));
-  if (event.kind == EventKind::Leave && event.cause == LeaveCause::NotAsked) {
-    out.field("cause", "not_asked");
+  if (event.kind == EventKind::Leave && event.cause != LeaveCause::Apart) {
+    out.field("cause", event.cause == LeaveCause::NotAsked ? "not_asked" : "moved");
   }
   if (cause != nullptr) out.field("cause", cause);
   if (event.isAssumed) out.field("assumed", true);

@@ -1,7 +1,6 @@
 #include "tools/world/world_file.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -23,16 +22,6 @@ constexpr double kMostSpeed = 1e3;
 constexpr double kMostMassKg = 1e9;
 /// As a group of bodies, in [[ask]].
 constexpr char kSceneWord[] = "scene";
-
-constexpr char kTimeInWords[] = "a number of seconds within 285 years of zero";
-
-bool isTime(double seconds) {
-  return std::abs(seconds) <= kMostFileTimeS;
-}
-
-std::int64_t inUs(double seconds) {
-  return std::llround(seconds * kUsPerS);
-}
 
 class WorldReading {
  public:
@@ -78,7 +67,10 @@ class WorldReading {
   void readChanges(TomlSection& section, FileBody& body);
   void readAsks();
   void checkNames();
-  std::int64_t readTime(TomlSection& section);
+  template <typename Legal>
+  static bool readTime(TomlSection& section, const char* key, const char* inWords, Legal legal,
+                       std::int64_t& utimeUs);
+  static std::int64_t readTime(TomlSection& section);
 
   TomlReading reading_;
   TomlSection root_;
@@ -194,11 +186,22 @@ void WorldReading::readSilence(TomlSection& section, FileBody& body) {
                            body.whenSilent);
 }
 
+/// False if it is not there.
+template <typename Legal>
+bool WorldReading::readTime(TomlSection& section, const char* key, const char* inWords, Legal legal,
+                            std::int64_t& utimeUs) {
+  if (!hasKey(section, key)) return false;
+  double seconds = 0.0;
+  section.number(key, inWords, legal, seconds);
+  utimeUs = inMicroseconds(seconds);
+  return true;
+}
+
 std::int64_t WorldReading::readTime(TomlSection& section) {
-  double timeS = 0.0;
-  section.number("time", kTimeInWords, isTime, timeS);
-  if (!hasKey(section, "time")) section.fail(ErrorCode::Empty, "expected a time");
-  return inUs(timeS);
+  std::int64_t utimeUs = 0;
+  if (readTime(section, "time", kTimeInWords, isTime, utimeUs)) return utimeUs;
+  section.fail(ErrorCode::Empty, "expected a time");
+  return utimeUs;
 }
 
 void WorldReading::readMotion(TomlSection& section, FileBody& body) {
@@ -243,12 +246,13 @@ void WorldReading::readClip(TomlSection& section, FileBody& body) {
 }
 
 void WorldReading::readTiming(TomlSection& section, ClipTiming& timing) {
-  section.number("start", kTimeInWords, isTime, timing.startS);
+  readTime(section, "start", kTimeInWords, isTime, timing.startUs);
   const auto isOfClip = [](double seconds) { return seconds >= 0.0 && isTime(seconds); };
   const char* const ofClip = "a number of seconds of the clip, at least 0";
-  section.number("from", ofClip, isOfClip, timing.fromS);
-  if (hasKey(section, "until")) section.number("until", ofClip, isOfClip, timing.untilS.emplace());
-  if (timing.untilS && *timing.untilS < timing.fromS) {
+  readTime(section, "from", ofClip, isOfClip, timing.fromUs);
+  std::int64_t untilUs = 0;
+  if (readTime(section, "until", ofClip, isOfClip, untilUs)) timing.untilUs = untilUs;
+  if (timing.untilUs && *timing.untilUs < timing.fromUs) {
     section.fail(ErrorCode::OutOfRange, "expected until at or after from");
   }
   section.number(

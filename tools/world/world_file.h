@@ -24,8 +24,6 @@ inline constexpr std::size_t kMaxFileBodies = 4096;
 inline constexpr std::size_t kMaxFileTriggers = 256;
 inline constexpr std::size_t kMaxFilePoses = 65536;
 inline constexpr std::size_t kMaxFileChanges = 65536;
-/// Instants of a file are within this of zero (s), as those of tracks are.
-inline constexpr double kMostFileTimeS = static_cast<double>(kMostUtimeUs) / 1e6;
 
 struct FilePose {
   std::int64_t utimeUs = 0;
@@ -43,12 +41,12 @@ struct FileChange {
   std::int64_t line = -1;
 };
 
-/// When the frames of a body's clip are: the frame at `fromS` of the clip is at `startS` of the
+/// When the frames of a body's clip are: the frame at `fromUs` of the clip is at `startUs` of the
 /// world.
 struct ClipTiming {
-  double startS = 0.0, fromS = 0.0;
-  std::optional<double> untilS;  ///< Of the clip.
-  double speed = 1.0;            ///< 2: twice as fast as recorded.
+  std::int64_t startUs = 0, fromUs = 0;
+  std::optional<std::int64_t> untilUs;  ///< Of the clip.
+  double speed = 1.0;                   ///< 2: twice as fast as recorded.
 };
 
 /// Whom a trigger looks at.

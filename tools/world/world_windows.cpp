@@ -20,22 +20,18 @@ struct AskedTime {
 
 Result<AskedTime> askedTime(const LoadedWorld& world, const WindowRequest& request) {
   AskedTime asked{world.beginUs, world.endUs};
-  const auto read = [&](const char* option, const std::optional<double>& seconds,
+  const auto read = [&](const char* option, const std::optional<std::int64_t>& instantUs,
                         std::int64_t& place) -> Result<Done> {
-    if (!seconds) return Done{};
-    const double us = *seconds * kUsPerS;
-    // As doubles: who types 1e300 does not mean an integer.
-    if (us >= static_cast<double>(world.beginUs) && us <= static_cast<double>(world.endUs)) {
-      place = std::llround(us);
-      return Done{};
-    }
-    return Error::in(option, ErrorCode::OutOfRange,
-                     fmt::format("expected an instant of the world, {} s to {} s, found {} s",
-                                 LoadedWorld::secondsOf(world.beginUs),
-                                 LoadedWorld::secondsOf(world.endUs), *seconds));
+    place = instantUs.value_or(place);
+    if (place >= world.beginUs && place <= world.endUs) return Done{};
+    return Error::in(
+        option, ErrorCode::OutOfRange,
+        fmt::format("expected an instant of the world, {} s to {} s, found {} s",
+                    LoadedWorld::secondsOf(world.beginUs), LoadedWorld::secondsOf(world.endUs),
+                    LoadedWorld::secondsOf(place)));
   };
-  FORETOUCH_CHECK(read("--from", request.fromS, asked.fromUs));
-  FORETOUCH_CHECK(read("--until", request.untilS, asked.untilUs));
+  FORETOUCH_CHECK(read("--from", request.fromUs, asked.fromUs));
+  FORETOUCH_CHECK(read("--until", request.untilUs, asked.untilUs));
   if (asked.untilUs > asked.fromUs) return asked;
   return Error::in(
       "--until", ErrorCode::OutOfRange,

@@ -17,8 +17,8 @@ inline constexpr std::size_t kMostWindows = std::size_t{1} << 24;
 
 /// What of a world's time is asked, and how finely.
 struct WindowRequest {
-  std::optional<double> rateHz;         ///< Windows per second; nothing: from pose to pose of all.
-  std::optional<double> fromS, untilS;  ///< Nothing: all that is known.
+  std::optional<double> rateHz;  ///< Windows per second; nothing: from pose to pose of all.
+  std::optional<std::int64_t> fromUs, untilUs;  ///< Nothing: all that is known.
 };
 
 /// The instants at which windows begin and end: at least two, increasing. Besides those that are

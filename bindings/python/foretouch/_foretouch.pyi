@@ -449,7 +449,13 @@ class SolidAvatar:
 
 class World:
     def __init__(
-        self, still: Optional[Scene] = None, *, tolerance: float = 0.001, ask_meshes: bool = False
+        self,
+        still: Optional[Scene] = None,
+        *,
+        tolerance: float = 0.001,
+        ask_meshes: bool = False,
+        work_per_pair: int = 100000000,
+        work_per_window: Optional[int] = None,
     ) -> None: ...
     def add(
         self,

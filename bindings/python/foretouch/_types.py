@@ -346,6 +346,9 @@ class WorldEvent(NamedTuple):
     is_not_asked: bool
     """Of a leave: the two are not known to be apart; one carries the other, or ask() says so."""
     is_assumed: bool
+    is_moved: bool
+    """Of a leave: one of the two, or who carries it, is put elsewhere there, with a jump. Where
+    is_moved or is_not_asked is true, all places and speeds are the last ones before."""
 
 
 class WorldPart(NamedTuple):

@@ -174,18 +174,21 @@ void JudgedEvents::judgeEvent(const WorldEvent& event) {
   ++tally.kinds[static_cast<std::size_t>(event.kind)];
   if (event.kind == EventKind::UnresolvedFrom || event.kind == EventKind::UnresolvedTo) return;
   const ContactSide &a = event.a, &b = event.b;
-  const Real us = after(event.time);
+  // Who is put elsewhere, or not asked any more, is told where it was just before.
+  const bool isApart = event.cause == LeaveCause::Apart;
+  const Real us = after(event.time) - (isApart ? Real(0) : Real(1e-6L));
   std::ostringstream what;
   what << toString(event.kind) << " of bodies " << a.body << ", " << b.body << ", links " << a.link
        << ", " << b.link << " at " << static_cast<double>(us) << " us: ";
   if (event.numPoints == 0) {
-    if (event.kind != EventKind::Leave) sayUntrue(what.str() + "no points");
+    if (event.kind != EventKind::Leave || !isApart) sayUntrue(what.str() + "no points");
     return;
   }
   const Real gap = both_.oracle.separationAt(a.body, a.link, b.body, b.link, fromUs_, us);
   const auto tolerance = static_cast<Real>(tolerance_);
   if (event.kind == EventKind::Leave) {
-    if (gap <= tolerance || gap > 2 * tolerance) sayUntrue(what.str() + "leaves where it does not");
+    if ((isApart && gap <= tolerance) || gap > 2 * tolerance)
+      sayUntrue(what.str() + "leaves where it does not");
   } else if (gap > tolerance * (1 + Real(1e-9L))) {
     sayUntrue(what.str() + "enters too far away");
   }

@@ -259,9 +259,154 @@ TEST(WorldFollower, EndsWhatIsNotAskedAnyMore) {
     ASSERT_EQ(kindsOf(answer), "starts_inside leave starts_inside leave ") << cutUs;
     EXPECT_EQ(answer.events[1].cause, LeaveCause::NotAsked);
     EXPECT_EQ(answer.events[1].time.us, 25'000);
+    EXPECT_NEAR(answer.events[1].penetration, 0.05, 1e-12);
+    EXPECT_NEAR((answer.events[1].a.p_W - Vector3d(0.1, 0, 0)).norm(), 0.0, 1e-12);
     EXPECT_EQ(answer.events[2].time.us, 35'000);
     EXPECT_EQ(answer.events[3].cause, LeaveCause::Apart);
   }
+}
+
+// A ball lies in two sheets and slides; a hand takes it 3 m away, and swings it back into the
+// first.
+TEST(WorldFollower, TellsWhereWhoIsPutElsewhereWasLast) {
+  for (const std::int64_t cutUs : {0, 30'000, 100'000, 300'000}) {
+    for (const bool forgets : {false, true}) {
+      World world = worldOf(sheets({0.0, 0.05}, false));
+      const BodyId hand = world.add(ball(0.1)).value(), cup = world.add(ball(0.1)).value();
+      ASSERT_TRUE(world.push(hand, 0, at(3.0, 5.0)).ok());
+      ASSERT_TRUE(world.push(hand, 100'000, at(3.0, 5.0)).ok());
+      ASSERT_TRUE(world.push(hand, 300'000, at(0.0, 5.0)).ok());
+      ASSERT_TRUE(world.push(cup, 0, at(0.02, 0.0)).ok());
+      ASSERT_TRUE(world.push(cup, 150'000, at(0.02, 0.3)).ok());
+      ASSERT_TRUE(world.attach(cup, {hand, 0}, 100'000, at(0.0, -5.0)).ok());
+      FollowOptions options;
+      options.cutUs = cutUs;
+      WorldFollower follower = followerFrom(0, options);
+      std::vector<WorldEvent> events;
+      for (const std::int64_t us : {100'000, 300'000}) {
+        const WorldEvents answer = followed(follower, world, us);
+        events.insert(events.end(), answer.events.begin(), answer.events.end());
+        if (forgets) world.forgetBefore(follower.followedUntilUs());
+      }
+      ASSERT_EQ(events.size(), 6u) << cutUs;
+      for (int i = 0; i < 2; ++i) {
+        const WorldEvent &start = events[i], &leave = events[2 + i], &enter = events[5 - i];
+        EXPECT_EQ(start.kind, EventKind::StartsInside);
+        EXPECT_EQ(start.object, i);
+        ASSERT_EQ(leave.kind, EventKind::Leave);
+        EXPECT_EQ(leave.cause, LeaveCause::Moved);
+        EXPECT_EQ(leave.time.us, 100'000);
+        EXPECT_EQ(leave.object, i);
+        // It slides at 2 m/s; 2 cm off the one sheet, and 3 cm off the other, on its other side.
+        const double sheet = 0.05 * i, off = i == 0 ? 0.02 : 0.03, side = i == 0 ? 1.0 : -1.0;
+        EXPECT_NEAR((leave.b.p_W - Vector3d(sheet, 0.2, 0)).norm(), 0.0, 1e-9);
+        EXPECT_NEAR((leave.a.p_W - Vector3d(0.02 - 0.1 * side, 0.2, 0)).norm(), 0.0, 1e-9);
+        EXPECT_NEAR(leave.penetration, 0.1 - off, 1e-9);
+        EXPECT_NEAR((leave.velocity_W - Vector3d(0, 2, 0)).norm(), 0.0, 1e-6);
+        EXPECT_GE(leave.numPoints, 1u);
+        // It was a metre away in between: nobody finds it inside.
+        EXPECT_EQ(enter.kind, EventKind::Enter) << cutUs;
+        EXPECT_EQ(enter.object, i);
+      }
+    }
+  }
+}
+
+/// Balls that lie in one another, and shift; and a ball far from them that flies through another
+/// one: the last two bodies.
+World heapAndPair(int heap, std::uint64_t workPerWindow) {
+  WorldOptions options;
+  options.workPerWindow = workPerWindow;
+  World world = World::build(std::nullopt, options).value();
+  const Avatar one = ball(0.1);
+  for (int i = 0; i < heap + 2; ++i) {
+    const BodyId body = world.add(one).value();
+    for (const int k : {0, 1, 2, 3}) {
+      const double x = i < heap ? 0.001 * (i + k) : i == heap ? 10.0 : 9.7 + 0.2 * k;
+      EXPECT_TRUE(
+          world.push(body, 10'000 * k + (i < heap && k != 0 && k != 3 ? 10 * i : 0), at(x)).ok());
+    }
+  }
+  return world;
+}
+
+// Whoever has too little work is told as unresolved, for as long as he has; the pair beside the
+// heap is told as it is without a bound.
+TEST(WorldFollower, LeavesUnresolvedWhatCostsTooMuch) {
+  constexpr int kHeap = 24;
+  std::vector<WorldEvent> truth;
+  for (const std::uint64_t work :
+       {std::numeric_limits<std::uint64_t>::max(), std::uint64_t{60'000}, std::uint64_t{2'000}}) {
+    for (const int threads : {1, 3}) {
+      const World world = heapAndPair(kHeap, work);
+      FollowOptions options;
+      options.cutUs = 2'000;
+      options.threads = threads;
+      WorldFollower follower = followerFrom(0, options);
+      const WorldEvents answer = followed(follower, world, 30'000);
+      std::vector<WorldEvent> beside;
+      std::size_t unresolved = 0;
+      for (const WorldEvent& event : answer.events) {
+        if (event.a.body == kHeap) beside.push_back(event);
+        if (event.kind != EventKind::UnresolvedFrom) continue;
+        ++unresolved;
+        EXPECT_EQ(event.reason, UndecidedReason::WorkBudget);
+      }
+      if (truth.empty()) truth = beside;
+      ASSERT_EQ(truth.size(), 2u);
+      if (work > 2'000) {
+        ASSERT_EQ(beside.size(), 2u) << work;
+        for (int i = 0; i < 2; ++i) {
+          EXPECT_EQ(beside[i].kind, truth[i].kind);
+          EXPECT_TRUE(beside[i].time == truth[i].time);
+        }
+      }
+      EXPECT_EQ(unresolved > 0, work <= 60'000) << work;
+      // All pairs of the heap touch throughout: nothing between their parts is free.
+      for (BodyId a = 0; a < kHeap; ++a) {
+        for (BodyId b = a + 1; b < kHeap; ++b) {
+          WorldTime covered{0, 0.0};
+          for (bool goesOn = true; goesOn && covered < WorldTime{30'000, 0.0};) {
+            goesOn = false;
+            for (const WorldPart& part : answer.parts) {
+              if (part.a.body != a || part.b.body != b) continue;
+              if (covered < part.from || !(covered < part.to)) continue;
+              covered = part.to;
+              goesOn = true;
+            }
+          }
+          ASSERT_FALSE(covered < (WorldTime{30'000, 0.0}))
+              << a << " and " << b << ", work " << work;
+        }
+      }
+    }
+  }
+}
+
+// With a few units of work nobody is looked at; when the budget is for more, what touches starts
+// inside: nobody saw it enter.
+TEST(WorldFollower, FindsInsideWhomItHadGivenUp) {
+  WorldOptions options;
+  options.workPerWindow = 3'000;
+  World world = World::build(std::nullopt, options).value();
+  const Avatar one = ball(0.1);
+  // Two that come to touch at 8 ms, beside a heap that leaves at 20 ms.
+  for (int i = 0; i < 20; ++i) {
+    const BodyId body = world.add(one).value();
+    const bool isHeap = i > 1;
+    for (const int k : {0, 1, 2, 3, 4}) {
+      double x = i == 0 ? 0.0 : 0.3 - 0.05 * k;
+      if (isHeap) x = k < 2 ? 0.11 : 5.0 + i;
+      ASSERT_TRUE(world.push(body, 10'000 * k, at(x, isHeap && k < 2 ? 0.05 : 0.0)).ok());
+    }
+  }
+  WorldFollower follower = followerFrom(0);
+  const WorldEvents answer = followed(follower, world, 40'000);
+  std::string kinds;
+  for (const WorldEvent& event : answer.events) {
+    if (event.a.body == 0 && event.b.body == 1) kinds += std::string(toString(event.kind)) + " ";
+  }
+  EXPECT_EQ(kinds, "unresolved_from unresolved_to starts_inside ");
 }
 
 // It leaves the one before it enters the other, which are a millimetre apart.

@@ -178,6 +178,47 @@ TEST(Triggers, WhoIsPutSomewhereElseIsDecidedAnew) {
   expectNoProblems(both);
 }
 
+// A man holds a chair; he puts it down and, at the same instant, sits on it; then a lift carries
+// the chair and him. At no instant does anybody carry himself, though over the whole time two do.
+TEST(Triggers, TwoCarryEachOtherOneAfterTheOther) {
+  BothTriggers both(kTolerance, 0);
+  const BodyId man = both.both.add(hand(0.02)), chair = both.both.add(hand(0.02));
+  const BodyId lift = both.both.add(hand(0.02));
+  const TriggerId low = both.add(test::plainBox(Vector3d(0.1, 0.3, 0.3)));
+  const TriggerId high = both.add(test::plainBox(Vector3d(0.3, 0.1, 0.3)));
+  both.stand(low, at(1.0));
+  both.stand(high, at(2.0, 1.0));
+  both.both.push(lift, 0, at(2.0, -1.0));
+  both.both.push(lift, 80'000, at(2.0, -1.0));
+  both.both.push(lift, 120'000, at(2.0, 3.0));
+  both.both.push(man, 0, at(-0.2));
+  both.both.push(man, 40'000, at(1.8));
+  both.both.push(chair, 0, at(0.0));
+  both.both.push(chair, 1, at(0.0));
+  both.both.attach(chair, {man, 0, false}, 1, at(0.2));
+  both.both.detach(chair, 40'000, at(2.0));
+  both.both.push(chair, 80'000, at(2.0));
+  both.both.attach(man, {chair, 0, false}, 40'000, at(-0.2));
+  both.both.attach(chair, {lift, 0, false}, 80'000, at(0.0, 1.0));
+  both.follow(30'000);
+  both.follow(120'000);
+  // Both through the low one at 50 m/s, the chair 4 ms earlier; both through the high one at
+  // 100 m/s, and the lift behind them.
+  ASSERT_EQ(said(both.events),
+            "enter 0, enter 0, leave 0, leave 0, enter 1, enter 1, leave 1, leave 1, enter 1, "
+            "leave 1");
+  EXPECT_EQ(both.events[0].body, chair);
+  EXPECT_EQ(both.events[1].body, man);
+  EXPECT_EQ(both.events[8].body, lift);
+  EXPECT_NEAR(microseconds(both.events[0]), 20'000 - 2'400, 20);
+  EXPECT_NEAR(microseconds(both.events[1]), 24'000 - 2'400, 20);
+  EXPECT_NEAR(microseconds(both.events[4]), 90'000 - 1'700, 20);
+  EXPECT_NEAR(microseconds(both.events[5]), 90'000 - 1'700, 20);
+  both.judge(300);
+  EXPECT_GT(both.tally.whollyInside, 10u);
+  expectNoProblems(both);
+}
+
 TEST(Triggers, WhoIsSilentIsUnresolvedAndFoundAgain) {
   BothTriggers both(kTolerance, 0);
   BodyOptions undecided;

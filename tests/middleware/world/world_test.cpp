@@ -279,6 +279,41 @@ TEST(World, RefusesByName) {
   EXPECT_EQ(world.knownUntilUs(), std::nullopt);  // what was refused has left no trace
 }
 
+/// The corners of a cube of this half length, as triangles.
+Scene corners(double half) {
+  RawScene raw;
+  raw.objectNames = {"corners"};
+  const auto corner = [half](int x, int y, int z) -> Vector3d { return half * Vector3d(x, y, z); };
+  raw.triangles = {{{corner(-1, -1, -1), corner(1, 1, -1), corner(1, -1, 1)}},
+                   {{corner(-1, 1, 1), corner(1, 1, 1), corner(-1, -1, 1)}}};
+  raw.objectOf = {0, 0};
+  return Scene::build(std::move(raw)).value();
+}
+
+// Every corner within the limit, and the LSS around them all is beyond it: no question could be
+// asked about it. One that is within it answers.
+TEST(World, RefusesMeshesWhoseLssLeaveTheLimit) {
+  for (const bool asksMeshes : {false, true}) {
+    WorldOptions options;
+    options.askMeshes = asksMeshes;
+    World world = World::build(std::nullopt, options).value();
+    const auto refused = world.add(corners(kMaxCoordinate));
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::OutOfRange);
+    EXPECT_NE(describe(refused.error()).find("beyond 1e7 m"), std::string::npos);
+    EXPECT_EQ(world.numBodies(), 0);
+    ASSERT_TRUE(world.add(corners(0.5 * kMaxCoordinate)).ok());
+    ASSERT_TRUE(world.add(ball(0.1)).ok());
+    for (const std::int64_t us : {0, 100}) {
+      ASSERT_TRUE(world.push(0, us, at(0.0)).ok());
+      ASSERT_TRUE(world.push(1, us, at(0.5 * kMaxCoordinate, 0.5 * kMaxCoordinate)).ok());
+    }
+    WorldScratch scratch;
+    WorldContacts answer;
+    EXPECT_TRUE(worldContacts(world, 0, 100, scratch, answer).ok());
+  }
+}
+
 TEST(World, RefusesSurfacesOfOthers) {
   World world = emptyWorld();
   const Avatar own = ball(0.1);
@@ -344,6 +379,70 @@ TEST(World, RefusesCirclesOfCarriers) {
   expectError(world.attach(2, {0, 0}, 40, at(1)), ErrorCode::BadHierarchy, "does not hang on it");
   ASSERT_TRUE(world.detach(0, 80, at(1)).ok());
   EXPECT_TRUE(world.attach(2, {0, 0}, 90, at(1)).ok());
+}
+
+// Who hangs on whom is asked instant by instant: 1 hangs on 0, and 0 on 2, while 2 does not hang on
+// 1, and the other way round.
+TEST(World, CarriesInCirclesThatAreNeverClosed) {
+  BothWorlds both(1e-4);
+  for (int i = 0; i < 3; ++i) {
+    both.add(ball(0.1));
+    both.push(i, 0, at(3.0 * i));
+    both.push(i, 100, at(3.0 * i));
+  }
+  both.add(ball(0.1));  // in whose way 1 and 2 come, carried
+  both.push(3, 0, at(0.9));
+  both.push(3, 100, at(0.9));
+  both.attach(1, {0, 0, false}, 10, at(3.0));
+  both.detach(1, 20, at(3.0));
+  both.push(1, 100, at(3.0));
+  both.attach(0, {1, 0, false}, 20, at(-3.0));
+  both.detach(0, 30, at(0.0));
+  both.push(0, 100, at(-1.0));
+  // Later than 1 hangs on 0 and 0 on 1, and before 2 does on anybody.
+  both.attach(1, {2, 0, false}, 40, at(-3.0));
+  both.attach(2, {0, 0, true}, 35, at(6.0));
+  both.push(2, 100, at(0.15));
+  ASSERT_TRUE(both.problems.empty()) << both.problems.front();
+  both.judgeAll(0, 100);
+  for (const std::string& problem : both.problems) ADD_FAILURE() << problem;
+  EXPECT_GT(both.tally.contact, 0);
+}
+
+// Deeper than any skeleton may be, no question could be asked.
+TEST(World, RefusesTowersThatAreTooDeep) {
+  World world = emptyWorld();
+  const Avatar one = ball(0.1);
+  for (BodyId i = 0; i < kMaxChainDepth; ++i) {
+    ASSERT_TRUE(world.add(one).ok());
+    ASSERT_TRUE(world.push(i, 0, at(i)).ok());
+    ASSERT_TRUE(world.push(i, 100, at(i)).ok());
+    if (i == 0) continue;
+    ASSERT_TRUE(world.attach(i, {i - 1, 0, false}, 50, at(1.0)).ok()) << i;
+  }
+  EXPECT_TRUE(answerOf(world, 0, 100).contacts.empty());
+  ASSERT_TRUE(world.add(one).ok());
+  ASSERT_TRUE(world.push(kMaxChainDepth, 0, at(kMaxChainDepth)).ok());
+  ASSERT_TRUE(world.push(kMaxChainDepth, 100, at(kMaxChainDepth)).ok());
+  expectError(world.attach(kMaxChainDepth, {kMaxChainDepth - 1, 0, false}, 50, at(1.0)),
+              ErrorCode::LimitExceeded, "256 bodies");
+}
+
+// A tower that is built from its top down, each upon the next: no attachment is deep by itself.
+TEST(World, RefusesToAnswerAboutATowerThatIsTooDeep) {
+  World world = emptyWorld();
+  const Avatar one = ball(0.1);
+  constexpr BodyId kCount = 20'000;
+  for (BodyId i = 0; i < kCount; ++i) {
+    ASSERT_TRUE(world.add(one).ok());
+    ASSERT_TRUE(world.push(i, 0, at(i)).ok());
+    ASSERT_TRUE(world.push(i, 100, at(i)).ok());
+    if (i == 0) continue;
+    ASSERT_TRUE(world.attach(i - 1, {i, 0, false}, 50, at(1.0)).ok()) << i;
+  }
+  WorldScratch scratch;
+  WorldContacts answer;
+  expectError(worldContacts(world, 0, 100, scratch, answer), ErrorCode::LimitExceeded, "");
 }
 
 TEST(World, RefusesCarriersThatAreNotThere) {

@@ -2,6 +2,7 @@
 // does.
 #include "tools/stream/world_publisher.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -13,6 +14,7 @@
 #include "network/world_stream/world_solver.h"
 #include "tests/support/holds.h"
 #include "tests/tools/program_run.h"
+#include "tests/tools/world/drawn_world.h"
 #include "tests/tools/world/small_stage.h"
 #include "tools/world/followed_world.h"
 #include "tools/world/served_bodies.h"
@@ -148,6 +150,74 @@ TEST(WorldPublisher, IsHeardAsTheFileIsReplayed) {
     isOfCarried = isOfCarried || (other.a.body == 2 && other.time.us < 180'000);
   }
   EXPECT_TRUE(isOfCarried);
+}
+
+/// What is heard of a world, by names and times, in any order.
+std::vector<std::string> heardOf(const SmallStage& stage, const std::string& text) {
+  const LoadedWorld world = loaded(stage, text);
+  Heard heard(world);
+  const auto sent = heard.hear(world);
+  EXPECT_TRUE(sent.ok()) << describe(sent.error());
+  EXPECT_EQ(heard.counts().rejected(), 0U);
+  EXPECT_EQ(heard.counts().lateChanges, 0U);
+  std::vector<std::string> told;
+  for (const ToldEvent& event : heard.events) {
+    if (event.cause == ToldCause::BodyGone) continue;
+    std::vector<std::string> who{"everybody", "everybody"};
+    if (event.event.a.body > 0) who[0] = world.nameOf(event.event.a.body - 1);
+    if (event.event.b.body > 0) who[1] = world.nameOf(event.event.b.body - 1);
+    std::sort(who.begin(), who.end());
+    told.push_back(who[0] + " " + who[1] + " " + toString(event.event.kind) + " " +
+                   std::to_string(event.event.time.us));
+  }
+  std::sort(told.begin(), told.end());
+  return told;
+}
+
+/// A cup is put on a tray at the instant at which the man takes the tray, whose place changes; at
+/// the next one both are let go of. Whoever comes first in the file, the same is heard.
+TEST(WorldPublisher, TellsChangesOfOneInstantAlikeInAnyOrder) {
+  const SmallStage stage;
+  const std::string post = sphereNamed("post", "position = [0.35, 0.6, 0]\n"),
+                    cup = sphereNamed(
+                        "cup",
+                        "position = [0, 0.7, 0]\n[[body.attach]]\ntime = 0.1\nto = \"tray\"\n"
+                        "[[body.detach]]\ntime = 0.24\n"),
+                    tray = sphereNamed(
+                        "tray",
+                        "position = [0, 0.6, 0]\n[[body.attach]]\ntime = 0.1\nto = \"man\"\n"
+                        "link = \"Hips\"\nposition = [0, 0.6, 0]\n[[body.detach]]\n"
+                        "time = 0.24\nposition = [2, 2, 2]\n");
+  const auto told = heardOf(stage, kManWalks + post + cup + tray);
+  EXPECT_GE(told.size(), 2U);
+  EXPECT_EQ(heardOf(stage, tray + cup + post + kManWalks), told);
+}
+
+/// Nobody is told of before who carries him, and no circle is announced, whoever carries whom in
+/// turn.
+TEST(WorldPublisher, IsUnderstoodWhoeverCarriesWhom) {
+  const SmallStage stage;
+  std::size_t numTold = 0;
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    const DrawnWorld drawn(seed, seed % 2 == 0, false);
+    const auto told = heardOf(stage, drawn.text({0, 1, 2, 3, 4, 5}));
+    EXPECT_EQ(heardOf(stage, drawn.text({3, 5, 1, 4, 0, 2})), told);
+    numTold += told.size();
+  }
+  EXPECT_GT(numTold, 500U);
+}
+
+TEST(WorldPublisher, RefusesWhoIsCarriedByATrigger) {
+  const SmallStage stage;
+  const LoadedWorld world =
+      loaded(stage, kManWalks + sphereNamed("light", "[[body.attach]]\ntime = 0\nto = \"zone\"\n") +
+                        "[[trigger]]\nname = \"zone\"\nsphere = 1\n");
+  Heard heard(world);
+  const auto sent = heard.hear(world);
+  ASSERT_FALSE(sent.ok());
+  EXPECT_TRUE(holds(describe(sent.error()), "do not tell of triggers, as 'zone'"))
+      << describe(sent.error());
 }
 
 TEST(WorldPublisher, SaysChangesAheadAndAtTheEndThatPropsAreGone) {

@@ -2,7 +2,9 @@
 // and meet at instants that are computed by hand.
 #include "tools/world/loaded_world.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -119,6 +121,73 @@ TEST(LoadedWorldTest, WhoRidesMovesInTheFrameOfTheLift) {
   EXPECT_TRUE(stage.contactsOf(world.value()).empty());
 }
 
+/// Tables in the order in which they are given, and the other way round.
+std::vector<std::string> bothWays(std::vector<std::string> tables) {
+  std::vector<std::string> ways;
+  for (int i = 0; i < 2; ++i) {
+    ways.push_back(std::accumulate(tables.begin(), tables.end(), std::string()));
+    std::reverse(tables.begin(), tables.end());
+  }
+  return ways;
+}
+
+/// The lift is put ten metres away, and the rider is let go, at the same instant: it stays.
+TEST(LoadedWorldTest, WhoIsLetGoStaysWhereItWasThoughItsCarrierIsPutElsewhere) {
+  const SmallStage stage;
+  for (const std::string& text :
+       bothWays({sphereNamed("crane", "position = [50, 0, 0]\n"),
+                 sphereNamed("lift",
+                             "[[body.attach]]\ntime = 0\nto = \"crane\"\nposition = [-50, 0, "
+                             "0]\n[[body.detach]]\ntime = 1\nposition = [10, 0, 0]\n" +
+                                 poseAt(2, "10, 0, 0")),
+                 sphereNamed("rider",
+                             "[[body.attach]]\ntime = 0\nto = \"lift\"\nposition = [0, 1, 0]\n"
+                             "[[body.detach]]\ntime = 1\n" +
+                                 poseAt(2, "0, 1, 0"))})) {
+    const auto world = stage.load(text);
+    ASSERT_TRUE(world.ok()) << describe(world.error());
+    for (BodyId body = 0; body < 3; ++body) {
+      if (world.value().nameOf(body) != "rider") continue;
+      EXPECT_EQ(placeOf(world.value(), body, 1.0), Eigen::Vector3d(0, 1, 0)) << text;
+    }
+  }
+}
+
+/// Who goes over to somebody who is put elsewhere at that instant does not go along.
+TEST(LoadedWorldTest, WhoIsTakenStaysWhereItWasThoughItsNewCarrierIsPutElsewhere) {
+  const SmallStage stage;
+  for (const std::string& text :
+       bothWays({sphereNamed("post", "position = [5, 0, 0]\n"),
+                 sphereNamed("hand", poseAt(0, "0, 0, 0") + poseAt(1, "1, 0, 0") +
+                                         "[[body.attach]]\ntime = 1\nto = \"post\"\n"
+                                         "position = [0, 2, 0]\n"),
+                 sphereNamed("cup",
+                             "position = [3, 3, 3]\n[[body.attach]]\ntime = 1\n"
+                             "to = \"hand\"\n")})) {
+    const auto world = stage.load(text);
+    ASSERT_TRUE(world.ok()) << describe(world.error());
+    for (BodyId body = 0; body < 3; ++body) {
+      if (world.value().nameOf(body) != "cup") continue;
+      EXPECT_EQ(placeOf(world.value(), body, 1.0), Eigen::Vector3d(3, 3, 3)) << text;
+    }
+  }
+}
+
+TEST(LoadedWorldTest, WhoStandsIsTakenWhereItStandsFromTheFirstInstantOn) {
+  const SmallStage stage;
+  for (const std::string& text :
+       bothWays({sphereNamed("cup",
+                             "position = [1, 1, 1]\n[[body.attach]]\ntime = 0\n"
+                             "to = \"hand\"\n"),
+                 sphereNamed("hand", poseAt(0, "1, 1, 0.5") + poseAt(1, "2, 1, 0.5"))})) {
+    const auto world = stage.load(text);
+    ASSERT_TRUE(world.ok()) << describe(world.error());
+    const BodyId cup = world.value().nameOf(0) == "cup" ? 0 : 1;
+    EXPECT_EQ(placeOf(world.value(), cup, 0.0), Eigen::Vector3d(1, 1, 1));
+    EXPECT_EQ(placeOf(world.value(), cup, 1.0), Eigen::Vector3d(2, 1, 1));
+  }
+}
+
 TEST(LoadedWorldTest, GroupsThatAreNotAskedDoNotMeet) {
   const SmallStage stage;
   const std::string ball = sphereNamed("ball", "position = [0, 0, 0]\ngroup = \"toys\"\n");
@@ -199,8 +268,12 @@ TEST(LoadedWorldTest, RefusesWorldsThatCannotBeWithTheirLines) {
        10, "carries 'b'"},
       {sphereNamed("a", "[[body.detach]]\ntime = 0.5\n") + sphereNamed("b", moving), 4,
        "'a' is not carried"},
-      {sphereNamed("a", "[[body.attach]]\ntime = 0\nto = \"b\"\n") + sphereNamed("b", moving), 4,
-       "expected a position: 'a' is not there before 0 s"},
+      {sphereNamed("a", "[[body.attach]]\ntime = 0\nto = \"b\"\n" + poseAt(0.5, "0, 0, 0")) +
+           sphereNamed("b", moving),
+       4, "expected a position: 'a' is not there before 0 s"},
+      // A circle at one instant, by the first name in it.
+      {attached("b", "a", 0) + attached("a", "b", 0), 11,
+       "'a' carries 'b', itself or through others, at 0 s"},
       {attached("a", "b", 0) + poseAt(0.5, "0, 0, 0") + sphereNamed("b", moving), 8,
        "held fast by 'b' at 0.5 s"},
       {sphereNamed("a", moving + "[[body.attach]]\ntime = 2\nto = \"b\"\n") +
@@ -244,12 +317,12 @@ TEST(WorldWindows, GoFromPoseToPoseOfAnybody) {
   EXPECT_EQ(cuts.value(),
             (std::vector<std::int64_t>{0, 50'000, 100'000, 200'000, 250'000, 300'000}));
   // The ball appears at 0.05 s: a window ends there, whatever the rate.
-  const auto rated = tools::windowsOf(world.value(), {10.0, 0.0, 0.25});
+  const auto rated = tools::windowsOf(world.value(), {10.0, 0, 250'000});
   ASSERT_TRUE(rated.ok());
   EXPECT_EQ(rated.value(), (std::vector<std::int64_t>{0, 50'000, 100'000, 200'000, 250'000}));
   for (const tools::WindowRequest& bad :
-       {tools::WindowRequest{1e6, std::nullopt, 1.0}, tools::WindowRequest{{}, -0.1, {}},
-        tools::WindowRequest{{}, 0.2, 0.2}, tools::WindowRequest{{}, {}, 1e300}}) {
+       {tools::WindowRequest{1e6, std::nullopt, 1'000'000}, tools::WindowRequest{{}, -100'000, {}},
+        tools::WindowRequest{{}, 200'000, 200'000}, tools::WindowRequest{{}, {}, kMostUtimeUs}}) {
     EXPECT_FALSE(tools::windowsOf(world.value(), bad).ok());
   }
 }

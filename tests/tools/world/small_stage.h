@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/tools/small_world.h"
-#include "tools/world/loaded_world.h"
+#include "tools/world/load_world.h"
 #include "tools/world/world_windows.h"
 
 namespace foretouch::test {

@@ -309,7 +309,8 @@ TEST_F(WorldEventsFile, SaysWhatIsWrongWithATrigger) {
       "[[trigger.watches]] body: expected the name of a body, found 'mann'; did you mean 'man'");
   refused("[[trigger]]\nname = \"z\"\nsphere = 0.2\nwatches = [{body = \"man\", link = \"Leg\"}]\n",
           "[[trigger.watches]] link: expected a link of 'man', found 'Leg'");
-  refused("[[trigger]]\nname = \"z\"\nmesh = \"wall.obj\"\n", "world.toml:8: [[trigger]]: ");
+  refused("[[trigger]]\nname = \"z\"\nmesh = \"wall.obj\"\n",
+          "world.toml:8: [[trigger]] 'z': expected a closed mesh");
   refused("[[trigger]]\nname = \"z\"\nsphere = 0.2\n[[trigger.attach]]\ntime = 0\nto = \"men\"\n",
           "[[trigger.attach]] to: expected the name of a body, found 'men'");
 }

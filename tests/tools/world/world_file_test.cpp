@@ -93,9 +93,9 @@ asked = false
   EXPECT_EQ(anna.clip.motionScale, 0.01);
   EXPECT_EQ(anna.clip.placement.yawDeg, 90.0);
   EXPECT_EQ(anna.clip.rateHz, 30.0);
-  EXPECT_EQ(anna.timing.startS, 2.0);
-  EXPECT_EQ(anna.timing.fromS, 0.5);
-  EXPECT_EQ(anna.timing.untilS, 3.5);
+  EXPECT_EQ(anna.timing.startUs, 2'000'000);
+  EXPECT_EQ(anna.timing.fromUs, 500'000);
+  EXPECT_EQ(anna.timing.untilUs, 3'500'000);
   EXPECT_EQ(anna.timing.speed, 2.0);
   const FileBody& stick = world.bodies[1];
   ASSERT_EQ(stick.shape.lss.size(), 2u);

@@ -312,6 +312,23 @@ class NodeMotion {
   std::map<std::pair<int, std::string>, Channel> channels_;
 };
 
+/// Its corners are where coordinates end, so that an LSS around it ends beyond.
+TEST(WorldProgram, RefusesByNameABodyThatIsTooLarge) {
+  const SmallStage stage;
+  const std::string path = stage.write(
+      "[[body]]\nname = \"crate\"\nbox = {low = [0, 0, 0], high = [1, 1, 1]}\n"
+      "[[body]]\nname = \"gate\"\nbox = {low = [-1e7, -1e7, -1e7], high = [1e7, 1e7, 1e7]}\n");
+  for (const char* const command : {"check", "replay", "view"}) {
+    std::vector<std::string> arguments{"world", command, path};
+    if (command != std::string("check")) {
+      arguments.insert(arguments.end(), {"-o", stage.folder / "out"});
+    }
+    const Ended ended = runForetouch(arguments);
+    EXPECT_EQ(ended.exitCode, 2) << command << ended.err;
+    EXPECT_TRUE(holds(ended.err, "world.toml:6: [[body]] 'gate': ")) << ended.err;
+  }
+}
+
 class BundledStage : public testing::Test {
  protected:
   TempFolder folder_;

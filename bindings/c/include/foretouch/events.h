@@ -58,8 +58,10 @@ enum {
 };
 /* Why a contact ends. */
 enum {
-  FT_LEAVE_APART = 0,    /* they are apart: proven */
-  FT_LEAVE_NOT_ASKED = 1 /* they are not asked any more: one carries the other, or ft_world_ask() */
+  FT_LEAVE_APART = 0, /* they are apart: proven */
+  FT_LEAVE_NOT_ASKED =
+      1,             /* they are not asked any more: one carries the other, or ft_world_ask() */
+  FT_LEAVE_MOVED = 2 /* one of them, or who carries it, is put elsewhere there, with a jump */
 };
 /* In the event of a body altogether, in place of the other one: whatever it is asked about. */
 #define FT_EVERY_BODY (-2)

@@ -23,6 +23,11 @@ typedef struct ft_world_options {
   uint32_t size;
   int32_t asks_meshes; /* 1: two meshes are asked whether they meet, and a mesh and what is still */
   double tolerance;    /* metres, of every contact: 1e-8 to 1e7; default 1e-3 */
+  /* Work, counted as ft_query_options.work_budget, that two bodies may cost in one window, and a
+   * body by itself in one span between its poses; default 100,000,000. Beyond it: undecided. */
+  uint64_t work_per_pair;
+  /* Work that all pairs of a window may cost together, shared by bodies; default UINT64_MAX. */
+  uint64_t work_per_window;
 } ft_world_options;
 
 FT_API ft_status ft_world_options_init(ft_world_options* options, size_t size);
