@@ -123,7 +123,9 @@ struct WorldFollower::Impl {
                          std::to_string(options.cutUs) + " us in one call, found " +
                          std::to_string(untilUs) + " to " + std::to_string(endUs) + " us");
   }
-  [[nodiscard]] std::int64_t nextUs(const WorldParts& parts, std::int64_t endUs) const {
+  [[nodiscard]] std::int64_t nextUs(const WorldParts& parts, std::int64_t endUs,
+                                    std::uint64_t numWindows) const {
+    if (numWindows >= options.mostWindows) return endUs;
     const std::int64_t next =
         options.cutUs > 0 ? multipleAfter(untilUs, options.cutUs) : nextCutUs(parts, untilUs);
     return std::min(next, endUs);
@@ -132,7 +134,7 @@ struct WorldFollower::Impl {
   Result<Done> followTo(const World& of, std::int64_t endUs, WorldEvents& answer) {
     open.beginTime(untilUs);
     while (untilUs < endUs) {
-      const std::int64_t toUs = nextUs(of.parts(), endUs);
+      const std::int64_t toUs = nextUs(of.parts(), endUs, answer.counters.windows + 1);
       if (std::exchange(isFollowedLost, false)) followed.assign(open.all());
       followed.tellKnown(of.parts(), untilUs, toUs, known);
       FORETOUCH_CHECK(
@@ -221,9 +223,16 @@ struct WorldFollower::Impl {
       if (silent.takenTo != WhenSilent::Undecided) continue;
       unknown.push_back(silent.body);
       const PairKey key{silent.body, kEveryLink, kEveryBody, kEveryLink, internal::kNoObject};
-      tellNew(key, {silent.sinceUs, 0.0}, UndecidedReason::Gap);
+      tellNew(key, {silent.sinceUs, 0.0}, silent.reason);
     }
     for (const GivenUp& pair : givenUp) tellNew(pair.key, pair.time, pair.reason);
+  }
+
+  /// Each is told as a body of which nothing is known.
+  [[nodiscard]] bool areCrowded(const TracedBodies& task) const {
+    const std::vector<bool>& isCrowded = scratch->isCrowded;
+    const auto [a, b] = task.followed->bodies;
+    return !isCrowded.empty() && a != b && b >= 0 && isCrowded[slotOf(a)] && isCrowded[slotOf(b)];
   }
 
   /// What each two may cost while they are followed, as while they are asked.
@@ -233,7 +242,9 @@ struct WorldFollower::Impl {
       shares.add(task.followed->bodies.a, task.followed->bodies.b);
     }
     shares.share(parts.options.workPerWindow, parts.options.workPerPair);
-    for (std::size_t i = 0; i < tasks.size(); ++i) tasks[i].work = shares.of(i);
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      tasks[i].work = areCrowded(tasks[i]) ? 0 : shares.of(i);
+    }
   }
 
   void listGivenUp() {
@@ -243,7 +254,7 @@ struct WorldFollower::Impl {
       if (isOfEveryLink(key)) givenUp.push_back({key, contact.time, contact.reason});
     }
     for (const TracedBodies& task : tasks) {
-      if (!task.isGivenUp()) continue;
+      if (!task.isGivenUp() || areCrowded(task)) continue;
       const internal::BodyPair& both = task.followed->bodies;
       const BodyId with = both.b == both.a ? kStillScene : both.b;
       const PairKey key{both.a, kEveryLink, with, kEveryLink, internal::kNoObject};

@@ -49,8 +49,8 @@ class BodySweeper {
                        const SpanSweep& span, std::size_t first, std::vector<WorldContact>& found,
                        WorldCounters& counters);
   Result<Done> askAgain(BodyId body, SystemQuestion question, const SpanPart& part,
-                        const SpanSweep& span, std::size_t first,
-                        std::vector<WorldContact>& found, WorldCounters& counters);
+                        const SpanSweep& span, std::size_t first, std::vector<WorldContact>& found,
+                        WorldCounters& counters);
 
   const WorldParts& world_;
   const Window& window_;

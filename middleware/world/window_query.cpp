@@ -237,6 +237,7 @@ class WindowQuery {
     tellSilent();
     FORETOUCH_CHECK(sweepBodies());
     scratch_.broad.collect(scratch_.boxes, scratch_.meeting);
+    leaveCrowds();
     FORETOUCH_CHECK(sweepNear());
     FORETOUCH_CHECK(askPairs());
     gather();
@@ -303,6 +304,44 @@ class WindowQuery {
       worker.counters.bodies += sweep.whole.isEmpty() ? 0 : 1;
       return done;
     });
+  }
+
+  /// Whoever may meet too many others is told once, and the pairs of such bodies are left out.
+  void leaveCrowds() {
+    std::vector<std::uint32_t>& near = scratch_.numNear;
+    scratch_.isCrowded.clear();
+    const std::size_t most = world_.options.mostNear;
+    if (scratch_.meeting.size() <= most) return;
+    near.assign(world_.bodies.size(), 0);
+    for (const MeetingBodies& pair : scratch_.meeting) {
+      if (!world_.isAsked(pair.a, pair.b)) continue;
+      ++near[slotOf(pair.a)];
+      ++near[slotOf(pair.b)];
+    }
+    if (std::none_of(near.begin(), near.end(), [&](std::uint32_t n) { return n > most; })) return;
+    scratch_.isCrowded.resize(near.size());
+    for (BodyId id = 0; id < numBodies(); ++id) {
+      scratch_.isCrowded[slotOf(id)] = near[slotOf(id)] > most;
+      if (near[slotOf(id)] <= most) continue;
+      answer_.silent.push_back(
+          {id, window_.fromUs, WhenSilent::Undecided, UndecidedReason::WorkBudget});
+    }
+    std::vector<MeetingBodies>& pairs = scratch_.meeting;
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                               [&](const MeetingBodies& pair) {
+                                 return scratch_.isCrowded[slotOf(pair.a)] &&
+                                        scratch_.isCrowded[slotOf(pair.b)];
+                               }),
+                pairs.end());
+    // One that is silent as well is so from its last pose on, and crowded from the begin.
+    auto& silent = answer_.silent;
+    std::sort(silent.begin(), silent.end(), [](const SilentBody& x, const SilentBody& y) {
+      return std::tie(x.body, x.sinceUs) < std::tie(y.body, y.sinceUs);
+    });
+    silent.erase(
+        std::unique(silent.begin(), silent.end(),
+                    [](const SilentBody& x, const SilentBody& y) { return x.body == y.body; }),
+        silent.end());
   }
 
   /// Most props are far from everything: only of the others more than a rough box is needed.

@@ -70,6 +70,8 @@ struct WorldScratchParts {
   std::vector<BodyBox> boxes;     // per body, of the whole window
   BoxSweep broad;
   std::vector<MeetingBodies> meeting;
+  std::vector<std::uint32_t> numNear;  // per body, whom it may meet
+  std::vector<bool> isCrowded;         // per body; empty: nobody is
   WorkShares shares;
   std::vector<std::size_t> undone;  // places of pairs, in order
   std::vector<BodyId> near;         // known roughly so far, though something may be near

@@ -52,11 +52,13 @@ struct WorldContact {
   bool isAssumed = false;
 };
 
-/// A body of which nothing was known in the rest of the window.
+/// A body of which nothing was known in the rest of the window, or that is crowded
+/// (WorldOptions::mostNear).
 struct SilentBody {
   BodyId body = 0;
-  std::int64_t sinceUs = 0;                    ///< Its last knot, or the window's begin.
-  WhenSilent takenTo = WhenSilent::HoldStill;  ///< HoldStill or Undecided.
+  std::int64_t sinceUs = 0;                       ///< Its last knot, or the window's begin.
+  WhenSilent takenTo = WhenSilent::HoldStill;     ///< HoldStill or Undecided.
+  UndecidedReason reason = UndecidedReason::Gap;  ///< WorkBudget: it is crowded.
 };
 
 struct WorldCounters {

@@ -2,6 +2,7 @@
 // Metres.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -41,6 +42,10 @@ struct WorldOptions {
   /// leave over goes to those who need more. Who follows the world (WorldFollower) may spend as
   /// much again. With thousands of pairs and a small budget, most are undecided without a look.
   std::uint64_t workPerWindow = std::numeric_limits<std::uint64_t>::max();
+  /// A body that may meet more than so many others in a window is crowded; without a bound unless
+  /// set. Two that are crowded are not asked about each other: each is told as a body of which
+  /// nothing is known in that window (WorldContacts::silent, WorkBudget), and not once per pair.
+  std::size_t mostNear = std::numeric_limits<std::size_t>::max();
 };
 /// Below it, parts of motions between knots of different bodies are not known well enough (m).
 inline constexpr double kMinWorldTolerance = 1e-8;

@@ -50,7 +50,9 @@ RigidPose rigidPoseOf(const Pose& pose) {
 
 Result<LiveWorld> LiveWorld::make(const WorldSetup& setup, bool holdsStill, std::int64_t fromUs) {
   FORETOUCH_TRY(auto world, setup.build());
-  FORETOUCH_TRY(auto follower, WorldFollower::start(fromUs));
+  FollowOptions options;
+  options.mostWindows = kMostWindowsPerAdvance;
+  FORETOUCH_TRY(auto follower, WorldFollower::start(fromUs, options));
   return LiveWorld(setup, holdsStill, std::move(world), std::move(follower));
 }
 

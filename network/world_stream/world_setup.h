@@ -65,6 +65,12 @@ inline constexpr std::int64_t kMostWorldWaitUs = 60'000'000;
 inline constexpr std::size_t kMostWaitingKnots = 1024;
 /// Changes of who carries a body that wait likewise.
 inline constexpr std::size_t kMostWaitingChanges = 64;
+/// What a served world's WorldOptions should be: ten milliseconds a window, perhaps, whatever is
+/// there; and nobody is asked about more neighbours than a crowd of people has.
+inline constexpr std::uint64_t kServedWorkPerWindow = 1'000'000;
+inline constexpr std::size_t kServedMostNear = 64;
+/// One advance follows the world from pose to pose, but in at most so many windows.
+inline constexpr std::uint64_t kMostWindowsPerAdvance = 64;
 /// The watermark moves by at least so much (us): whoever sends more often than that, or much of
 /// many bodies by turns, does not make as many answers, each of which lists all bodies.
 inline constexpr std::int64_t kLeastAdvanceUs = 1000;

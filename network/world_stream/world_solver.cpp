@@ -9,6 +9,7 @@
 
 #include "articulated/quoted.h"
 #include "articulated/try.h"
+#include "middleware/query/work_meter.h"
 #include "network/world_stream/carrier_times.h"
 #include "network/world_stream/live_world.h"
 #include "network/world_stream/world_roster.h"
@@ -71,6 +72,18 @@ Result<Done> checkedSetup(const WorldSetup& setup, const WorldPolicy& policy) {
   return Done{};
 }
 
+/// How far the watermark should move until the next answer (us), so that no more than half of all
+/// time goes by in answering. By what was counted, and not by a clock: a replay does the same.
+std::int64_t costOf(const WorldEvents& found, std::size_t bodies) {
+  constexpr std::uint64_t kBody = 20, kPair = 50, kSpan = 500, kEvent = 200, kPerUs = 50;
+  constexpr std::uint64_t kMostUs = 1'000'000;
+  const std::uint64_t work = found.counters.windows * bodies * kBody + found.world.pairs * kPair +
+                             found.world.spans * kSpan + found.counters.pairs * kPair +
+                             internal::WorkMeter::workOf(found.world.queries) +
+                             found.events.size() * kEvent;
+  return static_cast<std::int64_t>(std::min(work / kPerUs, kMostUs));
+}
+
 bool comesFirst(const ToldEvent& x, const ToldEvent& y) {
   return comesBefore(x.event, y.event);
 }
@@ -87,6 +100,7 @@ struct WorldSolver::Impl {
   std::optional<LiveWorld> world;  // from the first pose on
   std::int64_t fromUs = 0;         // answered until here
   std::int64_t sequence = 0;
+  std::int64_t leastAdvanceUs = kLeastAdvanceUs;
   WorldEvents found;
   std::vector<ToldEvent> told;
 
@@ -126,7 +140,7 @@ struct WorldSolver::Impl {
     const auto until = roster.watermark();
     // Not before all who begin together have said where they do.
     if (until && !world && *until > firstUs()) begin(firstUs(), true);
-    if (until && world && *until - fromUs >= kLeastAdvanceUs) answerUntil(*until, answers, count);
+    if (until && world && *until - fromUs >= leastAdvanceUs) answerUntil(*until, answers, count);
     answers.resize(count);
   }
 
@@ -142,7 +156,10 @@ struct WorldSolver::Impl {
       isAnswered = false;
     }
     told.clear();
-    if (isAnswered) translate(untilUs);
+    if (isAnswered) {
+      leastAdvanceUs = std::max(kLeastAdvanceUs, costOf(found, roster.bodies().size()));
+      translate(untilUs);
+    }
     addGone();
     std::sort(told.begin(), told.end(), comesFirst);
     for (const ToldEvent& event : told) {

@@ -38,6 +38,9 @@ Result<World> emptyWorld(const std::optional<Scene>& scene, double tolerance,
                          const std::vector<GroupAsk>& asks) {
   WorldOptions options;
   options.tolerance = tolerance;
+  // Strangers may put a thousand bodies into one place.
+  options.workPerWindow = kServedWorkPerWindow;
+  options.mostNear = kServedMostNear;
   FORETOUCH_TRY(auto world, World::build(scene, options));
   for (const GroupAsk& ask : asks) {
     FORETOUCH_CHECK(ask.with ? world.ask(ask.group, *ask.with, ask.isAsked)
