@@ -13,7 +13,7 @@
 #include "middleware/query/work_meter.h"
 #include "middleware/world/body_sweeper.h"
 #include "middleware/world/system_query.h"
-#include "middleware/world/window_query.h"
+#include "middleware/world/window_scratch.h"
 #include "middleware/world/work_shares.h"
 #include "middleware/world/world_parts.h"
 
