@@ -254,9 +254,18 @@ void BodiesTracer::traceSides(const Asked& asked, SpanSides& span, FollowedSides
   }
   // What was in contact before does not begin anew; if it is over at once, it was torn apart.
   side.isMoved = part_.isChanged && start == TraceStart::Contact && beginsThere &&
-                 !parts[side.nextPart].goesOn && parts[side.nextPart].to == from;
+                 !parts[side.nextPart].goesOn && parts[side.nextPart].to == from &&
+                 !isNear(from, toleranceOf(asked, span).limit);
   side.startsInside =
       !side.isOpen && beginsThere && isFromBegin && (part_.isFresh || start == TraceStart::Unknown);
+}
+
+/// Of the sides at hand.
+bool BodiesTracer::isNear(double t, double within) {
+  sides_.collect(t, t, within, near_);
+  return std::any_of(near_.begin(), near_.end(), [&](const SidesPair& pair) {
+    return sides_.at(pair, t).estimate() <= within;
+  });
 }
 
 IntervalTolerance BodiesTracer::toleranceOf(const Asked& asked, const SpanSides& span) const {

@@ -79,6 +79,7 @@ class BodiesTracer {
                   const WorldTime& from);
   [[nodiscard]] bool set(const Asked& asked, SpanSides& span, const FollowedSides& side);
   void traceSides(const Asked& asked, SpanSides& span, FollowedSides& side);
+  [[nodiscard]] bool isNear(double t, double within);
   [[nodiscard]] IntervalTolerance toleranceOf(const Asked& asked, const SpanSides& span) const;
   [[nodiscard]] bool isDue(const Asked& asked, const WorldTime& time, bool isEnd) const;
   [[nodiscard]] WorldTime beginAt(SpanSides& span, const StepPart& part) const;

@@ -6,12 +6,24 @@
 #include <Eigen/Geometry>
 
 #include "lss/index.h"
+#include "lss/rounding.h"
 #include "lss/separation.h"
 
 namespace foretouch::internal {
 namespace {
 
 using Eigen::Vector3d;
+
+/// No point that is told is farther from its surface (m), but for rounding.
+constexpr double kMostOff = 1e-9;
+
+/// A point that is the radius away from some point of the hull: on the surface, unless it is nearer
+/// to another one. The ball around an axis's end is, on the side of the axis.
+bool isOnSurface(const ManifoldPart& part, const Vector3d& p) {
+  if (part.radius == 0.0) return true;
+  const double off = part.radius - separation(Hull::segment(p, p), part.hull).distance;
+  return off <= kMostOff + 16.0 * kUnitRoundoff * p.norm();
+}
 
 /// By separation, then by place: not by number.
 bool comesBefore(const ContactPoint& x, const ContactPoint& y) {
@@ -90,8 +102,9 @@ void Manifold::keep(const ManifoldPart& one, const ManifoldPart& other, const Hu
   const double gap = apart.distance - (one.radius + other.radius);
   if (gap > within_) return;
   const Vector3d n = apart.distance > 0.0 ? Vector3d(apart.difference.stableNormalized()) : nhat_;
-  points_.push_back({apart.onOne - one.radius * n, apart.onOther + other.radius * n, gap,
-                     other.triangle, one.lss, one.triangle});
+  const Vector3d p = apart.onOne - one.radius * n, q = apart.onOther + other.radius * n;
+  if (!isOnSurface(one, p) || !isOnSurface(other, q)) return;
+  points_.push_back({p, q, gap, other.triangle, one.lss, one.triangle});
 }
 
 void Manifold::choose(ContactDetails& details) {

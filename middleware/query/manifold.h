@@ -25,8 +25,8 @@ class Manifold {
  public:
   /// `nhat`: from the other side to the one, where two parts meet.
   void begin(double within, const Eigen::Vector3d& nhat);
-  /// The closest points, and those of the corners, as far as they are within the distance: what
-  /// lies on a face is held at its corners.
+  /// The closest points, and those of the corners, as far as they are within the distance, and on
+  /// the surfaces: what lies on a face is held at its corners.
   void offer(const ManifoldPart& one, const ManifoldPart& other);
   /// Fills the points, as ContactDetails says.
   void choose(ContactDetails& details);

@@ -36,8 +36,7 @@ LinkId linksOf(const WorldParts& world, BodyId body) {
 }  // namespace
 
 void appendCuts(const WorldParts& world, BodyId body, const Stretch& stretch,
-                std::vector<std::int64_t>& cuts) {
-  std::vector<BodyId> chain;
+                std::vector<BodyId>& chain, std::vector<std::int64_t>& cuts) {
   for (std::int64_t us = stretch.fromUs; us < stretch.toUs; us = world.chainEndUs(chain, us)) {
     world.chainAt(body, us, chain);
     const bool isCut = std::any_of(chain.begin(), chain.end(), [&](BodyId id) {
@@ -175,7 +174,7 @@ LinkPresence::Decided LinkPresence::decide(const TriggerPair& pair, LinkId link,
   return decided;
 }
 
-/// A body and the link that carries it are not asked whether they meet.
+/// A body and the link that carries it are not asked whether they meet (World::attach()).
 bool LinkPresence::isCarriedBy(const TriggerPair& pair, LinkId link, std::int64_t us) const {
   const Episode* const ofTrigger = world_->body(pair.ofTrigger).episodeAt(us);
   const Episode* const ofBody = world_->body(pair.body).episodeAt(us);
@@ -183,7 +182,9 @@ bool LinkPresence::isCarriedBy(const TriggerPair& pair, LinkId link, std::int64_
     return episode != nullptr && episode->carrier && episode->carrier->body == carrier &&
            episode->carrier->link == carrying;
   };
-  return is(ofTrigger, pair.body, link) || is(ofBody, pair.ofTrigger, 0);
+  const bool isRoot = world_->kindOf(pair.body).skeleton.parent(link) == kNoParent;
+  return is(ofTrigger, pair.body, link) ||
+         (is(ofBody, pair.ofTrigger, 0) && (isRoot || ofBody->isHeldFast()));
 }
 
 void LinkPresence::keep(const Key& key, const std::vector<PresenceSpan>& spans, std::size_t first,

@@ -24,8 +24,9 @@ struct Stretch {
 
 /// Who carries whom, and who is there, changes at these instants of the stretch: what is known of
 /// before says nothing of after. Appends those of a body and of all that carry it there, in order.
+/// `chain`: memory.
 void appendCuts(const WorldParts& world, BodyId body, const Stretch& stretch,
-                std::vector<std::int64_t>& cuts);
+                std::vector<BodyId>& chain, std::vector<std::int64_t>& cuts);
 
 /// Two bodies, one of them a trigger, in a stretch.
 struct TriggerPair {

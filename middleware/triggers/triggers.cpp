@@ -52,6 +52,7 @@ struct Triggers::Parts {
   // While updating.
   std::map<std::pair<TriggerId, BodyId>, std::vector<WorldPart>> parts;
   std::vector<std::vector<std::int64_t>> cuts;  // per body
+  std::vector<BodyId> chain;
   TriggerPair pair;
   std::vector<PresenceSpan> spans, ofLink, memory;
 
@@ -157,7 +158,7 @@ void Triggers::Parts::findCuts(const WorldParts& of, const Stretch& stretch) {
   cuts.resize(of.bodies.size());
   for (std::size_t body = 0; body < cuts.size(); ++body) {
     cuts[body].clear();
-    internal::appendCuts(of, static_cast<BodyId>(body), stretch, cuts[body]);
+    internal::appendCuts(of, static_cast<BodyId>(body), stretch, chain, cuts[body]);
     const bool isNew = !hasBegun || static_cast<std::int32_t>(body) >= numBodies;
     if (isNew) cuts[body].push_back(stretch.fromUs);
   }

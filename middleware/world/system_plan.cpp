@@ -158,7 +158,7 @@ class PlanMaker {
     addVolumes(a);
     // The link that carries the mesh, or that the mesh carries, is not asked.
     if (member(b).carrier == a) clear(linkOf(a, member(b).link));
-    if (member(a).carrier == b) clearRoots(a);
+    if (member(a).carrier == b) clearJoined(a);
     plan_.isEmpty = std::all_of(lss_.begin(), lss_.end(), [](const auto& l) { return l.empty(); });
     if (plan_.isEmpty) return Done{};
     FORETOUCH_TRY(plan_.chain, RelativeChain::build(plan_.skeleton, linkOf(b, 0)));
@@ -209,10 +209,15 @@ class PlanMaker {
     return std::optional<PairRules>(std::move(rules));
   }
 
-  void clearRoots(std::int32_t place) {
-    const Skeleton& own = kind(place).skeleton;
-    for (JointId joint = 0; joint < own.numJoints(); ++joint) {
-      if (own.parent(joint) == kNoParent) clear(linkOf(place, joint));
+  /// Of what is carried, the links that are not asked about the link that carries it: all, if it is
+  /// held fast; its roots, if it moves there by itself.
+  [[nodiscard]] bool isJoined(std::int32_t place, LinkId link) const {
+    return member(place).episode->isHeldFast() || kind(place).skeleton.parent(link) == kNoParent;
+  }
+
+  void clearJoined(std::int32_t place) {
+    for (JointId joint = 0; joint < kind(place).skeleton.numJoints(); ++joint) {
+      if (isJoined(place, joint)) clear(linkOf(place, joint));
     }
   }
 
@@ -227,7 +232,7 @@ class PlanMaker {
     }
   }
 
-  /// Of the carried one's roots and the link that carries them, if one of the two carries the
+  /// Of the carried one's links and the link that carries them, if one of the two carries the
   /// other.
   void leaveOutJoined(std::int32_t carrier, std::int32_t carried,
                       std::vector<LeftOutPair>& leftOut) const {
@@ -236,7 +241,7 @@ class PlanMaker {
     const Skeleton& own = kind(carried).skeleton;
     for (JointId joint = 0; joint < own.numJoints(); ++joint) {
       const LinkId held = linkOf(carried, joint);
-      if (own.parent(joint) != kNoParent || !hasLss(held) || !hasLss(holding)) continue;
+      if (!isJoined(carried, joint) || !hasLss(held) || !hasLss(holding)) continue;
       leftOut.push_back({std::min(holding, held), std::max(holding, held), PairReason::User});
     }
   }
@@ -311,6 +316,7 @@ Result<const SystemPlan*> SystemPlans::planOf(const WorldParts& world, const Sys
     key.push_back(member.kind);
     key.push_back(member.carrier);
     key.push_back(member.link);
+    key.push_back(member.episode->isHeldFast() ? 1 : 0);
   }
   if (late == nullptr) return ofAll(world, spans, question, key);
   if (std::exchange(late->generation_, generation_) != generation_) late->plans_ = {};

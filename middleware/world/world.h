@@ -49,10 +49,11 @@ class World {
   Result<Done> push(BodyId body, std::int64_t utimeUs, const RigidPose& pose);
 
   /// From `utimeUs` on, the body is carried; `pose` is its pose there in the frame of the carrier's
-  /// link. A pair of the body and the link that carries it is not asked. Errors: unknown bodies or
-  /// links; a body that carries the carrier at any time from then on (BadHierarchy); a carrier that
-  /// hangs on kMaxChainDepth bodies or more; a body or carrier that is not known at that instant,
-  /// or a body that was attached or detached later.
+  /// link. The body and the link that carries it are not asked whether they meet: all of it, while
+  /// it is held fast; its root links, if it moves in the frame, for its other links may hit the
+  /// carrier. Errors: unknown bodies or links; a body that carries the carrier at any time from
+  /// then on (BadHierarchy); a carrier that hangs on kMaxChainDepth bodies or more; a body or
+  /// carrier that is not known at that instant, or a body that was attached or detached later.
   Result<Done> attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs, const Pose& pose);
   Result<Done> attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs,
                       const RigidPose& pose);

@@ -80,13 +80,21 @@ std::vector<ft_silent_body> silentOf(const ft_world* world) {
   return silent;
 }
 
-MovingWorld::MovingWorld(double tolerance, const RawScene* still, bool asksMeshes)
+MovingWorld::MovingWorld(double tolerance, const RawScene* still, bool asksMeshes,
+                         const WorldOptions& work)
     : cxx([&] {
         std::optional<Scene> scene;
         if (still != nullptr) scene = Scene::build(*still).value();
-        return World::build(scene, {tolerance, asksMeshes}).value();
+        WorldOptions options = work;
+        options.tolerance = tolerance;
+        options.askMeshes = asksMeshes;
+        return World::build(scene, options).value();
       }()) {
   ft_world_options options = initialised(ft_world_options_init);
+  if (work.workPerPair != WorldOptions().workPerPair) options.work_per_pair = work.workPerPair;
+  if (work.workPerWindow != WorldOptions().workPerWindow) {
+    options.work_per_window = work.workPerWindow;
+  }
   options.tolerance = tolerance;
   options.asks_meshes = asksMeshes ? 1 : 0;
   if (still != nullptr) still_ = Scene::build(*still).value();

@@ -28,7 +28,7 @@ using WorldHandle = std::unique_ptr<ft_world, ReleaseWorld>;
 class MovingWorld {
  public:
   explicit MovingWorld(double tolerance = 1e-3, const RawScene* still = nullptr,
-                       bool asksMeshes = false);
+                       bool asksMeshes = false, const WorldOptions& work = {});  // its budgets
 
   /// `asksSelf`: own links as well, by the derived rules. A surface is given in C as well.
   BodyId add(const Avatar& avatar, BodyOptions options = {}, bool asksSelf = false);

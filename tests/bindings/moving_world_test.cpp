@@ -141,6 +141,24 @@ TEST(CMovingWorld, ARiderIsSeenFromTheLift) {
   EXPECT_FALSE(world.answerOfCxx.contacts.empty());
 }
 
+// Through a door, with hardly any work for the two, and with hardly any for all.
+TEST(CMovingWorld, WorkIsBoundedAsTold) {
+  for (const bool isPerPair : {true, false}) {
+    WorldOptions work;
+    (isPerPair ? work.workPerPair : work.workPerWindow) = 300;
+    MovingWorld world(1e-3, nullptr, false, work);
+    const BodyId door = world.add(test::doorScene()), other = world.add(ball());
+    for (const std::int64_t us : {0, 100'000}) world.push(door, us, at(-0.45, -1, 0));
+    world.push(other, 0, at(0, 0, 1));
+    world.push(other, 100'000, at(0, 0, -1));
+    world.answer(0, 100'000);
+    const auto contacts = test::contactsOf(world.c.get());
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_EQ(contacts[0].verdict, FT_VERDICT_UNDECIDED);
+    EXPECT_EQ(contacts[0].a.link, -1);
+  }
+}
+
 TEST(CMovingWorld, GroupsAreAskedAsTold) {
   const RawScene still = test::doorScene();
   MovingWorld world(1e-3, &still);

@@ -129,6 +129,19 @@ class Events(unittest.TestCase):
         leaves = [e for e in ft.Follower(world, 0).follow(100_000).events if e.kind == "leave"]
         self.assertEqual([e.is_not_asked for e in leaves], [True])
 
+    def test_who_is_put_elsewhere_leaves_where_it_was(self):
+        world = ft.World()
+        one, other = passing(world)
+        hand = world.add(ball(0.02))
+        world.push(hand, 0, place(9.0))
+        world.push(hand, 100_000, place(9.0))
+        world.attach(other, hand, 50_000, place(1.0))
+        (leave,) = [e for e in ft.Follower(world, 0).follow(100_000).events if e.kind == "leave"]
+        self.assertTrue(leave.is_moved and not leave.is_not_asked)
+        self.assertEqual(leave.time_us, 50_000)
+        self.assertGreater(leave.penetration, 0)
+        self.assertLess(abs(leave.a.point[0]), 1)
+
     def test_objects_of_a_scene_are_named(self):
         floor = ft.Scene.from_arrays([[-9, 0, -9], [9, 0, -9], [0, 0, 9]], [[0, 1, 2]])
         world = ft.World(floor)

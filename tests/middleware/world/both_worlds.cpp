@@ -96,6 +96,7 @@ void BothWorlds::push(BodyId body, std::int64_t utimeUs, const RigidPose& pose) 
 void BothWorlds::attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs,
                         const Pose& pose) {
   valueOf(world.attach(body, carrier, utimeUs, pose));
+  if (!carrier.movesInFrame) heldFast_.insert({body, carrier.body, carrier.link});
   oracle.bodies[slotOf(body)].episodes.push_back(
       {utimeUs, carrier.body, carrier.link, {utimeUs}, {placesOf(pose)}});
 }
@@ -126,7 +127,8 @@ bool BothWorlds::hasParts(BodyId body, LinkId link) const {
 bool BothWorlds::areJoined(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB) const {
   const auto hangsOn = [this](BodyId carried, LinkId link, BodyId carrier, LinkId holding) {
     const OracleBody& body = oracle.bodies[slotOf(carried)];
-    return body.parents[slotOf(link)] < 0 &&
+    const bool isHeld = heldFast_.count({carried, carrier, holding}) != 0;
+    return (body.parents[slotOf(link)] < 0 || isHeld) &&
            std::any_of(body.episodes.begin(), body.episodes.end(), [&](const OracleEpisode& e) {
              return e.carrier == carrier && e.link == holding;
            });

@@ -4,7 +4,9 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "judge/world_judge.h"
@@ -47,7 +49,8 @@ class BothWorlds {
   /// scene.
   void judgeAll(std::int64_t fromUs, std::int64_t toUs);
 
-  /// One carries the other at some time.
+  /// One carries the other at some time, and so they are not asked: all of what is held fast, the
+  /// roots of what moves in the frame.
   [[nodiscard]] bool areJoined(BodyId a, LinkId linkOfA, BodyId b, LinkId linkOfB) const;
 
   World world;
@@ -72,6 +75,7 @@ class BothWorlds {
   OracleEpisode& episode(BodyId body, std::int64_t utimeUs);
 
   double tolerance_;
+  std::set<std::tuple<BodyId, BodyId, LinkId>> heldFast_;  ///< By carrier and its link.
   OracleBody still_;  ///< Not among the judge's bodies but while it is judged: then the last one.
 };
 

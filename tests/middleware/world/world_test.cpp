@@ -409,6 +409,40 @@ TEST(World, CarriesInCirclesThatAreNeverClosed) {
   EXPECT_GT(both.tally.contact, 0);
 }
 
+// A person of hips and a foot on a lift of LSS, and on one of triangles. While he moves in its
+// frame his foot stands on it, and his hips are where he hangs on it; put there fast, he is as a
+// part of it.
+TEST(World, AsksARiderWhoMovesAboutHisCarrierAndNotOneWhoIsHeldFast) {
+  const Lss hips{Vector3d::Zero(), Vector3d::Zero(), 0.1};
+  const Avatar person = Avatar::build(skeletonOf(2), {{hips}, {hips}}).value();
+  Pose standing;
+  standing.rotations.assign(2, Quaternion::Identity());
+  standing.translations = {Vector3d(0.05, 0.0, 0.0), Vector3d(0.0, 0.5, 0.0)};
+  for (const bool isMesh : {false, true}) {
+    for (const bool moves : {false, true}) {
+      BothWorlds both(1e-4);
+      const Lss pole{Vector3d(0, -1, 0), Vector3d(0, 1, 0), 0.1};
+      const BodyId lift =
+          isMesh ? both.add(wall()) : both.add(Avatar::build(skeletonOf(1), {{pole}}).value());
+      const BodyId rider = both.add(person);
+      for (const std::int64_t us : {0, 100}) {
+        both.push(lift, us, at(0.0, 0.01 * static_cast<double>(us)));
+        both.push(rider, us, standing);
+      }
+      both.attach(rider, {lift, 0, moves}, 50, standing);
+      if (moves) both.push(rider, 100, standing);
+      const WorldContacts answer = answerOf(both.world, 50, 100);
+      ASSERT_EQ(answer.contacts.size(), moves ? 1u : 0u) << isMesh;
+      if (moves) {
+        EXPECT_EQ(answer.contacts[0].b.link, 1);
+        EXPECT_EQ(answer.contacts[0].verdict, Verdict::StartsInContact);
+      }
+      both.judge(lift, rider, 50, 100);
+      for (const std::string& problem : both.problems) ADD_FAILURE() << problem;
+    }
+  }
+}
+
 // Deeper than any skeleton may be, no question could be asked.
 TEST(World, RefusesTowersThatAreTooDeep) {
   World world = emptyWorld();

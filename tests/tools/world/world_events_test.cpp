@@ -211,6 +211,24 @@ TEST_F(WorldEventsFile, SaysWhyAContactEndsThatNobodyAsksAbout) {
   EXPECT_EQ(find(file.events, "leave", "man Hips, ball  ").count("cause"), 0u);
 }
 
+/// The cup lies in the ball until the man takes it to where it is 5 m away.
+TEST_F(WorldEventsFile, SaysWhereAContactEndsWithAJump) {
+  const std::string world = stage_.write(
+      kManWalks +
+      sphereNamed("cup",
+                  "position = [9, 0, 0]\n[[body.attach]]\ntime = 0.2\nto = \"man\"\nlink = "
+                  "\"Hips\"\nposition = [0, 5, 0]\n") +
+      sphereNamed("ball", "position = [9, 0.06, 0]\n"));
+  const EventsFile file = follow(world);
+  const json& moved = find(file.events, "leave", "cup , ball  ");
+  EXPECT_EQ(moved["cause"], "moved");
+  EXPECT_EQ(moved["utime"], 200000);
+  EXPECT_NEAR(moved["penetration"].get<double>(), 0.04, 1e-9);
+  EXPECT_NEAR(moved["a"]["point"][0].get<double>(), 9.0, 1e-9);
+  EXPECT_NEAR(moved["a"]["point"][1].get<double>(), 0.05, 1e-9);
+  EXPECT_NEAR(moved["b"]["point"][1].get<double>(), 0.01, 1e-9);
+}
+
 /// The ball is known until 0.05 s, and taken to stay; the man meets it at 0.06 s.
 TEST_F(WorldEventsFile, MarksWhatRestsOnWhoHoldsStill) {
   const std::string ball =
