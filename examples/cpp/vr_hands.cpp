@@ -1,6 +1,6 @@
 // A head and two controllers, as OpenXR tells of them: the player stands on a lift that rises,
-// leans with one hand on its rail and reaches through the wall with the other. Prints what holds
-// the hands.
+// leans with one hand on its rail and reaches through the wall with the other. Prints what the
+// hands meet and leave, and what holds them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -133,30 +133,43 @@ class Screen {
     std::printf("right hand at z = %.2f, tracked at %.2f, at %s\n", shown.translations[kRight].z(),
                 tracked.translations[kRight].z(), right.c_str());
   }
+  /// What a hand meets, or leaves: the time for a sound, or for a button.
+  void tell(const WorldEvent& event, const Avatar& avatar, const Scene& still, const Scene& lift) {
+    const bool isEnter = event.kind == EventKind::Enter;
+    if (!isEnter && event.kind != EventKind::Leave) return;
+    const Scene& met = event.b.body == kStillScene ? still : lift;
+    std::printf("%.3f s: %s %s %s, at %.2f m/s\n",
+                1e-6 * static_cast<double>(event.time.us - kFirst / 1000),
+                avatar.skeleton().name(event.a.link).c_str(), isEnter ? "meets" : "leaves",
+                met.objectNames()[static_cast<std::size_t>(event.object)].c_str(),
+                std::abs(event.approachSpeed));
+    met_ += isEnter;
+  }
   /// Whether all was as it is meant to be.
   bool end() const {
     std::printf(
         "leaned on the lift in %d of %d frames, reached the wall in %d, proven free in %d\n",
         leaning_, frames_, reaching_, proven_);
-    return leaning_ > 180 && reaching_ > 180 && proven_ == frames_;
+    return leaning_ > 180 && reaching_ > 180 && proven_ == frames_ && met_ == 2;
   }
 
  private:
-  int leaning_ = 0, reaching_ = 0, proven_ = 0, frames_ = 0;
+  int leaning_ = 0, reaching_ = 0, proven_ = 0, frames_ = 0, met_ = 0;
 };
 
 int main() {
   const Avatar avatar = headAndHands();
-  const Scene still = shaft();
+  const Scene still = shaft(), rail = liftWithRail();
   Screen screen;
 
   SolidWorld world = checked(SolidWorld::build(still, kFirst / 1000));  // the first tick is later
-  const BodyId user = checked(world.add(avatar));                  // solid: follows its targets
-  const BodyId lift = checked(world.world().add(liftWithRail()));  // moves as it is told
+  const BodyId user = checked(world.add(avatar));        // solid: follows its targets
+  const BodyId lift = checked(world.world().add(rail));  // moves as it is told
   checked(world.world().push(lift, kFirst / 1000, liftAt(0.0)));
   Pose tracked = restPose(avatar.skeleton());
   std::vector<std::uint8_t> isTracked(3);
   std::vector<SolidBodyTick> ticks;
+  WorldEvents happened;
   for (int frame = 1; frame <= 360; ++frame) {
     const XrTime time = kFirst + frame * kPeriod;  // predictedDisplayTime
     const std::int64_t us = time / 1000;           // when what is drawn is seen
@@ -173,6 +186,8 @@ int main() {
       isTracked[link] = located[link].isTracked;
     }
     checked(world.tick(us, {{user, &tracked, &isTracked}}, ticks));
+    checked(world.follow(happened));  // from enter to leave
+    for (const WorldEvent& event : happened.events) screen.tell(event, avatar, still, rail);
     world.world().forgetBefore(us);
     screen.draw(ticks[0], tracked, holderOf(kLeft, ticks[0], still, lift),
                 holderOf(kRight, ticks[0], still, lift));

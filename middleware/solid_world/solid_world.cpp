@@ -26,6 +26,16 @@ Error ofBody(BodyId body, ErrorCode code, const std::string& what) {
   return error;
 }
 
+/// An avatar that reaches as far as its skin does.
+Result<Avatar> grownBy(const Avatar& avatar, double skin) {
+  std::vector<std::vector<Lss>> grown;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    grown.push_back(avatar.lss(link));
+    for (Lss& lss : grown.back()) lss.radius += skin;
+  }
+  return Avatar::build(avatar.skeleton(), std::move(grown));
+}
+
 /// Of a target that was refused: whose it is.
 Error ofTarget(BodyId body, Error error) {
   error.message = "body " + std::to_string(body) + ": " + error.message;
@@ -37,16 +47,26 @@ Error ofTarget(BodyId body, Error error) {
 
 class SolidWorld::Parts {
  public:
-  Parts(World world, Scene still, std::int64_t beginUs)
-      : world_(std::move(world)), still_(std::move(still)), atUs_(beginUs) {}
+  Parts(World world, WorldFollower follower, SolidReach reach, Scene still, std::int64_t beginUs)
+      : world_(std::move(world)),
+        follower_(std::move(follower)),
+        reach_(reach),
+        still_(std::move(still)),
+        atUs_(beginUs) {}
 
   World& world() { return world_; }
+  WorldFollower& follower() { return follower_; }
+  Result<Done> follow(WorldEvents& events) { return follower_.follow(world_, atUs_, events); }
   [[nodiscard]] std::int64_t utimeUs() const { return atUs_; }
 
   Result<BodyId> add(const Avatar& avatar, const SolidOptions& options, const BodyOptions& body) {
     FORETOUCH_TRY(auto solid, internal::SolidBody::build(world_.numBodies(), avatar, still_,
                                                          options, numbers_));
-    FORETOUCH_TRY(const BodyId id, world_.add(avatar, body));
+    Avatar met = avatar;
+    if (reach_ == SolidReach::Skin && !body.self && !body.surface) {
+      FORETOUCH_TRY(met, grownBy(avatar, options.skin));
+    }
+    FORETOUCH_TRY(const BodyId id, world_.add(met, body));
     solids_.push_back(std::make_unique<internal::SolidBody>(std::move(solid)));
     signatures_.emplace_back();
     return id;
@@ -277,6 +297,8 @@ class SolidWorld::Parts {
   }
 
   World world_;
+  WorldFollower follower_;
+  SolidReach reach_;
   Scene still_;
   std::int64_t atUs_;
   internal::KindNumbers numbers_;
@@ -292,14 +314,16 @@ class SolidWorld::Parts {
 };
 
 Result<SolidWorld> SolidWorld::build(const Scene& still, std::int64_t beginUs,
-                                     const WorldOptions& options) {
+                                     const WorldOptions& options, SolidReach reach) {
   if (beginUs < -kMostUtimeUs || beginUs >= kMostUtimeUs) {
     return Error::in(
         "begin", ErrorCode::OutOfRange,
         "expected an instant within " + us(kMostUtimeUs) + " of zero, found " + us(beginUs));
   }
   FORETOUCH_TRY(World world, World::build(still, options));
-  return SolidWorld(std::make_unique<Parts>(std::move(world), still, beginUs));
+  FORETOUCH_TRY(auto follower, WorldFollower::start(beginUs));
+  return SolidWorld(
+      std::make_unique<Parts>(std::move(world), std::move(follower), reach, still, beginUs));
 }
 
 SolidWorld::SolidWorld(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -318,6 +342,14 @@ const World& SolidWorld::world() const {
 Result<BodyId> SolidWorld::add(const Avatar& avatar, const SolidOptions& options,
                                const BodyOptions& body) {
   return parts_->add(avatar, options, body);
+}
+
+Result<Done> SolidWorld::follow(WorldEvents& events) {
+  return parts_->follow(events);
+}
+
+WorldFollower& SolidWorld::follower() {
+  return parts_->follower();
 }
 
 std::int64_t SolidWorld::utimeUs() const {

@@ -10,12 +10,22 @@
 
 #include "articulated/avatar.h"
 #include "articulated/result.h"
+#include "middleware/events/world_follower.h"
 #include "middleware/scene/scene.h"
 #include "middleware/solid/solid_options.h"
 #include "middleware/solid_world/solid_body_tick.h"
 #include "middleware/world/world.h"
 
 namespace foretouch {
+
+/// How far solid avatars reach in SolidWorld::world().
+enum class SolidReach : std::uint8_t {
+  /// To the gap at which they stop (SolidOptions::skin): whoever asks the world, or follows it,
+  /// finds them in contact with what they press against.
+  Skin,
+  /// To their surface: they are found to touch nothing but what crushes them.
+  Surface,
+};
 
 /// A world, its solid avatars, and their memory. For one thread. What it answers depends on the
 /// poses and the options alone.
@@ -24,13 +34,15 @@ class SolidWorld {
   /// `still`: what never moves. The first tick begins at `beginUs`. Errors: as World::build(), an
   /// instant out of range.
   static Result<SolidWorld> build(const Scene& still, std::int64_t beginUs,
-                                  const WorldOptions& options = {});
+                                  const WorldOptions& options = {},
+                                  SolidReach reach = SolidReach::Skin);
   SolidWorld(SolidWorld&&) noexcept;
   SolidWorld& operator=(SolidWorld&&) noexcept;
   ~SolidWorld();
 
   /// The world: add what moves by itself (doors, lifts, balls), push its poses, attach what hands
-  /// hold. A solid avatar's own poses are pushed by tick(), and by nobody else.
+  /// hold. A solid avatar's own poses are pushed by tick(), and by nobody else. It reaches to its
+  /// skin there, unless build() was told otherwise, or it has own links or a surface (BodyOptions).
   [[nodiscard]] World& world();
   [[nodiscard]] const World& world() const;
 
@@ -54,6 +66,15 @@ class SolidWorld {
   /// Allocates nothing once memory has grown, as long as nobody takes or lets go.
   Result<Done> tick(std::int64_t utimeUs, const std::vector<SolidBodyTarget>& targets,
                     std::vector<SolidBodyTick>& ticks);
+
+  /// What has happened from where the last call ended until the last tick's end: whoever meets
+  /// whom, from enter to leave, at the instants at which the shown motions do (world_follower.h).
+  /// A solid avatar enters what it comes as near as its skin, and the world's tolerance; its points
+  /// are those of its skin. What presses on it meanwhile, and how hard, is in the ticks. To be
+  /// called before World::forgetBefore(). Errors: as WorldFollower::follow().
+  Result<Done> follow(WorldEvents& events);
+  /// For what bodies weigh, and what is open now.
+  [[nodiscard]] WorldFollower& follower();
 
   class Parts;
 

@@ -27,7 +27,6 @@ const std::map<std::string, std::string>& allowed() {
       {"tools/stream/told_events.cpp: a call", oneJoint},
       {"middleware/query/rung_query.cpp: plan",
        "the usual options, of a fidelity that is asserted"},
-      {"tools/report/body_track.cpp: a call", "World::add() has refused what leaves the limit"},
       {"tools/solid/solid_check.cpp: first", "both are asked in a loop over the two"},
       {"tools/solid/solid_check.cpp: last", "both are asked in a loop over the two"},
   };

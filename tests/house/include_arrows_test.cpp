@@ -55,7 +55,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"depth", {"world", "", "scene"}},
       {"triggers", {"events", "depth", "world", "exact", "", "scene"}},
       {"events", {"world", "query", "mechanics", "", "lanes", "scene"}},
-      {"solid_world", {"world", "solid", "query", "mechanics", "", "scene"}},
+      {"solid_world", {"events", "world", "solid", "query", "mechanics", "", "scene"}},
       {"reference", {"query", "", "exact", "surface", "scene"}}}},
     {"assets",
      {{"", {}},
