@@ -12,8 +12,9 @@
 #include <string_view>
 #include <unistd.h>
 
-#include "assets/import/assimp.h"
 #include "assets/import/cage.h"
+#include "assets/import/failure.h"
+#include "assets/import/gltf_file.h"
 #include "assets/import/memory_budget.h"
 #include "assets/import/mjcf_text.h"
 #include "assets/import/model.h"
@@ -37,6 +38,7 @@ bool writeAll(int fd, std::string_view bytes) {
 
 Model read(const ModelQuestion& question) {
   if (lowerExtensionOf(question.path) == ".urdf") return readUrdf(question);
+  if (isGltf(question.path)) return readGltf(question);
   if (!isMjcf(question.path)) return readModel(question);
 #ifdef FORETOUCH_HAS_MUJOCO
   return readMjcf(question);
