@@ -49,11 +49,11 @@ bool isUsable(const Quaternion& value) {
 
 SampledTrack::SampledTrack(const ModelTrack& track, const Affine& rest)
     : node_(track.node),
-      positions_(cleaned<PositionKey>(track.positions, track.positionTangents)),
-      rotations_(cleaned<RotationKey>(track.rotations, track.rotationTangents)),
       positionsAreCubic_(!track.positionTangents.empty()),
       rotationsAreCubic_(!track.rotationTangents.empty()),
       rest_(rest) {
+  positions_ = cleaned<PositionKey>(track.positions, track.positionTangents);
+  rotations_ = cleaned<RotationKey>(track.rotations, track.rotationTangents);
   // The format joins what a spline's file holds, and makes the result unit.
   for (auto& key : rotations_) {
     if (!rotationsAreCubic_) key.value.coeffs().stableNormalize();

@@ -119,7 +119,13 @@ TEST_P(PackedModels, StandAndMoveAsTheirOriginals) {
   const double size = sizeOf(fromCorners);
   ASSERT_GT(size, 0.0);
   EXPECT_LT(farthest(toCorners, fromCorners), asked.quantum * size);
-  EXPECT_LT(farthest(fromCorners, toCorners), asked.quantum * size);
+  const bool isSimplified = std::string(asked.options).find("-si") != std::string::npos;
+  if (isSimplified) {
+    EXPECT_LT(toCorners.size(), fromCorners.size());
+  }
+  EXPECT_LT(farthest(fromCorners, toCorners), (isSimplified ? 0.2 : asked.quantum) * size);
+  // Fewer triangles, other links: each moves as a whole with the link of most of its weights.
+  if (isSimplified) return;
   // Rotations have 12 bits, keys are taken anew 30 times per second.
   ASSERT_EQ(to.model.animations.size(), from.model.animations.size());
   for (std::size_t i = 0; i < std::min<std::size_t>(2, from.model.animations.size()); ++i) {
@@ -142,10 +148,12 @@ INSTANTIATE_TEST_SUITE_P(
     SharedData, PackedModels,
     testing::Values(Packed{"Fox.glb", "", 1e-4}, Packed{"Fox.glb", "-noq", 1e-6},
                     Packed{"Fox.glb", "-cc", 1e-4}, Packed{"Fox.glb", "-c -vpn", 1e-4},
-                    Packed{"Fox.glb", "-kn -vp 16", 3e-5}, Packed{"greenman.glb", "-cc", 2e-4},
-                    Packed{"greenman.glb", "-noq", 1e-6}, Packed{"greenman.glb", "-vpn", 2e-4},
-                    Packed{"cesium_man.gltf", "", 2e-4}, Packed{"cesium_man.gltf", "-cc", 2e-4},
-                    Packed{"cesium_man.gltf", "-cf", 2e-4},
+                    Packed{"Fox.glb", "-kn -vp 16", 3e-5},
+                    // Half of the triangles: their corners are among the old ones, not the reverse.
+                    Packed{"Fox.glb", "-si 0.5", 1e-4}, Packed{"greenman.glb", "-cc -si 0.5", 2e-4},
+                    Packed{"greenman.glb", "-cc", 2e-4}, Packed{"greenman.glb", "-noq", 1e-6},
+                    Packed{"greenman.glb", "-vpn", 2e-4}, Packed{"cesium_man.gltf", "", 2e-4},
+                    Packed{"cesium_man.gltf", "-cc", 2e-4}, Packed{"cesium_man.gltf", "-cf", 2e-4},
                     Packed{"robot_expressive.glb", "-noq", 1e-6},
                     Packed{"robot_expressive.glb", "-cc -kn", 1e-3},
                     Packed{"kaykit_manny/manny_med_mod.gltf", "-cc", 2e-4}),

@@ -36,7 +36,7 @@ TEST_F(PassedOver, OfObjAreSurfacesThatAreNoPolygons) {
         << scene.report.notes[0];
     EXPECT_EQ(scene.scene.triangles.size(), 1U);
   }
-  EXPECT_TRUE(written("b.obj", "mtllib a.mtl\no x\ng y\nusemtl z\ns 1\nlod 1\nc_interp on\n" + obj)
+  EXPECT_TRUE(written("b.obj", "mtllib a.mtl\no x\ng y\nusemtl z\ns 1\nc_interp on\n" + obj)
                   .report.notes.empty());
   EXPECT_EQ(written("c.obj", obj + "l 1 2\np 1\n").report.notes,
             (std::vector<std::string>{"2 points and lines are left out: they have no surface"}));
