@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <utility>
 
@@ -128,6 +130,51 @@ constexpr std::array<Word, 4> kOfColladaAnimations{{{"BEZIER", kStraight},
 constexpr std::array<Word, 3> kOfFbx{
     {{"NurbsSurface", kNoMesh}, {"NurbsCurve", kNoMesh}, {"PatchDimensions", kNoMesh}}};
 
+/// Little-endian, of an array of numbers in a binary file.
+std::uint32_t wordAt(std::string_view bytes, std::size_t at) {
+  std::uint32_t word = 0;
+  for (std::size_t i = 4; i > 0 && at + i <= bytes.size(); --i) {
+    word = word << 8 | static_cast<unsigned char>(bytes[at + i - 1]);
+  }
+  return word;
+}
+
+/// The flags of a curve's first keys, behind the name of that property. Text: ": *1 { a: 264 }".
+/// Binary: the letter i, a count, an encoding (0: plain), a size, the numbers. 0: none to be seen.
+std::uint32_t curveFlags(std::string_view behind) {
+  if (!behind.empty() && behind.front() == 'i') {
+    constexpr std::size_t kEncoding = 5, kNumbers = 13;
+    return wordAt(behind, kEncoding) == 0 ? wordAt(behind, kNumbers) : 0;
+  }
+  std::uint32_t flags = 0;
+  const std::size_t list = std::min(behind.substr(0, 64).find("a:"), behind.size());
+  const std::size_t digit = std::min(behind.find_first_of("0123456789", list), behind.size());
+  std::from_chars(behind.data() + digit, behind.data() + behind.size(), flags);
+  return flags;
+}
+
+std::size_t cubicCurvesOfFbx(std::string_view text) {
+  constexpr std::string_view kFlags = "KeyAttrFlags";
+  constexpr std::uint32_t kCubic = 8;
+  std::size_t count = 0;
+  for (std::size_t at = text.find(kFlags); at != std::string_view::npos;
+       at = text.find(kFlags, at + kFlags.size())) {
+    count += (curveFlags(text.substr(at + kFlags.size())) & kCubic) != 0;
+  }
+  return count;
+}
+
+std::vector<std::string> passedOverInFbx(std::string_view text, bool readsAnimations) {
+  std::vector<std::string> notes = wordsIn(text, kOfFbx);
+  const std::size_t cubic = readsAnimations ? cubicCurvesOfFbx(text) : 0;
+  if (cubic > 0) {
+    notes.push_back("the cubic keys of " + std::to_string(cubic) +
+                    " animation curves are joined by straight lines: bake them where keys are far "
+                    "apart");
+  }
+  return notes;
+}
+
 }  // namespace
 
 std::vector<std::string> passedOver(const std::string& path, bool readsAnimations) {
@@ -139,7 +186,7 @@ std::vector<std::string> passedOver(const std::string& path, bool readsAnimation
   if (!text.ok()) return {};
   if (isObj) return passedOverInObj(text.value());
   if (isPly) return passedOverInPly(text.value());
-  if (isFbx) return wordsIn(text.value(), kOfFbx);
+  if (isFbx) return passedOverInFbx(text.value(), readsAnimations);
   std::vector<std::string> notes = wordsIn(text.value(), kOfCollada);
   if (!readsAnimations) return notes;
   for (std::string& note : wordsIn(text.value(), kOfColladaAnimations)) {
