@@ -1,7 +1,7 @@
 // foretouch-import: reads a model file and writes its content to standard output: its triangles
 // (assets/import/protocol.h), or with --model its nodes, meshes, bones and animations
 // (assets/import/model_stream.h). A helper of the library, run as a child under limits that its
-// parent sets; the only program that links assimp, urdfdom and libmujoco.
+// parent sets; the only program that links assimp, Draco, urdfdom and libmujoco.
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>

@@ -23,7 +23,7 @@ void ImportWriter::totals(const ImportTotals& totals) {
 }
 
 void ImportWriter::note(std::string_view text) {
-  if (++notes_ <= kMaxImportNotes) frame(kSceneNote, text.substr(0, kMaxImportNoteBytes));
+  frame(kSceneNote, text.substr(0, kMaxImportNoteBytes));
 }
 
 void ImportWriter::object(std::string_view name, std::uint64_t triangles) {

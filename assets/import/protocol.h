@@ -36,7 +36,7 @@ class ImportWriter : public FrameWriter {
   using FrameWriter::FrameWriter;
 
   void totals(const ImportTotals& totals);
-  /// Right behind the totals.
+  /// Right behind the totals, at most kMaxImportNotes.
   void note(std::string_view text);
   void object(std::string_view name, std::uint64_t triangles);
   void triangle(const std::array<Eigen::Vector3d, 3>& vertices);
@@ -47,7 +47,6 @@ class ImportWriter : public FrameWriter {
   void flushTriangles();
 
   std::uint64_t triangles_ = 0;
-  std::size_t notes_ = 0;
   std::string pending_;  // triangles of the frame being filled
 };
 

@@ -278,6 +278,18 @@ TEST_F(GltfImport, NamesARequiredExtensionThatItDoesNotKnow) {
             std::string::npos);
 }
 
+TEST_F(GltfImport, SaysHowManyNotesItDoesNotSay) {
+  GltfWriter writer;
+  writer.meshNode({{"attributes", {{"POSITION", writer.accessor(kThree, 3)}}}});
+  for (int i = 0; i < 100; ++i) {
+    writer.root["extensionsUsed"].push_back("VENDOR_" + std::to_string(i));
+  }
+  const auto notes = sceneOf(writer).report.notes;
+  ASSERT_EQ(notes.size(), 64U);
+  EXPECT_TRUE(mentions({notes[62]}, "'VENDOR_62'"));
+  EXPECT_EQ(notes[63], "37 more notes");
+}
+
 TEST_F(GltfImport, ReadsSkinsWithQuantisedWeights) {
   for (const Stored type : {Stored::UByte, Stored::UShort, Stored::Float}) {
     const bool isNormalised = type != Stored::Float;
