@@ -46,6 +46,10 @@ void printNote(const std::string& text) {
   if (!isToldQuiet) printLine("note: ", text);
 }
 
+void printNotes(const std::string& file, const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) printNote(file + ": " + note);
+}
+
 void printAside(const std::string& text) {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "articulated/result.h"
 
@@ -35,6 +36,8 @@ ExitCode failed(const Error& error);
 
 /// A line on stderr for remarks that stop nothing.
 void printNote(const std::string& text);
+/// One for each, about a file.
+void printNotes(const std::string& file, const std::vector<std::string>& notes);
 
 /// Text on stderr, unchanged: for text that belongs on stdout when a file uses stdout.
 void printAside(const std::string& text);

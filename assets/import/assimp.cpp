@@ -10,6 +10,7 @@
 #include "assets/import/file_damage.h"
 #include "assets/import/memory_budget.h"
 #include "assets/import/model_files.h"
+#include "assets/import/passed_over.h"
 #include "assets/import/text.h"
 #include "lss/index.h"
 #include "middleware/scene/raw_scene.h"
@@ -42,20 +43,16 @@ void addFace(const aiMesh& mesh, const aiFace& face, MeshTriangles& out) {
   }
 }
 
-/// The formats that docs/formats.md names. assimp has some fifty readers, and each is a way in for
-/// a file that somebody made to harm.
-constexpr std::array<std::string_view, 12> kFormats{
-    ".obj", ".stl", ".ply", ".gltf", ".glb", ".dae", ".fbx", ".3ds", ".off", ".x", ".iqm", ".bvh"};
+/// The formats that docs/formats.md names, but glTF, whose reader is our own. assimp has some fifty
+/// readers, and each is a way in for a file that somebody made to harm.
+constexpr std::array<std::string_view, 10> kAssimpFormats{".obj", ".stl", ".ply", ".dae", ".fbx",
+                                                          ".3ds", ".off", ".x",   ".iqm", ".bvh"};
 
 bool isOurs(const aiImporterDesc* reader) {
   if (reader == nullptr || reader->mFileExtensions == nullptr) return false;
   const std::string_view extensions = reader->mFileExtensions;
   const std::string first = "." + std::string(extensions.substr(0, extensions.find(' ')));
-  // Of its two readers of glTF, the one of version 1 has the name without a number.
-  if (first == ".gltf" && std::string_view(reader->mName).find("glTF2") == std::string_view::npos) {
-    return false;
-  }
-  return std::find(kFormats.begin(), kFormats.end(), first) != kFormats.end();
+  return std::find(kAssimpFormats.begin(), kAssimpFormats.end(), first) != kAssimpFormats.end();
 }
 
 void keepOurFormatsAlone(Assimp::Importer& importer) {
@@ -84,10 +81,11 @@ AssimpFile readWithAssimp(const std::string& path, Animations animations) {
   Assimp::Importer& importer = *new Assimp::Importer;
   setUp(importer, path, animations);
   const std::string extension = lowerExtensionOf(path);
-  if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end()) {
+  if (std::find(kAssimpFormats.begin(), kAssimpFormats.end(), extension) == kAssimpFormats.end()) {
     throw Failure{ImportFailure::UnknownFormat, extension};
   }
-  if (const auto damage = hopelessDamageOf(path)) throw Failure{ImportFailure::Refused, *damage};
+  AssimpFile file;
+  file.notes = passedOver(path, animations == Animations::Read);
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene == nullptr) {
     const std::string reason = importer.GetErrorString();
@@ -100,7 +98,6 @@ AssimpFile readWithAssimp(const std::string& path, Animations animations) {
     throw Failure{ImportFailure::Refused, damage.value_or(reason)};
   }
   if (scene->mRootNode == nullptr) throw Failure{ImportFailure::Refused, "no root node"};
-  AssimpFile file;
   file.scene = scene;
   const int index = importer.GetPropertyInteger("importerIndex", -1);
   const aiImporterDesc* reader = index < 0 ? nullptr : importer.GetImporterInfo(slotOf(index));
@@ -115,6 +112,18 @@ Affine transformOf(const aiMatrix4x4& m) {
   transform.linear << m.a1, m.a2, m.a3, m.b1, m.b2, m.b3, m.c1, m.c2, m.c3;
   transform.translation = Vector3d(m.a4, m.b4, m.c4);
   return transform;
+}
+
+std::string textOf(const aiString& text) {
+  return std::string(text.data, text.length);
+}
+
+std::vector<Vector3d> verticesOf(const aiMesh& mesh) {
+  std::vector<Vector3d> vertices;
+  if (mesh.mVertices == nullptr) return vertices;
+  vertices.reserve(mesh.mNumVertices);
+  for (unsigned v = 0; v < mesh.mNumVertices; ++v) vertices.push_back(vertexOf(mesh, v));
+  return vertices;
 }
 
 Vector3d vertexOf(const aiMesh& mesh, std::uint32_t index) {

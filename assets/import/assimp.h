@@ -11,20 +11,11 @@
 #include <assimp/scene.h>
 
 #include "assets/import/declared_frame.h"
+#include "assets/import/failure.h"
 #include "assets/import/polygon.h"
-#include "assets/import/stream.h"
 #include "assets/model/model.h"
 
 namespace foretouch::internal {
-
-/// Ends an import with a message to the parent.
-struct Failure {
-  ImportFailure kind;
-  std::string text;
-};
-[[noreturn]] inline void refuse(const std::string& text) {
-  throw Failure{ImportFailure::Refused, text};
-}
 
 /// A mesh of the file, triangulated once for all its placements. Indices are in range.
 struct MeshTriangles {
@@ -39,11 +30,14 @@ enum class Animations : bool { Skip, Read };
 struct AssimpFile {
   const aiScene* scene = nullptr;  ///< With a root node; never freed.
   ReadFrame frame;
+  std::vector<std::string> notes;  ///< What assimp says nothing of (assets/import/passed_over.h).
 };
 [[nodiscard]] AssimpFile readWithAssimp(const std::string& path, Animations animations);
 
 /// In double; assimp's matrices are float, and a chain of them would lose digits.
 [[nodiscard]] Affine transformOf(const aiMatrix4x4& m);
+[[nodiscard]] std::string textOf(const aiString& text);
+[[nodiscard]] std::vector<Eigen::Vector3d> verticesOf(const aiMesh& mesh);
 [[nodiscard]] Eigen::Vector3d vertexOf(const aiMesh& mesh, std::uint32_t index);
 [[nodiscard]] MeshTriangles trianglesOf(const aiMesh& mesh);
 /// Throws if `mesh` is not the number of a mesh of the file.

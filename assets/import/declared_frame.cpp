@@ -64,11 +64,7 @@ ReadFrame colladaFrame(const aiScene& scene) {
 ReadFrame frameOf(const aiScene& scene, std::string_view extensions) {
   if (extensions == "fbx") return fbxFrame(scene);
   if (extensions.find("dae") != std::string_view::npos) return colladaFrame(scene);
-  ReadFrame read;
-  if (extensions.find("gltf") != std::string_view::npos) {
-    read.frame.declared = {1.0, UpAxis::Y, true};
-  }
-  return read;
+  return {};
 }
 
 }  // namespace foretouch::internal

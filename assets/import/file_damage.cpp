@@ -5,7 +5,6 @@
 #include <exception>
 #include <string_view>
 
-#include "assets/import/glb_damage.h"
 #include "assets/import/text.h"
 #include "assets/import/xml_damage.h"
 #include "assets/text_file.h"
@@ -32,21 +31,10 @@ std::optional<std::string> damageOf(const std::string& path) {
   try {
     const std::string extension = lowerExtensionOf(path);
     std::string damage;
-    if (extension == ".glb") damage = damageOfGlb(path);
-    if (extension == ".gltf") damage = damageOfGltf(path);
     if (isXml(extension)) damage = damageOfXmlFile(path);
     if (!damage.empty()) return damage;
   } catch (const std::exception&) {
     // Out of memory, for example: the reader's own reason must do.
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> hopelessDamageOf(const std::string& path) {
-  try {
-    if (lowerExtensionOf(path) == ".glb" && isGlbWithoutItsJson(path)) return damageOf(path);
-  } catch (const std::exception&) {
-    // Not readable: the reader reports that.
   }
   return std::nullopt;
 }

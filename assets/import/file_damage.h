@@ -8,13 +8,9 @@
 
 namespace foretouch::internal {
 
-/// The damage and its place; nothing if there is none, or if the format is not .glb, .gltf or one
-/// of those in XML. Call it for refused files only: damage that a reader tolerates is no reason to
+/// The damage and its place; nothing if there is none, or if the format is not one of those in
+/// XML. Call it for refused files only: damage that a reader tolerates is no reason to
 /// refuse a file.
 [[nodiscard]] std::optional<std::string> damageOf(const std::string& path);
-
-/// The same, before a reader runs: only damage that no reader could tolerate, and on which assimp
-/// would first spend much memory.
-[[nodiscard]] std::optional<std::string> hopelessDamageOf(const std::string& path);
 
 }  // namespace foretouch::internal

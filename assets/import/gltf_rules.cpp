@@ -7,7 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "articulated/quoted.h"
-#include "assets/import/gltf_extents.h"
+#include "assets/import/gltf_elements.h"
+#include "assets/import/gltf_json.h"
 #include "lss/index.h"
 
 namespace foretouch::internal {
@@ -23,13 +24,15 @@ enum class Kind : std::uint8_t {
   Number3,  ///< A list of that many numbers.
   Number4,
   Number16,
+  Numbers,  ///< A list of any number of them.
+  Flag,
   Index,       ///< The number of an element of `target`, a list at the root.
   LocalIndex,  ///< The same, in a list of the current animation.
   Version,
   Mode,
   ComponentType,
   ElementType,
-  AnimatedPath,
+  Interpolation,
 };
 
 struct Rule {
@@ -40,8 +43,12 @@ struct Rule {
   std::string_view target = {};
 };
 
-// Parts that readers depend on. Colours and images only as far as indices lead to them.
+// What the reader depends on: colours, images and cameras may be as they like.
 constexpr Rule kRules[] = {
+    {"extensionsUsed", Kind::List},
+    {"extensionsUsed/*", Kind::Text},
+    {"extensionsRequired", Kind::List},
+    {"extensionsRequired/*", Kind::Text},
     {"asset", Kind::Object, true},
     {"asset/version", Kind::Version, true},
     {"scenes", Kind::List},
@@ -61,20 +68,30 @@ constexpr Rule kRules[] = {
     {"nodes/*/children/*", Kind::Index, false, "nodes"},
     {"nodes/*/mesh", Kind::Index, false, "meshes"},
     {"nodes/*/skin", Kind::Index, false, "skins"},
-    {"nodes/*/camera", Kind::Index, false, "cameras"},
     {"nodes/*/matrix", Kind::Number16},
     {"nodes/*/translation", Kind::Number3},
     {"nodes/*/rotation", Kind::Number4},
     {"nodes/*/scale", Kind::Number3},
+    {"nodes/*/weights", Kind::Numbers},
+    {"nodes/*/extensions/EXT_mesh_gpu_instancing", Kind::Object},
+    {"nodes/*/extensions/EXT_mesh_gpu_instancing/attributes", Kind::Object, true},
+    {"nodes/*/extensions/EXT_mesh_gpu_instancing/attributes/*", Kind::Index, false, "accessors"},
     {"meshes/*", Kind::Object},
+    {"meshes/*/weights", Kind::Numbers},
     {"meshes/*/primitives", Kind::List, true},
     {"meshes/*/primitives/*", Kind::Object},
     {"meshes/*/primitives/*/attributes", Kind::Object, true},
     {"meshes/*/primitives/*/attributes/*", Kind::Index, false, "accessors"},
     {"meshes/*/primitives/*/indices", Kind::Index, false, "accessors"},
-    {"meshes/*/primitives/*/material", Kind::Index, false, "materials"},
     {"meshes/*/primitives/*/mode", Kind::Mode},
+    {"meshes/*/primitives/*/targets", Kind::List},
+    {"meshes/*/primitives/*/targets/*", Kind::Object},
     {"meshes/*/primitives/*/targets/*/*", Kind::Index, false, "accessors"},
+    {"meshes/*/primitives/*/extensions/KHR_draco_mesh_compression", Kind::Object},
+    {"meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/bufferView", Kind::Index, true,
+     "bufferViews"},
+    {"meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/attributes", Kind::Object, true},
+    {"meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/attributes/*", Kind::Count},
     {"skins/*", Kind::Object},
     {"skins/*/joints", Kind::List, true},
     {"skins/*/joints/*", Kind::Index, false, "nodes"},
@@ -83,6 +100,7 @@ constexpr Rule kRules[] = {
     {"animations/*", Kind::Object},
     {"animations/*/samplers", Kind::List, true},
     {"animations/*/samplers/*", Kind::Object},
+    {"animations/*/samplers/*/interpolation", Kind::Interpolation},
     {"animations/*/samplers/*/input", Kind::Index, true, "accessors"},
     {"animations/*/samplers/*/output", Kind::Index, true, "accessors"},
     {"animations/*/channels", Kind::List, true},
@@ -90,34 +108,39 @@ constexpr Rule kRules[] = {
     {"animations/*/channels/*/sampler", Kind::LocalIndex, true, "samplers"},
     {"animations/*/channels/*/target", Kind::Object, true},
     {"animations/*/channels/*/target/node", Kind::Index, false, "nodes"},
-    {"animations/*/channels/*/target/path", Kind::AnimatedPath, true},
+    {"animations/*/channels/*/target/path", Kind::Text, true},
     {"accessors/*", Kind::Object},
     {"accessors/*/bufferView", Kind::Index, false, "bufferViews"},
     {"accessors/*/byteOffset", Kind::Count},
     {"accessors/*/componentType", Kind::ComponentType, true},
     {"accessors/*/count", Kind::Count, true},
     {"accessors/*/type", Kind::ElementType, true},
+    {"accessors/*/normalized", Kind::Flag},
+    {"accessors/*/sparse", Kind::Object},
     {"accessors/*/sparse/count", Kind::Count, true},
+    {"accessors/*/sparse/indices", Kind::Object, true},
     {"accessors/*/sparse/indices/bufferView", Kind::Index, true, "bufferViews"},
+    {"accessors/*/sparse/indices/byteOffset", Kind::Count},
+    {"accessors/*/sparse/indices/componentType", Kind::ComponentType, true},
+    {"accessors/*/sparse/values", Kind::Object, true},
     {"accessors/*/sparse/values/bufferView", Kind::Index, true, "bufferViews"},
+    {"accessors/*/sparse/values/byteOffset", Kind::Count},
     {"bufferViews/*", Kind::Object},
     {"bufferViews/*/buffer", Kind::Index, true, "buffers"},
     {"bufferViews/*/byteOffset", Kind::Count},
     {"bufferViews/*/byteLength", Kind::Count, true},
     {"bufferViews/*/byteStride", Kind::Count},
+    {"bufferViews/*/extensions/EXT_meshopt_compression", Kind::Object},
+    {"bufferViews/*/extensions/EXT_meshopt_compression/buffer", Kind::Index, true, "buffers"},
+    {"bufferViews/*/extensions/EXT_meshopt_compression/byteOffset", Kind::Count},
+    {"bufferViews/*/extensions/EXT_meshopt_compression/byteLength", Kind::Count, true},
+    {"bufferViews/*/extensions/EXT_meshopt_compression/byteStride", Kind::Count, true},
+    {"bufferViews/*/extensions/EXT_meshopt_compression/count", Kind::Count, true},
+    {"bufferViews/*/extensions/EXT_meshopt_compression/mode", Kind::Text, true},
+    {"bufferViews/*/extensions/EXT_meshopt_compression/filter", Kind::Text},
     {"buffers/*", Kind::Object},
     {"buffers/*/byteLength", Kind::Count, true},
     {"buffers/*/uri", Kind::Text},
-    {"images/*/bufferView", Kind::Index, false, "bufferViews"},
-    {"textures/*/source", Kind::Index, false, "images"},
-    {"textures/*/sampler", Kind::Index, false, "samplers"},
-    {"materials/*", Kind::Object},
-    {"materials/*/pbrMetallicRoughness/baseColorTexture/index", Kind::Index, true, "textures"},
-    {"materials/*/pbrMetallicRoughness/metallicRoughnessTexture/index", Kind::Index, true,
-     "textures"},
-    {"materials/*/normalTexture/index", Kind::Index, true, "textures"},
-    {"materials/*/occlusionTexture/index", Kind::Index, true, "textures"},
-    {"materials/*/emissiveTexture/index", Kind::Index, true, "textures"},
 };
 
 /// A value, or a missing one, with the path of keys that leads there.
@@ -174,7 +197,7 @@ std::string shown(const json& value) {
 
 constexpr char kComponentTypes[] = "one of 5120, 5121, 5122, 5123, 5125, 5126";
 constexpr char kElementTypes[] = "one of SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4";
-constexpr char kAnimatedPaths[] = "one of translation, rotation, scale, weights";
+constexpr char kInterpolations[] = "one of LINEAR, STEP, CUBICSPLINE";
 
 bool isVersion2(const json& value) {
   return value.is_string() && value.get_ref<const std::string&>().rfind("2.", 0) == 0;
@@ -184,18 +207,17 @@ bool isMode(const json& value) {
   return value.is_number_unsigned() && value.get<std::uint64_t>() <= 6;
 }
 
-bool isAnimatedPath(const json& value) {
-  return value == "translation" || value == "rotation" || value == "scale" || value == "weights";
+bool isInterpolation(const json& value) {
+  return value == "LINEAR" || value == "STEP" || value == "CUBICSPLINE";
 }
 
-bool isNumbers(const json& value, std::size_t count) {
-  return value.is_array() && value.size() == count &&
+bool isNumbers(const json& value) {
+  return value.is_array() &&
          std::all_of(value.begin(), value.end(), [](const json& x) { return x.is_number(); });
 }
 
-std::size_t sizeOf(const json& document, std::string_view list) {
-  const auto found = document.find(std::string(list));
-  return found != document.end() && found->is_array() ? found->size() : 0;
+bool isNumbers(const json& value, std::size_t count) {
+  return isNumbers(value) && value.size() == count;
 }
 
 std::string numberOf(std::size_t size, std::string_view list) {
@@ -215,7 +237,9 @@ std::string unmet(const Rule& rule, const Visited& visited, const json& document
     case Kind::Number4: return unless(isNumbers(value, 4), "a list of 4 numbers");
     case Kind::Number16: return unless(isNumbers(value, 16), "a list of 16 numbers");
     case Kind::ElementType: return unless(elementShape(value).rows > 0, kElementTypes);
-    case Kind::AnimatedPath: return unless(isAnimatedPath(value), kAnimatedPaths);
+    case Kind::Numbers: return unless(isNumbers(value), "a list of numbers");
+    case Kind::Flag: return unless(value.is_boolean(), "true or false");
+    case Kind::Interpolation: return unless(isInterpolation(value), kInterpolations);
     case Kind::Version: return unless(isVersion2(value), "the text 2.0");
     case Kind::Mode: return unless(isMode(value), "a whole number from 0 to 6");
     case Kind::ComponentType: return unless(componentBytes(value) > 0, kComponentTypes);

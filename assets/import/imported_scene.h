@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "assets/file_frame.h"
 #include "middleware/scene/raw_scene.h"
@@ -33,6 +34,8 @@ struct SceneImportReport {
                                       ///< surface.
   std::size_t skippedFaces = 0;       ///< Faces with vertex indices out of range, once per
                                       ///< placement.
+  /// What the file has and its reader left out, one sentence each. Bounded in number.
+  std::vector<std::string> notes;
 };
 
 struct ImportedScene {

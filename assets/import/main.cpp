@@ -1,7 +1,7 @@
 // foretouch-import: reads a model file and writes its content to standard output: its triangles
 // (assets/import/protocol.h), or with --model its nodes, meshes, bones and animations
 // (assets/import/model_stream.h). A helper of the library, run as a child under limits that its
-// parent sets; the only program that links assimp, urdfdom and libmujoco.
+// parent sets; the only program that links assimp, Draco, urdfdom and libmujoco.
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
@@ -12,8 +12,9 @@
 #include <string_view>
 #include <unistd.h>
 
-#include "assets/import/assimp.h"
 #include "assets/import/cage.h"
+#include "assets/import/failure.h"
+#include "assets/import/gltf_file.h"
 #include "assets/import/memory_budget.h"
 #include "assets/import/mjcf_text.h"
 #include "assets/import/model.h"
@@ -37,6 +38,7 @@ bool writeAll(int fd, std::string_view bytes) {
 
 Model read(const ModelQuestion& question) {
   if (lowerExtensionOf(question.path) == ".urdf") return readUrdf(question);
+  if (isGltf(question.path)) return readGltf(question);
   if (!isMjcf(question.path)) return readModel(question);
 #ifdef FORETOUCH_HAS_MUJOCO
   return readMjcf(question);

@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include "assets/import/assimp.h"
+#include "assets/import/failure.h"
 #include "assets/import/mjcf_model.h"
 #include "assets/import/model.h"
 #include "assets/import/text.h"

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <utility>
 
-#include "assets/import/assimp.h"
+#include "assets/import/failure.h"
 #include "assets/import/mjcf_model.h"
 #include "assets/import/solids.h"
 #include "assets/import/text.h"

@@ -9,7 +9,7 @@
 #include <tinyxml.h>
 #include <utility>
 
-#include "assets/import/assimp.h"
+#include "assets/import/failure.h"
 #include "assets/import/memory_budget.h"
 #include "assets/import/mjcf_tree.h"
 #include "assets/import/text.h"

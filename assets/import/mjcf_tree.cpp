@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <tinyxml.h>
 
-#include "assets/import/assimp.h"
+#include "assets/import/failure.h"
 #include "assets/import/memory_budget.h"
 #include "assets/import/side_files.h"
 #include "assets/import/text.h"

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "articulated/avatar.h"
 #include "assets/import/assimp.h"
 #include "assets/import/fbx_pivots.h"
 #include "assets/import/text.h"
@@ -19,10 +18,6 @@ using Eigen::Vector3d;
 
 // assimp leaves 0 if a format states no rate; its own tools then use 25.
 constexpr double kDefaultTicksPerSecond = 25.0;
-
-std::string textOf(const aiString& text) {
-  return std::string(text.data, text.length);
-}
 
 bool isFinite(const Affine& affine) {
   return affine.linear.allFinite() && affine.translation.allFinite();
@@ -49,7 +44,9 @@ class AssimpModel {
       builder_.note("the animation of " + quotedName(name) +
                     " has no curve for a part of its translation or rotation, which becomes 0");
     }
-    noteSkipped();
+    for (const std::string& note : skippedNotes(skippedPrimitives_, skippedFaces_)) {
+      builder_.note(note);
+    }
   }
 
  private:
@@ -214,17 +211,6 @@ class AssimpModel {
     animation.tracks.push_back(std::move(track));
   }
 
-  void noteSkipped() {
-    if (skippedPrimitives_ > 0) {
-      builder_.note(std::to_string(skippedPrimitives_) +
-                    " points and lines are left out: they have no surface");
-    }
-    if (skippedFaces_ > 0) {
-      builder_.note(std::to_string(skippedFaces_) +
-                    " faces with vertex indices out of range are left out");
-    }
-  }
-
   struct NodeOfName {
     std::int32_t index;
     bool hasMesh;
@@ -242,72 +228,11 @@ class AssimpModel {
 
 }  // namespace
 
-void ModelBuilder::count(const ModelSize& more) {
-  size_.nodes += more.nodes;
-  size_.lss += more.lss;
-  size_.mimics += more.mimics;
-  size_.meshes += more.meshes;
-  size_.vertices += more.vertices;
-  size_.triangles += more.triangles;
-  size_.bones += more.bones;
-  size_.weights += more.weights;
-  size_.animations += more.animations;
-  size_.tracks += more.tracks;
-  size_.keys += more.keys;
-  size_.nameBytes += more.nameBytes;
-  if (const std::string excess = size_.excess(); !excess.empty()) {
-    throw Failure{ImportFailure::TooLarge, "instances counted, " + excess};
-  }
-}
-
-void ModelBuilder::addLss(std::int32_t node, const Lss& lss) {
-  std::vector<Lss>& own = model.nodes[slotOf(node)].lss;
-  if (own.size() == kMaxLssPerLink) {
-    throw Failure{ImportFailure::TooLarge, "more than " + std::to_string(kMaxLssPerLink) +
-                                               " spheres and capsules on a link"};
-  }
-  ModelSize more;
-  more.lss = 1;
-  count(more);
-  own.push_back(lss);
-}
-
-void ModelBuilder::addMesh(std::int32_t node, const std::string& name,
-                           std::vector<Vector3d> vertices,
-                           const std::vector<std::array<std::int32_t, 3>>& triangles) {
-  ModelSize more;
-  more.meshes = 1;
-  more.vertices = vertices.size();
-  more.triangles = triangles.size();
-  more.nameBytes = name.size();
-  count(more);
-  ModelMesh mesh;
-  mesh.name = name;
-  mesh.node = node;
-  mesh.vertices = std::move(vertices);
-  mesh.triangles = triangles;
-  model.meshes.push_back(std::move(mesh));
-}
-
-void ModelBuilder::note(const std::string& text) {
-  std::vector<std::string>& notes = model.notes;
-  if (std::find(notes.begin(), notes.end(), text) != notes.end()) return;
-  if (notes.size() + 1 < kMaxModelNotes) {
-    notes.push_back(text);
-  } else {
-    ++notesLeftOut_;
-  }
-}
-
-Model ModelBuilder::take() {
-  if (notesLeftOut_ > 0) model.notes.push_back(std::to_string(notesLeftOut_) + " more notes");
-  return std::move(model);
-}
-
 Model readModel(const ModelQuestion& question) {
   const AssimpFile file = readWithAssimp(question.path, Animations::Read);
   ModelBuilder builder;
   builder.model.frame = file.frame.frame;
+  for (const std::string& note : file.notes) builder.note(note);
   AssimpModel(file, builder).build();
   return builder.take();
 }

@@ -1,5 +1,5 @@
-// assets/import/model.h: a model from assimp, a URDF or MJCF, and the counts that all keep while
-// they build it. In foretouch-import only. Not installed.
+// assets/import/model.h: a model from assimp, glTF, a URDF or MJCF, and the counts that all keep
+// while they build it. In foretouch-import only. Not installed.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct ModelQuestion {
 /// A model under construction, within the limits: count each part before you add it.
 class ModelBuilder {
  public:
-  /// Throws Failure (assets/import/assimp.h) if the limits do not allow `more`.
+  /// Throws Failure (assets/import/failure.h) if the limits do not allow `more`.
   void count(const ModelSize& more);
   /// Counts them as well. Throw Failure.
   void addLss(std::int32_t node, const Lss& lss);
@@ -44,6 +44,7 @@ class ModelBuilder {
 
 /// Metres: converts lengths from the file's unit. Throw Failure.
 [[nodiscard]] Model readModel(const ModelQuestion& question);
+[[nodiscard]] Model readGltf(const ModelQuestion& question);
 [[nodiscard]] Model readUrdf(const ModelQuestion& question);
 /// Where the program is built with libmujoco.
 [[nodiscard]] Model readMjcf(const ModelQuestion& question);

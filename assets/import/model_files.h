@@ -14,8 +14,7 @@ class ModelFiles : public Assimp::DefaultIOSystem {
   explicit ModelFiles(std::string model) : model_(std::move(model)) {}
 
   bool Exists(const char* path) const override;
-  /// Counts the bytes of what it opens (assets/import/memory_budget.h). A glTF model comes with the
-  /// matrices that the format lets it leave out (assets/import/gltf_skins.h).
+  /// Counts the bytes of what it opens (assets/import/memory_budget.h).
   Assimp::IOStream* Open(const char* path, const char* mode) override;
 
  private:

@@ -55,6 +55,10 @@ void scaleLengths(Model& model, double scale) {
   for (ModelAnimation& animation : model.animations) {
     for (ModelTrack& track : animation.tracks) {
       for (auto& key : track.positions) key.value *= scale;
+      for (auto& [in, out] : track.positionTangents) {
+        in *= scale;
+        out *= scale;
+      }
     }
   }
 }
@@ -95,6 +99,14 @@ void turnTop(Model& model, internal::FrameChange::Turn by) {
       if (!isTop[slotOf(track.node)]) continue;
       for (auto& key : track.positions) key.value = turn * key.value;
       for (auto& key : track.rotations) key.value = rotation * key.value;
+      for (auto& [in, out] : track.positionTangents) {
+        in = turn * in;
+        out = turn * out;
+      }
+      for (auto& [in, out] : track.rotationTangents) {
+        in = (rotation * Quaternion(in)).coeffs();
+        out = (rotation * Quaternion(out)).coeffs();
+      }
     }
   }
 }

@@ -1,7 +1,7 @@
-// assets/import/model_import.h: rigged models from files: every format with bones or nodes that
-// assimp reads, URDF, and MJCF where libmujoco is. Reads them in the same child process, under the
-// same limits, as scenes (assets/import/scene_import.h), and checks its output like any other
-// untrusted data.
+// assets/import/model_import.h: rigged models from files: glTF, every other format with bones or
+// nodes that assimp reads, URDF, and MJCF where libmujoco is. Reads them in the same child process,
+// under the same limits, as scenes (assets/import/scene_import.h), and checks its output like any
+// other untrusted data.
 #pragma once
 
 #include <string>

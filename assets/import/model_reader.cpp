@@ -35,6 +35,8 @@ void ModelReader::parseFrame(std::uint32_t type, std::string_view payload) {
     case kPositions: return parsePositions(payload);
     case kScales: return parseScales(payload);
     case kRotations: return parseRotations(payload);
+    case kPositionTangents: return parsePositionTangents(payload);
+    case kRotationTangents: return parseRotationTangents(payload);
     case kNote: return parseNote(payload);
     default: return breakOff("a frame of unknown type " + std::to_string(type));
   }
@@ -215,6 +217,15 @@ void ModelReader::parseTrack(std::string_view payload) {
   if (std::max({head.positions, head.scales, head.rotations}) > kSaneCount) {
     return breakOff("counts beyond the limits");
   }
+  const auto fits = [](std::uint64_t tangents, std::uint64_t keys) {
+    return tangents == 0 || tangents == keys;
+  };
+  if (!fits(head.positionTangents, head.positions) ||
+      !fits(head.rotationTangents, head.rotations)) {
+    return breakOff("tangents that are not as many as keys");
+  }
+  left_.positionTangents = head.positionTangents;
+  left_.rotationTangents = head.rotationTangents;
   --left_.tracks;
   left_.positions = head.positions;
   left_.scales = head.scales;
@@ -242,6 +253,20 @@ void ModelReader::parseRotations(std::string_view payload) {
   parseAll<RotationKeyRecord>(payload, left_.rotations, [this](const RotationKeyRecord& r) {
     model_.animations.back().tracks.back().rotations.push_back(
         {r[0], Quaternion(r[1], r[2], r[3], r[4])});
+    return true;
+  });
+}
+
+void ModelReader::parsePositionTangents(std::string_view payload) {
+  parseAll<TangentRecord<3>>(payload, left_.positionTangents, [this](const TangentRecord<3>& r) {
+    model_.animations.back().tracks.back().positionTangents.push_back(tangentsIn<3>(r));
+    return true;
+  });
+}
+
+void ModelReader::parseRotationTangents(std::string_view payload) {
+  parseAll<TangentRecord<4>>(payload, left_.rotationTangents, [this](const TangentRecord<4>& r) {
+    model_.animations.back().tracks.back().rotationTangents.push_back(tangentsIn<4>(r));
     return true;
   });
 }

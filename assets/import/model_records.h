@@ -26,7 +26,9 @@ enum ModelFrame : std::uint32_t {
   kScales,
   kRotations,
   kNote,
-  kMimic
+  kMimic,
+  kPositionTangents,
+  kRotationTangents
 };
 
 using AffineRecord =
@@ -64,10 +66,14 @@ struct AnimationHead {
 };
 struct TrackHead {
   std::uint64_t positions, scales, rotations;
+  std::uint64_t positionTangents, rotationTangents;  // none, or as many as keys
   std::int64_t node;
 };
 using VectorKeyRecord = std::array<double, 4>;    // time, x, y, z
 using RotationKeyRecord = std::array<double, 5>;  // time, w, x, y, z
+
+template <int Size>
+using TangentRecord = std::array<double, 2 * Size>;  // in, out
 
 // Room for the LSS of a node beside its names; the limit of an avatar's link.
 inline constexpr std::uint32_t kMaxLssPerNode = kMaxLssPerLink;
@@ -96,6 +102,19 @@ inline VectorKeyRecord recordOf(const ModelTrack::VectorKey& key) {
 
 inline ModelTrack::VectorKey vectorKeyIn(const VectorKeyRecord& r) {
   return {r[0], Eigen::Vector3d(r[1], r[2], r[3])};
+}
+
+template <int Size>
+TangentRecord<Size> recordOf(const ModelTrack::Tangents<Eigen::Matrix<double, Size, 1>>& tangents) {
+  TangentRecord<Size> record;
+  Eigen::Map<Eigen::Matrix<double, Size, 2>>(record.data()) << tangents.in, tangents.out;
+  return record;
+}
+
+template <int Size>
+ModelTrack::Tangents<Eigen::Matrix<double, Size, 1>> tangentsIn(const TangentRecord<Size>& record) {
+  const Eigen::Map<const Eigen::Matrix<double, Size, 2>> columns(record.data());
+  return {columns.col(0), columns.col(1)};
 }
 
 inline LssRecord recordOf(const Lss& lss) {

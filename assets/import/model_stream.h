@@ -63,7 +63,10 @@ class ModelReader : public FrameReader {
   struct Left {
     std::uint64_t vertices = 0, triangles = 0, bones = 0, weights = 0;
     std::uint64_t tracks = 0, positions = 0, scales = 0, rotations = 0;
-    [[nodiscard]] bool keys() const { return positions + scales + rotations != 0; }
+    std::uint64_t positionTangents = 0, rotationTangents = 0;
+    [[nodiscard]] bool keys() const {
+      return positions + scales + rotations + positionTangents + rotationTangents != 0;
+    }
     [[nodiscard]] bool nothing() const {
       return vertices + triangles + bones + weights + tracks == 0 && !keys();
     }
@@ -83,6 +86,8 @@ class ModelReader : public FrameReader {
   void parsePositions(std::string_view payload);
   void parseScales(std::string_view payload);
   void parseRotations(std::string_view payload);
+  void parsePositionTangents(std::string_view payload);
+  void parseRotationTangents(std::string_view payload);
   void parseNote(std::string_view payload);
 
   /// Passes each record to `take`, which returns false for an impossible one; breaks off then, and

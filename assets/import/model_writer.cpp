@@ -85,7 +85,8 @@ void ModelWriter::writeMesh(const ModelMesh& mesh) {
 
 void ModelWriter::writeTrack(const ModelTrack& track) {
   countedFrame(kTrack, bytesOf(TrackHead{track.positions.size(), track.scales.size(),
-                                         track.rotations.size(), track.node}));
+                                         track.rotations.size(), track.positionTangents.size(),
+                                         track.rotationTangents.size(), track.node}));
   const auto packVector = [](const ModelTrack::VectorKey& key) { return recordOf(key); };
   writeAll<VectorKeyRecord>(kPositions, track.positions, packVector);
   writeAll<VectorKeyRecord>(kScales, track.scales, packVector);
@@ -93,6 +94,9 @@ void ModelWriter::writeTrack(const ModelTrack& track) {
     const Quaternion& q = key.value;
     return RotationKeyRecord{key.timeS, q.w(), q.x(), q.y(), q.z()};
   });
+  const auto packTangents = [](const auto& tangents) { return recordOf(tangents); };
+  writeAll<TangentRecord<3>>(kPositionTangents, track.positionTangents, packTangents);
+  writeAll<TangentRecord<4>>(kRotationTangents, track.rotationTangents, packTangents);
 }
 
 bool ModelWriter::write(const Model& model) {

@@ -9,7 +9,7 @@
 namespace foretouch::internal {
 namespace {
 
-enum SceneFrame : std::uint32_t { kSceneTotals = 1, kSceneObject, kSceneTriangles };
+enum SceneFrame : std::uint32_t { kSceneTotals = 1, kSceneObject, kSceneTriangles, kSceneNote = 7 };
 
 using TriangleBytes = std::array<double, 9>;
 constexpr std::size_t kTriangleBytes = sizeof(TriangleBytes);
@@ -20,6 +20,10 @@ static_assert(kTrianglesPerFrame * kTriangleBytes <= kMaxImportFrameBytes);
 
 void ImportWriter::totals(const ImportTotals& totals) {
   frame(kSceneTotals, bytesOf(totals));
+}
+
+void ImportWriter::note(std::string_view text) {
+  frame(kSceneNote, text.substr(0, kMaxImportNoteBytes));
 }
 
 void ImportWriter::object(std::string_view name, std::uint64_t triangles) {
@@ -55,6 +59,7 @@ void ImportReader::parseFrame(std::uint32_t type, std::string_view payload) {
   }
   switch (type) {
     case kSceneTotals: return parseTotals(payload);
+    case kSceneNote: return parseNote(payload);
     case kSceneObject: return parseObject(payload);
     case kSceneTriangles: return parseTriangles(payload);
     default: return breakOff("a frame of unknown type " + std::to_string(type));
@@ -74,6 +79,14 @@ void ImportReader::parseTotals(std::string_view payload) {
   report.uniqueMeshes = totals_.uniqueMeshes;
   report.skippedPrimitives = totals_.skippedPrimitives;
   report.skippedFaces = totals_.skippedFaces;
+}
+
+void ImportReader::parseNote(std::string_view payload) {
+  std::vector<std::string>& notes = scene_.report.notes;
+  if (!scene_.scene.objectNames.empty() || notes.size() == kMaxImportNotes) {
+    return breakOff("a note out of place");
+  }
+  notes.push_back(readableText(payload, kMaxImportNoteBytes));
 }
 
 void ImportReader::parseObject(std::string_view payload) {

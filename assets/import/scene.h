@@ -1,4 +1,4 @@
-// assets/import/scene.h: a scene read with assimp and written to the parent. In
+// assets/import/scene.h: a scene read and written to the parent. In
 // foretouch-import only. Not installed.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace foretouch::internal {
 
-/// Throws Failure (assets/import/assimp.h). False if the parent is gone.
+/// Throws Failure (assets/import/failure.h). False if the parent is gone.
 [[nodiscard]] bool sendScene(const std::string& path, ImportWriter& writer);
 
 }  // namespace foretouch::internal

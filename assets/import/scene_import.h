@@ -1,5 +1,5 @@
-// assets/import/scene_import.h: scenes from model files: every mesh format that assimp reads, with
-// node transforms and instances applied. We do not trust assimp with untrusted files (it aborts or
+// assets/import/scene_import.h: scenes from model files (docs/formats.md says which), with node
+// transforms and instances applied. We do not trust assimp with untrusted files (it aborts or
 // crashes on some), so it runs in a child process, `foretouch-import`, under limits of memory, time
 // and files, and we check the child's output like any other untrusted data.
 #pragma once
@@ -15,9 +15,10 @@ namespace foretouch {
 /// One object per mesh instance that has triangles, named after its node (its mesh if the node has
 /// no name, the file if neither has). Names are UTF-8 without control characters. Triangles in the
 /// order of the file: nodes depth first, parents before children. A face of n corners gives n - 2
-/// triangles. Does not apply skins, morphs and animations. Keeps vertices that are not finite:
-/// Scene::build() drops and counts their triangles. Never throws, never crashes with the file,
-/// never leaves a child process behind.
+/// triangles. Does not apply skins and animations; morph targets stand at their default weights
+/// where the format has such (glTF). Keeps vertices that are not finite: Scene::build() drops and
+/// counts their triangles. Never throws, never crashes with the file, never leaves a child process
+/// behind.
 [[nodiscard]] Result<ImportedScene> importScene(const std::string& path,
                                                 const SceneImportOptions& options = {});
 

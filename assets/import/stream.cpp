@@ -13,7 +13,7 @@ namespace {
 
 struct Greeting {
   std::array<char, 8> magic = {'F', 'T', 'I', 'M', 'P', 'O', 'R', 'T'};
-  std::uint32_t version = 2;
+  std::uint32_t version = 3;
   std::uint32_t byteOrder = 0x01020304;
 };
 struct FrameHead {

@@ -51,6 +51,18 @@ std::string quotedName(std::string_view name) {
   return "'" + readableText(name, 120) + "'";
 }
 
+std::vector<std::string> skippedNotes(std::uint64_t primitives, std::uint64_t faces) {
+  std::vector<std::string> notes;
+  if (primitives > 0) {
+    notes.push_back(std::to_string(primitives) +
+                    " points and lines are left out: they have no surface");
+  }
+  if (faces > 0) {
+    notes.push_back(std::to_string(faces) + " faces with vertex indices out of range are left out");
+  }
+  return notes;
+}
+
 std::string lowerExtensionOf(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),

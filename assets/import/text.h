@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace foretouch::internal {
 
@@ -15,6 +17,10 @@ namespace foretouch::internal {
 
 /// A name of the file for a message: readable, at most 120 bytes of it, in single quotes.
 [[nodiscard]] std::string quotedName(std::string_view name);
+
+/// What a file's report says of points and lines, and of faces with vertex indices out of range,
+/// where there are any.
+[[nodiscard]] std::vector<std::string> skippedNotes(std::uint64_t primitives, std::uint64_t faces);
 
 /// ".glb" of "a/B.GLB".
 [[nodiscard]] std::string lowerExtensionOf(const std::string& path);

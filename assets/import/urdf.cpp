@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "assets/import/assimp.h"
+#include "assets/import/failure.h"
 #include "assets/import/memory_budget.h"
 #include "assets/import/model.h"
 #include "assets/import/text.h"

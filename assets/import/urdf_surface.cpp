@@ -4,7 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "assets/import/assimp.h"
+#include "assets/import/failure.h"
+#include "assets/import/placed_meshes.h"
 #include "assets/import/side_files.h"
 #include "assets/import/text.h"
 #include "lss/index.h"
@@ -27,34 +28,24 @@ double checkedLength(double length, const std::string& link) {
 }
 
 /// All placements of a file's meshes in the file's own frame, in metres.
-FlatMesh flatten(const AssimpFile& file) {
+FlatMesh flatten(const PlacedMeshes& placed) {
   FlatMesh flat;
-  const auto nodes = nodesOf(*file.scene, kMaxModelNodes);
-  std::vector<Affine> toFile;
-  Affine toMetres;
-  toMetres.linear *= file.frame.metresPerUnit;
-  for (const VisitedNode& visited : nodes) {
-    const Affine& parent = visited.parent < 0 ? toMetres : toFile[slotOf(visited.parent)];
-    toFile.push_back(parent * transformOf(visited.node->mTransformation));
-    for (unsigned i = 0; i < visited.node->mNumMeshes; ++i) {
-      checkMeshIndex(*file.scene, visited.node->mMeshes[i]);
-      const aiMesh& mesh = *file.scene->mMeshes[visited.node->mMeshes[i]];
-      const MeshTriangles cut = trianglesOf(mesh);
-      ModelSize size;
-      size.vertices = flat.vertices.size() + mesh.mNumVertices;
-      size.triangles = flat.triangles.size() + cut.triangles.size();
-      if (const std::string excess = size.excess(); !excess.empty()) {
-        throw Failure{ImportFailure::TooLarge, excess};
-      }
-      const auto first = static_cast<std::int32_t>(flat.vertices.size());
-      for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-        flat.vertices.push_back(toFile.back() * vertexOf(mesh, v));
-      }
-      for (const CornerTriple& t : cut.triangles) {
-        flat.triangles.push_back({first + static_cast<std::int32_t>(t[0]),
-                                  first + static_cast<std::int32_t>(t[1]),
-                                  first + static_cast<std::int32_t>(t[2])});
-      }
+  for (const PlacedMeshes::Placement& placement : placed.placements) {
+    const PlacedMeshes::Mesh& mesh = placed.meshes[placement.mesh];
+    ModelSize size;
+    size.vertices = flat.vertices.size() + mesh.vertices.size();
+    size.triangles = flat.triangles.size() + mesh.triangles.size();
+    if (const std::string excess = size.excess(); !excess.empty()) {
+      throw Failure{ImportFailure::TooLarge, excess};
+    }
+    const auto first = static_cast<std::int32_t>(flat.vertices.size());
+    for (const Vector3d& vertex : mesh.vertices) {
+      flat.vertices.push_back(placement.toFile * vertex);
+    }
+    for (const CornerTriple& t : mesh.triangles) {
+      flat.triangles.push_back({first + static_cast<std::int32_t>(t[0]),
+                                first + static_cast<std::int32_t>(t[1]),
+                                first + static_cast<std::int32_t>(t[2])});
     }
   }
   return flat;
@@ -196,7 +187,12 @@ const FlatMesh* UrdfSurface::meshOf(const std::string& reference, const std::str
   if (found == meshes_.end()) {
     std::optional<FlatMesh> mesh;
     try {
-      mesh = flatten(readWithAssimp(path, Animations::Skip));
+      const PlacedMeshes placed = placedMeshesOf(path);
+      for (const std::string& note : placed.notes) builder_.note(about + ": " + note);
+      for (const std::string& note : skippedNotes(0, placed.totals.skippedFaces)) {
+        builder_.note(about + ": " + note);
+      }
+      mesh = flatten(placed);
     } catch (const Failure& failure) {
       if (failure.kind != ImportFailure::Refused && failure.kind != ImportFailure::UnknownFormat) {
         throw;

@@ -1,6 +1,6 @@
 #include "assets/import/xml_document.h"
 
-#include "assets/import/assimp.h"
+#include "assets/import/failure.h"
 #include "assets/import/text.h"
 #include "assets/import/xml_damage.h"
 

@@ -1,6 +1,6 @@
-// assets/model/model.h: a rigged model as read from a file (glTF, FBX, Collada, URDF, MJCF ...): nodes,
-// meshes, skins, joints and animations. Uninterpreted: assets/model/model_avatar.h decides what it
-// means as an avatar. Metres, radians, seconds, converted from the file's unit.
+// assets/model/model.h: a rigged model as read from a file (glTF, FBX, Collada, URDF, MJCF ...):
+// nodes, meshes, skins, joints and animations. Uninterpreted: assets/model/model_avatar.h decides
+// what it means as an avatar. Metres, radians, seconds, converted from the file's unit.
 #pragma once
 
 #include <array>
@@ -29,7 +29,8 @@ struct Affine {
   }
 };
 
-/// How a node may move against its parent; files without joints (all but URDF and MJCF) leave it Free.
+/// How a node may move against its parent; files without joints (all but URDF and MJCF) leave it
+/// Free.
 enum class ModelJointType : std::uint8_t { Free, Fixed, Revolute, Continuous, Prismatic, Planar };
 
 struct ModelNode {
@@ -85,6 +86,16 @@ struct ModelTrack {
   };
   std::vector<VectorKey> positions, scales;
   std::vector<RotationKey> rotations;
+
+  /// Of a key of a cubic spline, per second: where the curve comes in, and where it goes out.
+  template <typename Value>
+  struct Tangents {
+    Value in, out;
+  };
+  /// Empty: straight lines join the keys, and turns at constant rate. Else as many as keys: cubics
+  /// join them. Those of rotations are of x, y, z, w.
+  std::vector<Tangents<Eigen::Vector3d>> positionTangents = {};
+  std::vector<Tangents<Eigen::Vector4d>> rotationTangents = {};
 };
 
 struct ModelAnimation {

@@ -7,6 +7,7 @@
 
 #include "articulated/try.h"
 #include "assets/bvh/bvh_reader.h"
+#include "assets/model/chord_error.h"
 #include "assets/model/model_frames.h"
 #include "assets/model/model_tracks.h"
 #include "assets/model/pose_frames.h"
@@ -68,6 +69,16 @@ std::vector<std::string> notesOn(const Model& model,
   return notes;
 }
 
+/// Splines are followed exactly at the poses; between them, a clip is what it is.
+void noteChordError(double errorM, double rateHz, std::vector<std::string>& notes) {
+  constexpr double kNoticeable = 1e-3;  // metres
+  if (!(errorM > kNoticeable)) return;
+  notes.push_back("the animation follows curves: between its poses at " + inDigits(rateHz) +
+                  " Hz the clip leaves them by up to " + inDigits(1e3 * errorM, 3) + " mm; " +
+                  inDigits(std::ceil(rateHz * std::sqrt(errorM / kNoticeable))) +
+                  " Hz would keep within 1 mm");
+}
+
 /// From the first frame at 0 s to one that is not before the last key.
 Result<std::size_t> countFrames(const ModelAnimation& animation,
                                 const std::vector<internal::SampledTrack>& tracks, double rateHz) {
@@ -114,7 +125,10 @@ Result<Clip> clipFromModel(const Model& model, const ModelClipOptions& options) 
     }
     FORETOUCH_CHECK(collector.add(frames));
   }
-  return collector.take(1.0 / options.rateHz, notesOn(model, tracks));
+  std::vector<std::string> notes = notesOn(model, tracks);
+  noteChordError(internal::chordErrorOf(model, tracks, count, options.rateHz), options.rateHz,
+                 notes);
+  return collector.take(1.0 / options.rateHz, std::move(notes));
 }
 
 }  // namespace foretouch

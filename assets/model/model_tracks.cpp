@@ -28,6 +28,15 @@ Between<Key> between(const std::vector<Key>& keys, double timeS) {
   return {before, *after, (timeS - before.timeS) / (after->timeS - before.timeS)};
 }
 
+/// The Hermite cubic from p to q, with tangents per second and `durationS` between them.
+template <typename Vector>
+Vector onCubic(const Vector& p, const Vector& out, const Vector& q, const Vector& in,
+               double durationS, double share) {
+  const double t = share, t2 = t * t, t3 = t2 * t;
+  return (2 * t3 - 3 * t2 + 1) * p + durationS * (t3 - 2 * t2 + t) * out + (3 * t2 - 2 * t3) * q +
+         durationS * (t3 - t2) * in;
+}
+
 bool isUsable(const Eigen::Vector3d& value) {
   return value.allFinite();
 }
@@ -39,38 +48,56 @@ bool isUsable(const Quaternion& value) {
 }  // namespace
 
 SampledTrack::SampledTrack(const ModelTrack& track, const Affine& rest)
-    : track_(track), rest_(rest) {
-  clean(track_.positions);
-  clean(track_.scales);
-  clean(track_.rotations);
-  for (auto& key : track_.rotations) key.value.coeffs().stableNormalize();
-  findScale();
+    : node_(track.node),
+      positionsAreCubic_(!track.positionTangents.empty()),
+      rotationsAreCubic_(!track.rotationTangents.empty()),
+      rest_(rest) {
+  positions_ = cleaned<PositionKey>(track.positions, track.positionTangents);
+  rotations_ = cleaned<RotationKey>(track.rotations, track.rotationTangents);
+  // The format joins what a spline's file holds, and makes the result unit.
+  for (auto& key : rotations_) {
+    if (!rotationsAreCubic_) key.value.coeffs().stableNormalize();
+  }
+  findScale(cleaned<PositionKey>(track.scales, decltype(track.positionTangents){}));
 }
 
-template <typename Keys>
-void SampledTrack::clean(Keys& keys) {
-  const auto bad = std::remove_if(keys.begin(), keys.end(), [](const auto& key) {
-    return !std::isfinite(key.timeS) || !isUsable(key.value);
-  });
-  leftOut_ += static_cast<std::size_t>(keys.end() - bad);
-  keys.erase(bad, keys.end());
-  std::stable_sort(keys.begin(), keys.end(),
+template <typename CleanKey, typename From, typename Tangents>
+std::vector<CleanKey> SampledTrack::cleaned(const From& keys, const Tangents& tangents) {
+  std::vector<CleanKey> clean;
+  clean.reserve(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    CleanKey key{keys[i].timeS, keys[i].value, {}, {}};
+    key.in.setZero();
+    key.out.setZero();
+    if (!tangents.empty()) {
+      key.in = tangents[i].in;
+      key.out = tangents[i].out;
+    }
+    if (std::isfinite(key.timeS) && isUsable(key.value) && key.in.allFinite() &&
+        key.out.allFinite()) {
+      clean.push_back(key);
+    } else {
+      ++leftOut_;
+    }
+  }
+  std::stable_sort(clean.begin(), clean.end(),
                    [](const auto& a, const auto& b) { return a.timeS < b.timeS; });
-  if (!keys.empty()) lastKeyS_ = std::max(lastKeyS_, keys.back().timeS);
+  if (!clean.empty()) lastKeyS_ = std::max(lastKeyS_, clean.back().timeS);
+  return clean;
 }
 
 /// A matrix that mirrors does not show which of its axes the file mirrored; the keys do.
-void SampledTrack::findScale() {
+void SampledTrack::findScale(const std::vector<PositionKey>& scales) {
   scale_ = nearestRotation(rest_.linear).transpose() * rest_.linear;
-  if (track_.scales.empty()) return;
+  if (scales.empty()) return;
   const Eigen::Vector3d sizes = rest_.linear.colwise().norm();
-  const Eigen::Vector3d& first = track_.scales.front().value;
+  const Eigen::Vector3d& first = scales.front().value;
   if ((first.array() < 0.0).any()) {
     const Eigen::Vector3d signs =
         (first.array() < 0.0).select(-Eigen::Vector3d::Ones(), Eigen::Vector3d::Ones());
     scale_ = sizes.cwiseProduct(signs).asDiagonal();
   }
-  for (const auto& key : track_.scales) {
+  for (const auto& key : scales) {
     const Eigen::Vector3d off = key.value.cwiseAbs() - sizes;
     if (off.cwiseAbs().maxCoeff() > kScaleNote * sizes.maxCoeff()) scalesAnew_ = true;
   }
@@ -78,13 +105,27 @@ void SampledTrack::findScale() {
 
 Affine SampledTrack::at(double timeS) const {
   Affine frame = rest_;
-  if (!track_.positions.empty()) {
-    const auto [before, after, share] = between(track_.positions, timeS);
-    frame.translation = before.value + share * (after.value - before.value);
+  if (!positions_.empty()) {
+    const auto [before, after, share] = between(positions_, timeS);
+    frame.translation = positionsAreCubic_
+                            ? onCubic(before.value, before.out, after.value, after.in,
+                                      after.timeS - before.timeS, share)
+                            : Eigen::Vector3d(before.value + share * (after.value - before.value));
   }
-  if (!track_.rotations.empty()) {
-    const auto [before, after, share] = between(track_.rotations, timeS);
-    frame.linear = before.value.slerp(share, after.value).toRotationMatrix() * scale_;
+  if (!rotations_.empty()) {
+    const auto [before, after, share] = between(rotations_, timeS);
+    Quaternion turned = before.value;
+    if (rotationsAreCubic_) {
+      const Eigen::Vector4d mixed =
+          onCubic<Eigen::Vector4d>(before.value.coeffs(), before.out, after.value.coeffs(),
+                                   after.in, after.timeS - before.timeS, share);
+      // A spline through nothing, at this instant no rotation: that of the key holds on.
+      if (isUsable(Quaternion(mixed))) turned = Quaternion(mixed);
+      turned.coeffs().stableNormalize();
+    } else {
+      turned = before.value.slerp(share, after.value);
+    }
+    frame.linear = turned.toRotationMatrix() * scale_;
   }
   return frame;
 }

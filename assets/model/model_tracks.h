@@ -17,24 +17,37 @@ class SampledTrack {
   SampledTrack(const ModelTrack& track, const Affine& rest);
 
   /// The node's frame in its parent's: between keys linear, rotations on the shorter arc at
-  /// constant rate; before the first and after the last key, that key. The scale is the one at
-  /// rest.
+  /// constant rate, or on a cubic spline where the keys have tangents; before the first and after
+  /// the last key, that key. The scale is the one at rest. Source: Khronos, "glTF 2.0
+  /// Specification", appendix C.
   [[nodiscard]] Affine at(double timeS) const;
 
-  [[nodiscard]] std::int32_t node() const { return track_.node; }
-  [[nodiscard]] bool turns() const { return !track_.rotations.empty(); }
-  [[nodiscard]] bool shifts() const { return !track_.positions.empty(); }
+  [[nodiscard]] std::int32_t node() const { return node_; }
+  [[nodiscard]] bool turns() const { return !rotations_.empty(); }
+  [[nodiscard]] bool isCubic() const { return positionsAreCubic_ || rotationsAreCubic_; }
   [[nodiscard]] double lastKeyS() const { return lastKeyS_; }
   [[nodiscard]] std::size_t leftOut() const { return leftOut_; }
   /// The file's scale differs from the one at rest by more than a thousandth at some key.
   [[nodiscard]] bool scalesAnew() const { return scalesAnew_; }
 
  private:
-  template <typename Keys>
-  void clean(Keys& keys);
-  void findScale();
+  template <typename Value, typename Tangent>
+  struct Key {
+    double timeS;
+    Value value;
+    Tangent in, out;  ///< Zero if the keys are no spline.
+  };
+  using PositionKey = Key<Eigen::Vector3d, Eigen::Vector3d>;
+  using RotationKey = Key<Quaternion, Eigen::Vector4d>;
 
-  ModelTrack track_;
+  template <typename CleanKey, typename From, typename Tangents>
+  std::vector<CleanKey> cleaned(const From& keys, const Tangents& tangents);
+  void findScale(const std::vector<PositionKey>& scales);
+
+  std::int32_t node_;
+  std::vector<PositionKey> positions_;
+  std::vector<RotationKey> rotations_;
+  bool positionsAreCubic_, rotationsAreCubic_;
   Affine rest_;
   Eigen::Matrix3d scale_;  ///< rest_.linear = rotation * scale_.
   double lastKeyS_ = 0.0;

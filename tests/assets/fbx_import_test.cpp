@@ -1,5 +1,6 @@
 // importModel() on FBX files that the test writes, against the formula of FBX: pivots, orders of
 // rotation, units and axes, at rest and in motion.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -16,6 +17,7 @@
 #include "tests/assets/import_files.h"
 #include "tests/assets/model_files.h"
 #include "tests/support/random_geometry.h"
+#include "tests/support/shared_data.h"
 
 namespace foretouch::test {
 namespace {
@@ -181,6 +183,36 @@ TEST_F(ImportFbx, SaysWhereANodeWithPivotsLacksACurve) {
               "the animation of 'door' has no curve for a part of its translation or rotation, "
               "which becomes 0");
   }
+}
+
+// Straight lines join keys, whatever the file says of the way between them.
+TEST_F(ImportFbx, CountsCurvesOfCubicKeys) {
+  FbxFile file;
+  file.stopS = (kKeys - 1) / kKeysPerS;
+  file.nodes.emplace_back();
+  file.nodes[0].name = "door";
+  Random random(5);
+  key(file.nodes[0].rotations, Vector3d::Zero(), 90, 7, random);
+  std::string text = file.text();
+  const std::string linear = "KeyAttrFlags: *1 {\n\t\t\ta: 4";
+  const std::size_t first = text.find(linear), second = text.find(linear, first + 1);
+  ASSERT_NE(second, std::string::npos);
+  for (const std::size_t at : {second, first}) text.insert(at + linear.size() - 1, "26");  // 264
+  const auto model = importModel(folder_.write("cubic.fbx", text), withModelImporter());
+  ASSERT_TRUE(model.ok()) << describe(model.error());
+  ASSERT_EQ(model.value().notes.size(), 1U);
+  EXPECT_EQ(model.value().notes[0].rfind("the cubic keys of 2 animation curves are joined", 0), 0U)
+      << model.value().notes[0];
+}
+
+TEST_F(ImportFbx, CountsCurvesOfCubicKeysInBinaryFiles) {
+  FORETOUCH_REQUIRE_SHARED(path, "avatars/pab_run.fbx");
+  const auto model = importModel(*path, withModelImporter());
+  ASSERT_TRUE(model.ok()) << describe(model.error());
+  const auto& notes = model.value().notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.rfind("the cubic keys of 549 animation curves", 0) == 0;
+  }));
 }
 
 /// A door frame, with Z up, in inches.

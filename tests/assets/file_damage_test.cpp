@@ -1,6 +1,4 @@
 // What is said of damaged files: where, what was expected, what was found.
-#include "assets/import/file_damage.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -14,14 +12,11 @@
 
 #include "assets/import/model_import.h"
 #include "assets/import/xml_damage.h"
-#include "assets/mesh/link_mesh.h"
 #include "tests/assets/import_files.h"
-#include "tests/support/shared_data.h"
 
 namespace foretouch::test {
 namespace {
 
-using internal::damageOf;
 using internal::damageOfXml;
 
 /// The triangle of import_files.h with indices, in a GLB's own chunk of 44 bytes.
@@ -69,8 +64,10 @@ std::string replaced(const std::string& from, const std::string& to, std::string
 
 class FileDamage : public testing::Test {
  protected:
+  /// Why the importer refuses it.
   std::string damageIn(const std::string& name, const std::string& bytes) {
-    return damageOf(folder_.write(name, bytes)).value_or("none");
+    const std::string reason = reasonFor(name, bytes), refused = "the importer refused the file: ";
+    return reason.rfind(refused, 0) == 0 ? reason.substr(refused.size()) : reason;
   }
   std::string reasonFor(const std::string& name, const std::string& bytes) {
     const auto result = importScene(folder_.write(name, bytes), withImporter());
@@ -80,19 +77,20 @@ class FileDamage : public testing::Test {
 };
 
 TEST_F(FileDamage, IsNoneInSoundFiles) {
-  EXPECT_EQ(damageIn("a.glb", glbOf()), "none");
   EXPECT_EQ(reasonFor("a.glb", glbOf()), "none");
   EXPECT_EQ(damageIn("a.gltf", gltfWithNodes(R"([{"mesh":0,"children":[1]},{"mesh":1}])")), "none");
-  EXPECT_EQ(damageIn("a.obj", "no model"), "none");  // not looked into
-  int files = 0;
-  for (const char* name : {"Fox.glb", "greenman.glb", "robot_expressive.glb", "cesium_man.gltf",
-                           "kaykit_manny/manny_med_mod.gltf", "kaykit_manny/Med_CombatMelee.glb"}) {
-    const auto path = sharedData(std::string("avatars/") + name);
-    if (!path) continue;
-    EXPECT_EQ(damageOf(*path).value_or("none"), "none") << name;
-    ++files;
+}
+
+// What nobody reads may be broken: a file of textures that are not there has its triangles.
+TEST_F(FileDamage, OfPartsThatAreNotReadIsNone) {
+  for (const char* parts : {R"("images":[{"bufferView":9}],"materials":7,)",
+                            R"("cameras":{},"textures":[{"source":-1}],)",
+                            R"("skins":[{"joints":[0],"inverseBindMatrices":0}],)"}) {
+    EXPECT_EQ(
+        damageIn("a.glb", glbOf(replaced("{\"asset\"", std::string("{") + parts + "\"asset\""))),
+        "none")
+        << parts;
   }
-  RecordProperty("shared files", files);
 }
 
 TEST_F(FileDamage, OfAGlbContainerNamesTheByte) {
@@ -169,8 +167,6 @@ TEST_F(FileDamage, OfADocumentNamesTheKey) {
             "meshes[0].primitives[0].mode: expected a whole number from 0 to 6, found 9");
   EXPECT_EQ(damage("POSITION", "POSITIOM"),
             "meshes[0].primitives[0].attributes.POSITION: expected this key, found none");
-  EXPECT_EQ(damage(R"("count":3,"type":"SCALAR")", R"("count":2,"type":"SCALAR")"),
-            "meshes[0].primitives[0]: expected at least 3 corners of triangles, found 2");
   EXPECT_EQ(damage(R"("2.0")", R"("9.0")"), "asset.version: expected the text 2.0, found '9.0'");
   EXPECT_EQ(damage("\"asset\"", "\"assat\""), "asset: expected this key, found none");
   EXPECT_EQ(damage("[1]", "[0]"),
@@ -192,9 +188,10 @@ TEST_F(FileDamage, OfExtentsNamesWhatDoesNotFit) {
   EXPECT_EQ(damage(R"("byteOffset":36)", R"("byteOffset":40)"),
             "bufferViews[1]: expected bytes within the 44 bytes of buffers[0], found 6 bytes from "
             "byte 40 on");
+  // Not where the format wants it, but it is there: 0, 256 and 512 are read, of three vertices.
   EXPECT_EQ(
       damage(R"("byteOffset":36)", R"("byteOffset":35)"),
-      "accessors[1]: expected to begin at a multiple of 2 bytes of the buffer, found byte 35");
+      "expected triangles, found none (0 points and lines, 1 faces with indices out of range)");
   EXPECT_EQ(damage(R"("byteLength":44)", R"("byteLength":45)"),
             "buffers[0].byteLength: expected at most the 44 bytes of the file's binary chunk, "
             "found 45");
@@ -284,12 +281,10 @@ std::string mutated(std::string bytes, std::mt19937& random) {
   }
 }
 
-// Every refusal says where, and none is that of a reader that has nothing to do with the file. What
-// the bytes of a buffer are is for the reader to judge: it names the mesh.
+// Every refusal says where.
 TEST_F(FileDamage, IsNamedInEveryRefusalOfADamagedGlb) {
   const std::regex named(
-      R"re(the importer refused the file: (byte \d+|[A-Za-z]+(\[\d+\])?(\.[^: ]+)*): .*(expected|broken JSON).*)re"
-      R"re(|the importer refused the file: Mesh "[^"]*" has no faces)re");
+      R"re(the importer refused the file: (byte \d+|[A-Za-z]+(\[\d+\])?(\.[^: ]+)*): .*(expected|broken JSON).*)re");
   int refused = 0, unnamed = 0;
   for (unsigned seed = 0; seed < 300; ++seed) {
     std::mt19937 random(seed);

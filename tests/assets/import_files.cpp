@@ -65,6 +65,16 @@ std::string gltfWithNodes(const std::string& nodes, int copies) {
          R"(,"uri":"data:application/octet-stream;base64,)" + base64(buffer) + R"("}]})";
 }
 
+std::string bvhThatCrashesTheReader() {
+  constexpr int kJoints = 100'000;
+  const std::string body = "\n{\nOFFSET 0 1 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n";
+  std::string bvh = "HIERARCHY\nROOT a" + body, zeros;
+  for (int i = 1; i < kJoints; ++i) bvh += "JOINT b" + body;
+  for (int i = 0; i < kJoints; ++i) zeros += "0 0 0 ";
+  return bvh + "End Site\n{\nOFFSET 0 1 0\n}\n" + std::string(kJoints, '}') +
+         "\nMOTION\nFrames: 1\nFrame Time: 0.01\n" + zeros + "\n";
+}
+
 std::string base64(std::string_view bytes) {
   constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -27,6 +27,9 @@ std::string binaryPly(const std::vector<Eigen::Vector3f>& vertices,
 /// line; `nodes` is the JSON array of nodes, of which 0 is the root.
 std::string gltfWithNodes(const std::string& nodes, int copies = 1);
 
+/// A BVH of 100,000 joints, each below the one before: assimp's reader overruns its stack on it.
+std::string bvhThatCrashesTheReader();
+
 std::string base64(std::string_view bytes);
 
 /// The vertices of triangle `i`, one per row, for comparing and printing.

@@ -92,8 +92,8 @@ TEST_F(ImporterProcess, HasSpentItsTimeWhenItsCpuLimitKillsIt) {
 TEST_F(ImporterProcess, MustSpeakTheProtocol) {
   EXPECT_EQ(failureWith("echo garbage").code, ErrorCode::Mismatch);
   EXPECT_EQ(failureWith("exec yes").code, ErrorCode::Mismatch);
-  EXPECT_EQ(failureWith("printf 'FTIMPORT\\003\\000\\000\\000'").code, ErrorCode::Mismatch);
-  EXPECT_EQ(failureWith("printf 'FTIMPORT\\002\\000\\000\\000\\004\\003\\002\\001'; exec yes").code,
+  EXPECT_EQ(failureWith("printf 'FTIMPORT\\004\\000\\000\\000'").code, ErrorCode::Mismatch);
+  EXPECT_EQ(failureWith("printf 'FTIMPORT\\003\\000\\000\\000\\004\\003\\002\\001'; exec yes").code,
             ErrorCode::ImportFailed);
 }
 

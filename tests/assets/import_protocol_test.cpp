@@ -133,7 +133,7 @@ TEST(ImportReader, CompletesNoStreamWithAChangedByte) {
 TEST(ImportReader, BreaksOffAtOnceOnGarbage) {
   EXPECT_EQ(stateAfter("Segmentation fault"), State::Broken);
   EXPECT_EQ(stateAfter("x"), State::Broken);
-  EXPECT_EQ(stateAfter("FTIMPORT\x03"), State::Broken);  // another version
+  EXPECT_EQ(stateAfter("FTIMPORT\x04"), State::Broken);  // another version
 }
 
 TEST(ImportReader, HandsOnWhatTheFileDeclares) {

@@ -155,7 +155,29 @@ TEST_F(ImportModel, PlacesAMeshOncePerNode) {
   EXPECT_EQ(model.meshes[0].vertices, model.meshes[1].vertices);  // in the node's frame
 }
 
+/// A mesh skinned to "knee", on a node of that name, and behind it the knee, at (x, 1, 0).
+std::string kneesAsX(const std::string& x) {
+  const std::string axes = "1.0,0.0,0.0,0.0, 0.0,1.0,0.0,0.0, 0.0,0.0,1.0,0.0, ";
+  const std::string still = "FrameTransformMatrix { " + axes + "0.0,0.0,0.0,1.0;; }\n";
+  return "xof 0303txt 0032\nFrame body {\n" + still + "Frame knee {\n" + still +
+         "Mesh leg { 3; 0.0;0.0;0.0;, 1.0;0.0;0.0;, 0.0;1.0;0.0;; 1; 3;0,1,2;;\n"
+         "XSkinMeshHeader { 1; 1; 1; }\nSkinWeights { \"knee\"; 3; 0, 1, 2; 1.0, 1.0, 1.0; " +
+         axes + "0.0,-1.0,0.0,1.0;; }\n}\n}\nFrame knee {\nFrameTransformMatrix { " + axes + x +
+         ",1.0,0.0,1.0;; }\n}\n}\n";
+}
+
+// assimp tells of bones by their names alone.
 TEST_F(ImportModel, PrefersNodesWithoutAMeshForBonesOfTheirName) {
+  const Model model = written("same.x", kneesAsX("0.0"));
+  const ModelBone& knee = model.meshes.at(0).bones.at(0);
+  EXPECT_EQ(knee.name, "knee");
+  EXPECT_NE(knee.node, model.meshes[0].node);
+  EXPECT_EQ(model.nodes[static_cast<std::size_t>(knee.node)].toParent.translation.y(), 1);
+  ASSERT_EQ(model.notes.size(), 1U);
+  EXPECT_NE(model.notes[0].find("'knee'"), std::string::npos);
+}
+
+TEST_F(ImportModel, TellsNodesOfOneNameApartInGltf) {
   std::string gltf = skinnedGltf();
   const std::string name = R"("name":"skin")";
   gltf.replace(gltf.find(name), name.size(), R"("name":"knee")");
@@ -168,8 +190,7 @@ TEST_F(ImportModel, PrefersNodesWithoutAMeshForBonesOfTheirName) {
   EXPECT_NE(knee.node, model.meshes[0].node);
   EXPECT_EQ(model.nodes[static_cast<std::size_t>(knee.node)].toParent.translation,
             Vector3d(0, 1, 0));
-  ASSERT_EQ(model.notes.size(), 1U);
-  EXPECT_NE(model.notes[0].find("'knee'"), std::string::npos);
+  EXPECT_TRUE(model.notes.empty());
 }
 
 TEST_F(ImportModel, CountsWhatHasNoSurfaceInItsNotes) {
@@ -237,17 +258,25 @@ TEST_F(ImportModel, RefusesWhatIsNoModel) {
 }
 
 TEST_F(ImportModel, RefusesNodesWithoutAFiniteFrame) {
-  const Error error = failureOf(
-      "huge.gltf", gltfWithNodes(R"([{"name":"far","mesh":0,"translation":[1e39,0,0]}])"));
+  const Error error = failureOf("huge.x", kneesAsX("1e39"));
   EXPECT_EQ(error.code, ErrorCode::ImportFailed);
-  EXPECT_NE(error.message.find("'far' is not finite"), std::string::npos) << error.message;
+  EXPECT_NE(error.message.find("'knee' is not finite"), std::string::npos) << error.message;
 }
 
 TEST_F(ImportModel, ReportsACrashOfTheReader) {
+  EXPECT_EQ(failureOf("deep.bvh", bvhThatCrashesTheReader()).code, ErrorCode::ImportCrashed);
+}
+
+// Its tree is on no stack.
+TEST_F(ImportModel, ReadsAGltfHoweverDeepItIs) {
+  constexpr int kNodes = 60000;
   std::string nodes = "[";
-  for (int i = 0; i + 1 < 60000; ++i) nodes += "{\"children\":[" + std::to_string(i + 1) + "]},";
-  EXPECT_EQ(failureOf("deep.gltf", gltfWithNodes(nodes + "{\"mesh\":0}]")).code,
-            ErrorCode::ImportCrashed);
+  for (int i = 1; i < kNodes; ++i) {
+    nodes += R"({"translation":[0,0,1],"children":[)" + std::to_string(i) + "]},";
+  }
+  const Model model = written("deep.gltf", gltfWithNodes(nodes + "{\"mesh\":0}]"));
+  ASSERT_EQ(model.nodes.size(), std::size_t{kNodes});
+  EXPECT_EQ(toWorld(model, kNodes - 1).translation.z(), kNodes - 1);
 }
 
 TEST_F(ImportModel, RefusesMoreNodesThanTheLimit) {
@@ -275,7 +304,7 @@ TEST_F(ImportModel, SurvivesTruncationsAndGarblings) {
     ++(result.ok() ? read : refused);
   }
   EXPECT_GT(refused, 20);
-  EXPECT_GT(read, 20);
+  EXPECT_GT(read, 10);
 }
 
 }  // namespace

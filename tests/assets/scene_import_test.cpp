@@ -137,7 +137,7 @@ TEST_F(ImportScene, ComposesTransformsInDouble) {
   }
   const auto scene = written("chain.gltf", gltfWithNodes(nodes + R"({"mesh":0}])"));
   ASSERT_EQ(scene.scene.triangles.size(), 1U);
-  EXPECT_NEAR(scene.scene.triangles[0].vertices[0].x(), 1000 * double(0.001F), 1e-13);
+  EXPECT_NEAR(scene.scene.triangles[0].vertices[0].x(), 1.0, 1e-13);
 }
 
 TEST_F(ImportScene, SkipsAndCountsPointsAndLinesOncePerPlacement) {

@@ -66,6 +66,8 @@ void checkScene(const ImportedScene& imported) {
   }
 }
 
+}  // namespace
+
 void checkModel(const Model& model) {
   const auto nodes = static_cast<std::int32_t>(model.nodes.size());
   for (std::int32_t i = 0; i < nodes; ++i) {
@@ -97,8 +99,6 @@ void checkModel(const Model& model) {
     }
   }
 }
-
-}  // namespace
 
 bool feedImportStream(const std::uint8_t* data, std::size_t size) {
   if (size < 2) return false;

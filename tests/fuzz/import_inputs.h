@@ -5,7 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "assets/model/model.h"
+
 namespace foretouch::fuzz {
+
+/// What a model promises: assets/model/model.h.
+void checkModel(const Model& model);
 
 /// First byte even: the rest is the importer's answer, in pieces. Odd: it is frames (a byte of
 /// type, two of length, the payload), sent with the greeting and the check sum of an honest

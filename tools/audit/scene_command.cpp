@@ -50,6 +50,7 @@ ExitCode check(const AskedScene& asked) {
   FORETOUCH_TRY_OR(failed, auto imported, importScene(asked.scenePath, asked.sceneImport));
   if (const std::string weak = importerWeakness(); !weak.empty()) printNote(weak);
   const SceneImportReport report = imported.report;
+  printNotes(asked.scenePath, report.notes);
   const FileFrame frame = imported.frame;
   if (const auto remark = remarkOnFrame(frame, {"--scene-scale", "--scene-up"}, asked.scenePath)) {
     printNote(*remark);

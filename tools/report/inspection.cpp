@@ -112,6 +112,7 @@ Result<Pose> poseAt(const Inspected& inspected, std::int64_t index, bool isPlace
 Result<Done> loadLevel(Inspected& inspected) {
   const ReplayRequest& request = inspected.request;
   FORETOUCH_TRY(auto imported, importScene(request.scenePath, request.sceneImport));
+  printNotes(request.scenePath, imported.report.notes);
   for (PlacementCheck& check : sceneFrameChecks(imported.scene, imported.frame)) {
     inspected.frameChecks.push_back(std::move(check));
   }

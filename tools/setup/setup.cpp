@@ -83,6 +83,9 @@ Result<RawScene> readScene(const SetupRequest& request, Setup& setup) {
                     importWith(request, setup.sceneScale.offer.value, setup.sceneUp.offer.value));
     }
   }
+  for (const std::string& note : imported.report.notes) {
+    setup.notes.push_back(request.scene + ": " + note);
+  }
   noteObjects(request, imported.scene, setup.notes);
   return std::move(imported.scene);
 }

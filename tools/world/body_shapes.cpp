@@ -10,6 +10,7 @@
 #include "assets/avatar/avatar_file.h"
 #include "assets/import/scene_import.h"
 #include "assets/mesh/link_mesh.h"
+#include "tools/console.h"
 
 namespace foretouch::tools {
 namespace {
@@ -56,6 +57,7 @@ Result<RawScene> meshOfNode(const FileShape& shape) {
 
 Result<RawScene> wholeMesh(const FileShape& shape) {
   FORETOUCH_TRY(auto imported, importScene(shape.meshPath, shape.meshImport));
+  printNotes(shape.meshPath, imported.report.notes);
   return std::move(imported.scene);
 }
 

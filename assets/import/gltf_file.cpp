@@ -1,30 +1,24 @@
-#include "assets/import/glb_damage.h"
+#include "assets/import/gltf_file.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <optional>
-#include <string_view>
+#include <system_error>
+#include <utility>
 
-#include <nlohmann/json.hpp>
-
-#include "assets/import/faults.h"
-#include "assets/import/gltf_extents.h"
-#include "assets/import/gltf_rules.h"
-#include "assets/import/gltf_uses.h"
 #include "articulated/quoted.h"
+#include "assets/import/failure.h"
+#include "assets/import/faults.h"
+#include "assets/import/gltf_rules.h"
+#include "assets/import/memory_budget.h"
+#include "assets/import/text.h"
 #include "assets/text_file.h"
 
 namespace foretouch::internal {
 namespace {
 
 using nlohmann::json;
-
-/// A parsed text takes about ten times its size: does not examine larger ones.
-constexpr std::uint64_t kMaxJsonBytes = 64U << 20;
 
 constexpr std::uint64_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
@@ -51,14 +45,7 @@ struct Chunk {
 /// The container: its header, its chunk of JSON and its chunk of bytes.
 class Glb {
  public:
-  explicit Glb(const std::string& path) : file_(path, std::ios::binary) {
-    size_ = std::filesystem::file_size(path);
-  }
-
-  [[nodiscard]] bool isWithoutItsJson() {
-    return size_ >= kHeaderBytes + kChunkHeaderBytes && wordAt(0) == kMagic && wordAt(4) == 2 &&
-           Chunk{kHeaderBytes, wordAt(kHeaderBytes), 0}.end() > size_;
-  }
+  explicit Glb(std::string_view bytes) : bytes_(bytes), size_(bytes.size()) {}
 
   /// False if it cannot look for JSON.
   bool checkContainer(Faults& faults) {
@@ -83,20 +70,14 @@ class Glb {
     return true;
   }
 
-  /// The JSON chunk, as far as present; nothing if it is too large.
-  std::optional<std::string> text() {
-    const std::uint64_t count = std::min(json_.end(), size_) - json_.begin();
-    if (count > kMaxJsonBytes) return std::nullopt;
-    std::string bytes(count, '\0');
-    file_.seekg(static_cast<std::streamoff>(json_.begin()));
-    file_.read(bytes.data(), static_cast<std::streamsize>(count));
-    return bytes;
+  /// The JSON chunk, as far as present.
+  [[nodiscard]] std::string_view text() const {
+    return bytes_.substr(json_.begin(), std::min(json_.end(), size_) - json_.begin());
   }
-
   [[nodiscard]] std::uint64_t textBegin() const { return json_.begin(); }
 
-  /// The bytes of the second chunk; nothing if there is none.
-  std::optional<std::uint64_t> binaryBytes(Faults& faults) {
+  /// The second chunk, as far as present; nothing if there is none.
+  std::optional<Chunk> binary(Faults& faults) const {
     if (json_.end() >= size_) return std::nullopt;
     if (size_ - json_.end() < kChunkHeaderBytes) {
       faults.add(byteAt(json_.end()),
@@ -110,18 +91,18 @@ class Glb {
                  expected("a chunk of type 'BIN' and a zero byte", wordText(binary.type)));
       return std::nullopt;
     }
-    return std::min(binary.end(), size_) - binary.begin();
+    return binary;
   }
 
  private:
-  bool checkMagic(Faults& faults) {
+  bool checkMagic(Faults& faults) const {
     const std::uint32_t magic = wordAt(0);
     if (magic == kMagic) return true;
     faults.add(byteAt(0), expected("'glTF', as every GLB file begins", wordText(magic)));
     return false;
   }
 
-  Chunk chunkAt(std::uint64_t offset, Faults& faults) {
+  [[nodiscard]] Chunk chunkAt(std::uint64_t offset, Faults& faults) const {
     const Chunk chunk{offset, wordAt(offset), wordAt(offset + 4)};
     if (chunk.end() > size_) {
       faults.add(byteAt(offset),
@@ -132,17 +113,17 @@ class Glb {
     return chunk;
   }
 
-  /// Little-endian; 0 if the file is too short.
-  std::uint32_t wordAt(std::uint64_t offset) {
-    std::array<unsigned char, 4> bytes{};
-    file_.seekg(static_cast<std::streamoff>(offset));
-    file_.read(reinterpret_cast<char*>(bytes.data()), bytes.size());
-    return bytes[0] | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
-           std::uint32_t{bytes[3]} << 24;
+  /// Little-endian. Precondition: the file is long enough.
+  [[nodiscard]] std::uint32_t wordAt(std::uint64_t offset) const {
+    std::uint32_t word = 0;
+    for (std::size_t i = 4; i > 0; --i) {
+      word = word << 8 | static_cast<unsigned char>(bytes_[offset + i - 1]);
+    }
+    return word;
   }
 
-  std::ifstream file_;
-  std::uint64_t size_ = 0;
+  std::string_view bytes_;
+  std::uint64_t size_;
   Chunk json_;
 };
 
@@ -175,58 +156,68 @@ std::string placeOf(std::string_view text, std::size_t at, std::uint64_t textBeg
   return "line " + std::to_string(line) + ", column " + std::to_string(1 + at - lineStart);
 }
 
-/// Nothing if it cannot be parsed, which it then adds to the faults.
-std::optional<json> parsed(const std::string& text, std::uint64_t textBegin, Faults& faults) {
+/// False if it cannot be parsed, which it then adds to the faults.
+bool parse(std::string_view text, std::uint64_t textBegin, json& document, Faults& faults) {
   try {
-    return json::parse(text);
+    document = json::parse(text);
+    return true;
   } catch (const json::parse_error& error) {
     // It counts the bytes taken, including the offending one.
     const std::size_t at = std::min(error.byte - std::min<std::size_t>(error.byte, 1), text.size());
     faults.add(placeOf(text, at, textBegin), reasonIn(error.what()) + ", near " + near(text, at));
-  } catch (const json::exception& error) {
+  } catch (const json::exception&) {
     faults.add(textBegin > 0 ? byteAt(textBegin) : "line 1",
                "broken JSON, a number is too large for a double");
   }
-  return std::nullopt;
+  return false;
 }
 
-void checkDocument(const json& document, const GltfSources& sources, Faults& faults) {
-  checkRules(document, faults);
-  // The rest makes sense only if indices and counts do.
-  if (!faults.text().empty()) return;
-  checkExtents(document, sources, faults);
-  checkUses(document, faults);
+[[noreturn]] void refuseFor(const Faults& faults) {
+  refuse(faults.text());
 }
 
-std::string folderOf(const std::string& path) {
-  return std::filesystem::path(path).parent_path().string();
+std::string bytesIn(const std::string& path) {
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(path, unknown);
+  if (!unknown) grantMemoryFor(size);
+  // A GLB counts its bytes in 32 bits.
+  constexpr std::size_t kMostBytes = std::size_t{4} << 30;
+  auto bytes = readWholeFile(path, kMostBytes);
+  if (!bytes.ok()) refuse(bytes.error().message);
+  return std::move(bytes).value();
+}
+
+void readDocument(GltfFile& file, std::string_view text, std::uint64_t textBegin, Faults& faults) {
+  if (parse(text, textBegin, file.document, faults)) checkRules(file.document, faults);
+  if (!faults.text().empty()) refuseFor(faults);
 }
 
 }  // namespace
 
-std::string damageOfGlb(const std::string& path) {
-  Faults faults;
-  Glb glb(path);
-  if (!glb.checkContainer(faults)) return faults.text();
-  const auto text = glb.text();
-  if (!text) return faults.text();
-  GltfSources sources{true, glb.binaryBytes(faults), folderOf(path)};
-  const auto document = parsed(*text, glb.textBegin(), faults);
-  if (document) checkDocument(*document, sources, faults);
-  return faults.text();
+bool isGltf(const std::string& path) {
+  const std::string extension = lowerExtensionOf(path);
+  return extension == ".gltf" || extension == ".glb";
 }
 
-std::string damageOfGltf(const std::string& path) {
+GltfFile openGltf(const std::string& path) {
+  GltfFile file;
+  file.path = path;
+  file.bytes = bytesIn(path);
   Faults faults;
-  const auto text = readWholeFile(path, kMaxJsonBytes);
-  if (!text.ok()) return "";
-  const auto document = parsed(text.value(), 0, faults);
-  if (document) checkDocument(*document, {false, std::nullopt, folderOf(path)}, faults);
-  return faults.text();
-}
-
-bool isGlbWithoutItsJson(const std::string& path) {
-  return Glb(path).isWithoutItsJson();
+  // Tools save a GLB under the other name now and then; the first bytes tell.
+  file.isBinary = lowerExtensionOf(path) == ".glb" || file.bytes.rfind("glTF", 0) == 0;
+  if (!file.isBinary) {
+    readDocument(file, file.bytes, 0, faults);
+    return file;
+  }
+  Glb glb(file.bytes);
+  if (!glb.checkContainer(faults)) refuseFor(faults);
+  if (const auto binary = glb.binary(faults)) {
+    file.chunkBegin = binary->begin();
+    file.chunkBytes = std::min<std::size_t>(binary->end(), file.bytes.size()) - binary->begin();
+  }
+  readDocument(file, glb.text(), glb.textBegin(), faults);
+  return file;
 }
 
 }  // namespace foretouch::internal
