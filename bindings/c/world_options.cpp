@@ -52,6 +52,7 @@ ft_world_options defaultWorldOptions() {
   options.tolerance = WorldOptions().tolerance;
   options.work_per_pair = WorldOptions().workPerPair;
   options.work_per_window = WorldOptions().workPerWindow;
+  options.most_near = WorldOptions().mostNear;
   return options;
 }
 
@@ -73,6 +74,7 @@ ft_status readWorldOptions(const ft_world_options* given, WorldOptions& options)
   options.tolerance = known.tolerance;
   options.workPerPair = known.work_per_pair;
   options.workPerWindow = known.work_per_window;
+  options.mostNear = static_cast<std::size_t>(known.most_near);
   return readTruth(known.asks_meshes, "asks_meshes", options.askMeshes);
 }
 

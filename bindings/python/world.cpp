@@ -155,7 +155,8 @@ std::unique_ptr<World> createWorld(std::shared_ptr<Scene> still,
                                    const Shown<shown::Number>& tolerance,
                                    const Shown<shown::Truth>& askMeshes,
                                    const Shown<shown::Integer>& workPerPair,
-                                   const Shown<shown::Integer>& workPerWindow) {
+                                   const Shown<shown::Integer>& workPerWindow,
+                                   const Shown<shown::Integer>& mostNear) {
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   WorldOptions options;
   options.tolerance = number(tolerance, "tolerance");
@@ -164,6 +165,9 @@ std::unique_ptr<World> createWorld(std::shared_ptr<Scene> still,
   if (!workPerWindow.is_none()) {
     options.workPerWindow =
         static_cast<std::uint64_t>(integer(workPerWindow, "work_per_window", 0, kMost));
+  }
+  if (!mostNear.is_none()) {
+    options.mostNear = static_cast<std::size_t>(integer(mostNear, "most_near", 0, kMost));
   }
   return std::make_unique<World>(std::move(still), options);
 }
@@ -250,12 +254,14 @@ void bindWorld(py::module_& module) {
           py::arg("tolerance") = WorldOptions().tolerance,
           py::arg("ask_meshes") = WorldOptions().askMeshes,
           py::arg("work_per_pair") = WorldOptions().workPerPair,
-          py::arg("work_per_window") = py::none(),
+          py::arg("work_per_window") = py::none(), py::arg("most_near") = py::none(),
           "ask_meshes: whether two meshes are asked if they meet, and a mesh and `still`.\n"
           "work_per_pair: evaluations (about 10 ns each) that two bodies may cost in a window, "
           "and\n"
           "a body by itself between two poses. work_per_window: that all pairs may cost together,\n"
-          "shared by bodies. Beyond it: undecided.")
+          "shared by bodies. Beyond it: undecided. most_near: who may meet more than so many "
+          "others\n"
+          "in a window is crowded; two of them are not asked about each other, and are `silent`.")
       .def("add", &addBody, py::arg("shape"), py::kw_only(), py::arg("group") = 0,
            py::arg("when_silent") = toString(WhenSilent::Wait), py::arg("self_pairs") = py::none(),
            py::arg("surface") = py::none(),

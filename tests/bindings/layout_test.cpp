@@ -238,11 +238,12 @@ AT(ft_solid_contact, gap, 72);
 AT(ft_solid_contact, push, 80);
 AT(ft_solid_contact, slip_speed, 88);
 
-static_assert(sizeof(ft_world_options) == 32);
+static_assert(sizeof(ft_world_options) == 40);
 AT(ft_world_options, asks_meshes, 4);
 AT(ft_world_options, tolerance, 8);
 AT(ft_world_options, work_per_pair, 16);
 AT(ft_world_options, work_per_window, 24);
+AT(ft_world_options, most_near, 32);
 
 static_assert(sizeof(ft_body_options) == 24);
 AT(ft_body_options, group, 4);

@@ -456,6 +456,7 @@ class World:
         ask_meshes: bool = False,
         work_per_pair: int = 100000000,
         work_per_window: Optional[int] = None,
+        most_near: Optional[int] = None,
     ) -> None: ...
     def add(
         self,

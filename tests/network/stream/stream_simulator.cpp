@@ -119,14 +119,14 @@ std::optional<Arguments> parse(int argc, char** argv, int& code) {
   app.add_option("--first", a.first, "The first seed");
   auto* const adversary =
       app.add_flag("--adversary", a.isAttacked,
-                   "One true sender each, and an adversary that wants no pose of it answered");
+                   "One true sender each, and an adversary that wants no pose of it answered; with "
+                   "--world: somebody whose bodies carry each other and are ahead of their time");
   const auto* const lossOption =
       app.add_option("--loss", loss, "Share of messages lost; drawn by the seed if not given")
           ->check(CLI::Range(0.0, 1.0))
           ->excludes(adversary);
   app.add_flag("--world", a.isWorld,
                "A moving world: avatars, and props that they carry, of which all events are judged")
-      ->excludes(adversary)
       ->excludes("--loss");
   app.add_option("--break", mutation,
                  "Break this rule on purpose, which must be found: " +
@@ -233,7 +233,8 @@ int runCrowds(const Arguments& arguments) {
   std::uint64_t failed = 0;
   for (std::uint64_t i = 0; i < arguments.seeds; ++i) {
     const auto seed = static_cast<unsigned long long>(arguments.first + i);
-    const CrowdRun run = foretouch::test::simulateCrowd(seed, arguments.crowdMutation);
+    const CrowdRun run =
+        foretouch::test::simulateCrowd(seed, arguments.crowdMutation, arguments.isAttacked);
     all.add(run.tally);
     if (run.violations.empty() || ++failed > kMostShown) continue;
     for (const std::string& violation : run.violations) {
@@ -256,7 +257,7 @@ int main(int argc, char** argv) {
   int code = 0;
   const auto arguments = parse(argc, argv, code);
   if (!arguments) return code;
-  if (arguments->isAttacked) return runAttacks(*arguments);
+  if (arguments->isAttacked && !arguments->isWorld) return runAttacks(*arguments);
   if (arguments->isWorld) return runCrowds(*arguments);
   constexpr std::uint64_t kMostShown = 10;
   const auto start = std::chrono::steady_clock::now();

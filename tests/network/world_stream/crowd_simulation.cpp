@@ -1,6 +1,8 @@
 #include "tests/network/world_stream/crowd_simulation.h"
 
+#include "lss/index.h"
 #include "network/wire/codec.h"
+#include "tests/network/world_stream/crowd_stranger.h"
 
 namespace foretouch::test {
 namespace {
@@ -30,20 +32,25 @@ bool hasGaps(const std::vector<EventsMessage>& answers) {
 
 }  // namespace
 
-CrowdRun simulateCrowd(std::uint64_t seed, CrowdMutation mutation) {
-  const Crowd crowd = drawCrowd(seed);
-  const std::size_t bodies = crowd.truth.states.size();
+CrowdRun simulateCrowd(std::uint64_t seed, CrowdMutation mutation, bool hasStranger) {
+  Crowd crowd = drawCrowd(seed);
+  std::size_t bodies = crowd.truth.states.size();
+  if (hasStranger) {
+    addStranger(seed, crowd);
+    bodies += countOf(kStrangersBodies);
+  }
   CrowdRun run;
   run.isFaulty = crowd.isFaulty;
   WorldPolicy policy;
   policy.waitUs = kCrowdWaitUs;
   policy.whenSilent = seed % 2 == 0 ? WhenSilent::Undecided : WhenSilent::HoldStill;
-  const CrowdTold told = tellCrowd(crowd.setup, bodies, crowd.arrivals, policy, mutation);
-  judgeCrowd(crowd, told, run.tally, run.violations);
+  CrowdTold told = tellCrowd(crowd.setup, bodies, crowd.arrivals, policy, mutation);
   if (hasGaps(told.answers)) run.violations.emplace_back("windows do not follow one another");
   const CrowdTold again = tellCrowd(crowd.setup, bodies, told.accepted, policy, mutation);
   if (!areSame(again.answers, told.answers))
     run.violations.emplace_back("a replay tells otherwise");
+  leaveStranger(crowd, told);
+  judgeCrowd(crowd, told, run.tally, run.violations);
   return run;
 }
 

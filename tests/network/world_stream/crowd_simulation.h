@@ -16,7 +16,9 @@ struct CrowdRun {
   bool isFaulty = false;                ///< Something is lost, delayed or repeated.
 };
 
+/// `hasStranger`: somebody wants it to fail (crowd_stranger.h).
 [[nodiscard]] CrowdRun simulateCrowd(std::uint64_t seed,
-                                     CrowdMutation mutation = CrowdMutation::None);
+                                     CrowdMutation mutation = CrowdMutation::None,
+                                     bool hasStranger = false);
 
 }  // namespace foretouch::test

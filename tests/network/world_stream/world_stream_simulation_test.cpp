@@ -41,6 +41,25 @@ TEST(WorldStreamSimulation, EveryEventIsTrueOrMarkedAndAReplayTellsTheSame) {
   EXPECT_GT(all.freeSeconds, 20 * all.lateSeconds);
 }
 
+// Whatever a stranger says of bodies of his own, what is told of the others stays true, and they
+// are not forgotten over him: they are known for nearly as long as without him.
+TEST(WorldStreamSimulation, AStrangerHarmsNobody) {
+  CrowdTally alone, beside;
+  for (std::uint64_t seed = 0; seed < kCrowdSeeds; ++seed) {
+    alone.add(simulateCrowd(seed).tally);
+    const CrowdRun run = simulateCrowd(seed, CrowdMutation::None, true);
+    beside.add(run.tally);
+    for (const std::string& violation : run.violations) {
+      ADD_FAILURE() << "seed " << seed << ": " << violation
+                    << "\nagain: ./run simulate --world --adversary --first " << seed
+                    << " --seeds 1";
+    }
+  }
+  EXPECT_GT(beside.freeSeconds, 0.9 * alone.freeSeconds);
+  EXPECT_GT(beside.events - beside.marked, (alone.events - alone.marked) * 9 / 10);
+  EXPECT_GT(beside.refused, alone.refused + 10'000) << "he says what nobody believes";
+}
+
 class BrokenWorlds : public testing::TestWithParam<CrowdMutation> {};
 
 TEST_P(BrokenWorlds, AreFound) {

@@ -28,6 +28,9 @@ typedef struct ft_world_options {
   uint64_t work_per_pair;
   /* Work that all pairs of a window may cost together, shared by bodies; default UINT64_MAX. */
   uint64_t work_per_window;
+  /* A body that may meet more than so many others in a window is crowded; two crowded ones are not
+   * asked about each other, and each is listed as silent. Default UINT64_MAX. */
+  uint64_t most_near;
 } ft_world_options;
 
 FT_API ft_status ft_world_options_init(ft_world_options* options, size_t size);
