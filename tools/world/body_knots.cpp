@@ -39,8 +39,7 @@ struct TimedFrame {
 Result<std::vector<TimedFrame>> framesOf(const FileBody& body, const Clip& clip,
                                          const std::string& world) {
   FORETOUCH_TRY(const auto steps,
-                inFile(selectSteps(clip.frames.size(), clip.frameTimeS, body.clip.rateHz),
-                       body.clip.motionPath));
+                inFile(selectSteps(clip, body.clip.rateHz), body.clip.motionPath));
   const ClipTiming& timing = body.timing;
   const double untilS = timing.untilS.value_or(clip.durationS());
   std::vector<TimedFrame> frames;
@@ -171,7 +170,7 @@ Result<BodyKnots> KnotLoader::ofAvatar(const FileBody& body, const Avatar& avata
     WorldRequest request;
     request.asksSelf = true;
     request.pairsPath = body.pairsPath;
-    FORETOUCH_TRY(found.self, pairRulesFor(request, avatar, clip, match.value(), path));
+    FORETOUCH_TRY(found.self, pairRulesFor(request, body.clip, avatar, clip, match.value()));
   }
   return found;
 }
