@@ -27,6 +27,14 @@ struct Clip {
   /// frame count, ...). At most kMaxClipNotes; if there were more, the last one says how many.
   std::vector<std::string> notes;
 
+  /// Of a table of joint positions: every so many frames there is one of its rows. Those between
+  /// lie on the straight line in joint coordinates, so that the shorter arc from each frame to the
+  /// next is the way that the numbers say. 1: every frame is one of the file's.
+  std::int64_t framesPerRow = 1;
+  /// The most that a joint turns from one frame to the next by its coordinate (rad); 0: the file
+  /// says poses, and the shorter arc is what it means.
+  double mostTurn = 0.0;
+
   [[nodiscard]] double durationS() const {
     return frames.empty() ? 0.0 : static_cast<double>(frames.size() - 1) * frameTimeS;
   }

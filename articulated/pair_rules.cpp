@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
+#include "articulated/robot.h"
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "lss/separation.h"
@@ -100,16 +102,15 @@ bool addRadii(const Avatar& avatar, const PosedAvatar& rest, LinkPair pair, doub
   return true;
 }
 
-/// Of the usual poses, in how many two links touch.
-std::vector<std::int64_t> countTouches(const Avatar& avatar, const std::vector<Pose>& poses) {
-  const auto n = countOf(avatar.numLinks());
-  std::vector<std::int64_t> touches(n * n, 0);
+/// Of the poses, in how many two links touch.
+std::vector<PairTouches> countTouches(const Avatar& avatar, const std::vector<Pose>& poses) {
+  std::vector<PairTouches> touches;
+  if (poses.empty()) return touches;
+  forPairs(avatar, [&](LinkId a, LinkId b) { touches.push_back({a, b, 0}); });
   for (const Pose& pose : poses) {
     const std::vector<LinkState> states = statesIn(avatar, pose);
     const PosedAvatar posed(avatar, states);
-    forPairs(avatar, [&](LinkId a, LinkId b) {
-      if (posed.touch(a, b)) ++touches[slotOf(a) * n + slotOf(b)];
-    });
+    for (PairTouches& pair : touches) pair.touches += posed.touch(pair.a, pair.b) ? 1 : 0;
   }
   return touches;
 }
@@ -175,23 +176,24 @@ Result<PairRules> PairRules::derive(const Avatar& avatar, const PairRuleOptions&
   for (const LinkPair& pair : options.leftOut) {
     rules.leftOut_.push_back({pair.a, pair.b, PairReason::User});
   }
-  const auto n = countOf(avatar.numLinks());
-  const std::size_t numPoses = options.usualPoses == nullptr ? 0 : options.usualPoses->size();
-  std::vector<std::int64_t> touches;
-  if (numPoses > 0) touches = countTouches(avatar, *options.usualPoses);
+  if (options.usualPoses != nullptr) {
+    rules.touches_ = countTouches(avatar, *options.usualPoses);
+    rules.numUsualPoses_ = static_cast<std::int64_t>(options.usualPoses->size());
+  }
+  const auto numPoses = static_cast<double>(rules.numUsualPoses_);
   const std::vector<LinkState> atRest = statesIn(avatar, restPose(avatar.skeleton()));
   const PosedAvatar rest(avatar, atRest);
+  std::size_t place = 0;
   forPairs(avatar, [&](LinkId a, LinkId b) {
+    const std::int64_t touched = numPoses > 0.0 ? rules.touches_[place++].touches : 0;
     const auto leaveOut = [&](PairReason reason) { rules.leftOut_.push_back({a, b, reason}); };
     if (isAdjacent(avatar, a, b)) return leaveOut(PairReason::Adjacent);
-    const std::int64_t touched = numPoses > 0 ? touches[slotOf(a) * n + slotOf(b)] : 0;
-    const bool isRestTaken = numPoses == 0 || touched > 0;
+    const bool isRestTaken = options.isRestTaken && (numPoses == 0.0 || touched > 0);
     if (isRestTaken && rest.touch(a, b) &&
         !(options.usePairRadii && addRadii(avatar, rest, {a, b}, options.restSkin, rules.radii_))) {
       return leaveOut(PairReason::RestOverlap);
     }
-    if (numPoses > 0 &&
-        static_cast<double>(touched) >= options.alwaysShare * static_cast<double>(numPoses)) {
+    if (numPoses > 0.0 && static_cast<double>(touched) >= options.alwaysShare * numPoses) {
       leaveOut(PairReason::Always);
     }
   });
@@ -199,8 +201,43 @@ Result<PairRules> PairRules::derive(const Avatar& avatar, const PairRuleOptions&
   return rules;
 }
 
-Result<PairRules> PairRules::of(const Avatar& avatar, std::vector<LeftOutPair> leftOut,
-                                std::vector<PairRadius> radii) {
+Result<PairRules> PairRules::derive(const Robot& robot, const RobotPairOptions& options) {
+  FORETOUCH_TRY(const auto poses, robot.sampledPoses(options.samples, options.seed));
+  PairRuleOptions ofAvatar;
+  ofAvatar.usualPoses = &poses;
+  ofAvatar.isRestTaken = false;
+  ofAvatar.alwaysShare = options.alwaysShare;
+  ofAvatar.leftOut = options.leftOut;
+  return derive(robot.avatar(), ofAvatar);
+}
+
+Result<PairRules> PairRules::asking(const Avatar& avatar, const std::vector<LinkPair>& asked) {
+  if (asked.empty()) {
+    return Error::in("pairs", ErrorCode::Empty, "expected at least one pair of links to ask");
+  }
+  std::set<std::pair<LinkId, LinkId>> wanted;
+  for (const LinkPair& pair : asked) {
+    for (const LinkId link : {pair.a, pair.b}) {
+      const bool isKnown = link >= 0 && link < avatar.numLinks();
+      if (isKnown && !avatar.lss(link).empty()) continue;
+      return Error{ErrorCode::OutOfRange, "pairs", -1, link,
+                   isKnown ? "expected a link with LSS: one without touches nothing"
+                           : "expected a link of the avatar"};
+    }
+    if (pair.a == pair.b) {
+      return Error{ErrorCode::OutOfRange, "pairs", -1, pair.a, "expected two different links"};
+    }
+    wanted.insert(std::minmax(pair.a, pair.b));
+  }
+  std::vector<LeftOutPair> others;
+  forPairs(avatar, [&](LinkId a, LinkId b) {
+    if (wanted.count({a, b}) == 0) others.push_back({a, b, PairReason::User});
+  });
+  return leavingOut(avatar, std::move(others));
+}
+
+Result<PairRules> PairRules::leavingOut(const Avatar& avatar, std::vector<LeftOutPair> leftOut,
+                                        std::vector<PairRadius> radii) {
   PairRules rules;
   rules.leftOut_ = std::move(leftOut);
   FORETOUCH_CHECK(rules.settle(avatar));

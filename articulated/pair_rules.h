@@ -12,6 +12,8 @@
 
 namespace foretouch {
 
+class Robot;
+
 /// Why a pair of links is asked, or left out. The numbers are those of the C API.
 enum class PairReason : std::uint8_t {
   Asked = 0,
@@ -35,6 +37,12 @@ struct LeftOutPair {
   PairReason reason = PairReason::User;
 };
 
+/// In how many of the usual poses two links touch, a < b.
+struct PairTouches {
+  LinkId a = 0, b = 0;
+  std::int64_t touches = 0;
+};
+
 /// Two LSS whose sum of radii counts as `radius` (m), so that they do not touch at rest but do
 /// when they come nearer to each other than at rest.
 struct PairRadius {
@@ -56,6 +64,16 @@ struct PairRuleOptions {
   const std::vector<Pose>* usualPoses = nullptr;
   double alwaysShare = 0.95;      ///< Of the usual poses, in (0,1].
   std::vector<LinkPair> leftOut;  ///< By the user, in either order.
+  /// False: rest is no pose that the avatar takes, so overlapping there is no reason.
+  bool isRestTaken = true;
+};
+
+/// Of a robot, whose usual poses are configurations drawn within its limits.
+struct RobotPairOptions {
+  std::int32_t samples = 10000;  ///< At least 1. Each costs all pairs of LSS.
+  std::uint64_t seed = 1;        ///< The same configurations on every machine.
+  double alwaysShare = 0.95;     ///< As PairRuleOptions::alwaysShare.
+  std::vector<LinkPair> leftOut;
 };
 
 /// Immutable; belongs to one avatar and its copies.
@@ -65,11 +83,20 @@ class PairRules {
   /// link with itself (Error::index is the link), and rules that leave no pair to ask. O(LSS^2),
   /// times poses where there are any.
   static Result<PairRules> derive(const Avatar& avatar, const PairRuleOptions& options = {});
-  /// Exactly these are left out, and only these LSS count with radii of their own. Errors as above;
-  /// radii of unknown LSS, of a pair that is left out or listed before, or not between 0 and the
-  /// sum of the two (Error::index is the place in `radii`).
-  static Result<PairRules> of(const Avatar& avatar, std::vector<LeftOutPair> leftOut,
-                              std::vector<PairRadius> radii = {});
+  /// For robot.avatar(), from Robot::sampledPoses(). Leaves out adjacent links, links that touch in
+  /// nearly all of these poses, and the user's. Zeros may lie outside a robot's limits, so touching
+  /// there is no reason; and that no sample touched proves nothing, so such pairs are asked.
+  /// touches() has the counts. Errors as above, and those of sampledPoses().
+  static Result<PairRules> derive(const Robot& robot, const RobotPairOptions& options = {});
+  /// All pairs are asked but these, and only these LSS count with radii of their own. Errors as
+  /// above; radii of unknown LSS, of a pair that is left out or listed before, or not between 0 and
+  /// the sum of the two (Error::index is the place in `radii`).
+  static Result<PairRules> leavingOut(const Avatar& avatar, std::vector<LeftOutPair> leftOut,
+                                      std::vector<PairRadius> radii = {});
+  /// Only these pairs are asked, adjacent ones too; all others are left out (PairReason::User).
+  /// Errors: no pair, an unknown link, one without LSS, a pair of one link with itself
+  /// (Error::index is the link).
+  static Result<PairRules> asking(const Avatar& avatar, const std::vector<LinkPair>& asked);
 
   [[nodiscard]] std::int32_t numLinks() const { return numLinks_; }
   /// Pairs of different links that both have LSS, and those of them that are asked.
@@ -79,6 +106,10 @@ class PairRules {
   [[nodiscard]] const std::vector<LeftOutPair>& leftOut() const { return leftOut_; }
   /// a < b; by a, then by b, then by the LSS.
   [[nodiscard]] const std::vector<PairRadius>& radii() const { return radii_; }
+  /// Of every pair of different links that both have LSS, by a, then by b, and of how many poses:
+  /// where the rules were derived from usual poses; else empty and 0.
+  [[nodiscard]] const std::vector<PairTouches>& touches() const { return touches_; }
+  [[nodiscard]] std::int64_t numUsualPoses() const { return numUsualPoses_; }
   /// Two different links, in either order. O(log pairs).
   [[nodiscard]] PairReason reasonOf(LinkId a, LinkId b) const;
   /// Avatar::identity() of the avatar.
@@ -90,10 +121,11 @@ class PairRules {
   Result<Done> settleRadii(const Avatar& avatar);
 
   std::int32_t numLinks_ = 0;
-  std::int64_t numPairs_ = 0, numAsked_ = 0;
+  std::int64_t numPairs_ = 0, numAsked_ = 0, numUsualPoses_ = 0;
   std::uint64_t avatarIdentity_ = 0;
   std::vector<LeftOutPair> leftOut_;
   std::vector<PairRadius> radii_;
+  std::vector<PairTouches> touches_;
 };
 
 /// Whether an avatar is what a reason says: its links adjacent, its LSS overlapping at rest. Always

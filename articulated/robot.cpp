@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -269,10 +270,79 @@ double Robot::largestTurn(const double* q0, const double* q1) const {
   return largest;
 }
 
+int Robot::partsBetween(const double* q0, const double* q1, int most) const {
+  const double turn = largestTurn(q0, q1);
+  int parts = 1;
+  while (parts <= most && turn > kMostTurn * parts) parts *= 2;
+  return parts <= most ? parts : 0;
+}
+
 void Robot::between(const double* q0, const double* q1, double t, double* q) const {
   for (std::size_t i = 0; i < coordinates_.size(); ++i) {
     q[i] = t <= 0.0 ? q0[i] : t >= 1.0 ? q1[i] : q0[i] + t * (q1[i] - q0[i]);
   }
+}
+
+Result<RobotPath> Robot::pathAlong(const double* q, std::size_t count) const {
+  if (count == 0) return Error::in("q", ErrorCode::Empty, "expected at least one configuration");
+  const std::size_t n = coordinates_.size();
+  for (std::size_t i = 0; i < count; ++i) FORETOUCH_CHECK(checked(q + i * n, n));
+  RobotPath path;
+  std::vector<double> between(n);
+  const auto add = [&](const double* at, double where) {
+    path.poses.emplace_back();
+    poseAt(at, path.poses.back());
+    path.at.push_back(where);
+  };
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const double *const from = q + i * n, *const to = from + n;
+    const int parts = partsBetween(from, to, kMostParts);
+    if (parts == 0) {
+      Error error = Error::in("q", ErrorCode::LimitExceeded,
+                              "expected an edge on which no joint turns by more than 12,288 rad");
+      error.index = static_cast<std::int64_t>(i);
+      return error;
+    }
+    for (int part = 0; part < parts; ++part) {
+      const double t = static_cast<double>(part) / parts;
+      this->between(from, to, t, between.data());
+      add(between.data(), static_cast<double>(i) + t);
+    }
+  }
+  add(q + (count - 1) * n, static_cast<double>(count - 1));
+  return path;
+}
+
+Result<std::vector<Pose>> Robot::sampledPoses(std::int32_t count, std::uint64_t seed) const {
+  if (count < 1) return Error::in("samples", ErrorCode::OutOfRange, "expected at least 1");
+  constexpr double kHalfTurn = 3.14159265358979323846, kFarShift = 1.0;
+  constexpr std::int64_t kMostTries = 100;  // per sample: mimics rarely have limits of their own
+  std::mt19937_64 random(seed);
+  std::vector<double> q(coordinates_.size(), 0.0);
+  std::vector<Pose> poses;
+  for (std::int64_t tries = 0; poses.size() < static_cast<std::size_t>(count); ++tries) {
+    if (tries == kMostTries * count) {
+      return Error::in("samples", ErrorCode::OutOfRange,
+                       "of a hundred configurations within the joints' limits, hardly one keeps "
+                       "those of the joints that follow them");
+    }
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      const RobotCoordinate& coordinate = coordinates_[i];
+      if (joints_[slotOf(coordinate.joint)].kind == RobotJointKind::Planar) continue;
+      const double most = coordinate.isAngle ? kHalfTurn : kFarShift;
+      const double lower = std::isfinite(coordinate.lower)
+                               ? coordinate.lower
+                               : std::min(-most, coordinate.upper - most);
+      const double upper = std::isfinite(coordinate.upper)
+                               ? coordinate.upper
+                               : std::max(most, coordinate.lower + most);
+      q[i] = lower + (upper - lower) * (static_cast<double>(random() >> 11U) * 0x1p-53);
+    }
+    if (breachOf(q.data()).isAny()) continue;
+    poses.emplace_back();
+    poseAt(q.data(), poses.back());
+  }
+  return poses;
 }
 
 }  // namespace foretouch

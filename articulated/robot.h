@@ -61,6 +61,13 @@ struct LimitBreach {
   [[nodiscard]] bool isAny() const { return joint != kNoParent; }
 };
 
+/// A list of configurations as poses, for what knows poses only and turns each joint on the shorter
+/// arc between two of them (articulated/motion.h): there it moves as q says.
+struct RobotPath {
+  std::vector<Pose> poses;
+  std::vector<double> at;  ///< Where each lies: i + t on the edge from configuration i to i + 1.
+};
+
 /// Immutable; copies share nothing and are cheap enough for set-up only.
 class Robot {
  public:
@@ -92,8 +99,23 @@ class Robot {
   void poseAt(const double* q, Pose& pose) const;
   /// The most that any joint turns from q0 to q1 (rad).
   [[nodiscard]] double largestTurn(const double* q0, const double* q1) const;
+  /// Into how many equal parts the edge from q0 to q1 has to be cut so that no joint turns by more
+  /// than kMostTurn in one: a power of two, at most `most`; 0: that is not enough.
+  [[nodiscard]] int partsBetween(const double* q0, const double* q1, int most) const;
   /// q0 + t*(q1 - q0), the ends themselves at t = 0 and 1.
   void between(const double* q0, const double* q1, double t, double* q) const;
+  /// The poses at `count` configurations, one after the other in `q`, and between two of them as
+  /// many as partsBetween() asks for. Errors: those of checked(), no configuration, and an edge
+  /// of more than kMostParts parts (Error::index is its place).
+  [[nodiscard]] Result<RobotPath> pathAlong(const double* q, std::size_t count) const;
+  /// Poses at `count` configurations drawn evenly within the limits, those of mimics included;
+  /// angles without limits within a half turn, shifts without within a metre. A mobile base stays.
+  /// The same on every machine. Errors: a count below 1, and limits of mimics that leave hardly
+  /// any.
+  [[nodiscard]] Result<std::vector<Pose>> sampledPoses(std::int32_t count,
+                                                       std::uint64_t seed) const;
+  /// Of a joint that moves by one number: its own, or what it gets from the one that it follows.
+  [[nodiscard]] double valueOf(JointId joint, const double* q) const;
 
   /// No point of a link's LSS is farther from where exact arithmetic puts it (m), in poseAt() and
   /// on the shorter arc between two of them that lie at most kMostTurn apart, whatever the
@@ -103,11 +125,12 @@ class Robot {
   [[nodiscard]] double reach() const { return reach_; }
   /// Radians. Below a half turn by enough that the shorter arc is the joint's own.
   static constexpr double kMostTurn = 3.0;
+  /// Parts of an edge: 12,288 rad, which only the factor of a mimic gives (kMaxJointCoordinate).
+  static constexpr int kMostParts = 4096;
 
  private:
   Robot(Avatar avatar, std::vector<RobotJoint> joints)
       : avatar_(std::move(avatar)), joints_(std::move(joints)) {}
-  [[nodiscard]] double valueOf(JointId joint, const double* q) const;
   void listCoordinates();
   void boundRounding();
 

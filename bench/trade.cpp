@@ -129,7 +129,7 @@ class WorldBench {
     run.clip = nameOf(inputs_.files.motionPath);
     run.rateHz = rateHz;
     run.passes = request_.passes;
-    const auto steps = selectSteps(inputs_.clip.frames.size(), inputs_.clip.frameTimeS, rateHz);
+    const auto steps = selectSteps(inputs_.clip, rateHz);
     if (!steps.ok()) return run;  // a rate that the clip does not have
     run.stepMs = 1e3 * static_cast<double>(steps.value().stride) * inputs_.clip.frameTimeS;
     for (const TradePlace& place : places) {

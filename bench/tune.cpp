@@ -60,8 +60,7 @@ class Tuner {
 
   Result<TunedRate> at(double rateHz) {
     FORETOUCH_TRY(const auto steps,
-                  inFile(selectSteps(inputs_.clip.frames.size(), inputs_.clip.frameTimeS, rateHz),
-                         inputs_.files.motionPath));
+                  inFile(selectSteps(inputs_.clip, rateHz), inputs_.files.motionPath));
     FORETOUCH_TRY(auto run, runOf(rateHz, steps));
     TunedRate rate;
     rate.rateHz = rateHz;
@@ -176,7 +175,7 @@ Result<std::vector<double>> ratesOf(const TuneRequest& request, const BenchInput
   if (request.rateHz) return std::vector<double>{*request.rateHz};
   std::vector<double> rates;
   for (const double rateHz : kTuneRatesHz) {
-    if (selectSteps(inputs.clip.frames.size(), inputs.clip.frameTimeS, rateHz).ok()) {
+    if (selectSteps(inputs.clip, rateHz).ok()) {
       rates.push_back(rateHz);
     }
   }

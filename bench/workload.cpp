@@ -305,8 +305,7 @@ const char* toString(StepChoice choice) {
 
 Result<Workload> chooseSteps(const BenchInputs& inputs, const BenchBody& body,
                              const WorkloadRequest& request) {
-  const auto selection =
-      selectSteps(inputs.clip.frames.size(), inputs.clip.frameTimeS, request.rateHz);
+  const auto selection = selectSteps(inputs.clip, request.rateHz);
   if (!selection.ok()) return inFile(selection.error(), inputs.files.motionPath);
   Workload workload;
   workload.request = request;

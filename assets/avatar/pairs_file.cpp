@@ -297,7 +297,7 @@ bool PairsSax::end_array() {
 }
 
 Result<PairRules> PairsSax::build() {
-  auto rules = PairRules::of(avatar_, std::move(leftOut_), std::move(radii_));
+  auto rules = PairRules::leavingOut(avatar_, std::move(leftOut_), std::move(radii_));
   if (rules.ok()) return rules;
   Error error = rules.error();
   if (error.file == "radii" && error.index >= 0) {

@@ -23,13 +23,17 @@ Result<ClipFile> readModel(const std::string& path, const ClipFileOptions& optio
   return ClipFile{std::move(clip), true, model.frame};
 }
 
-Result<ClipFile> readTable(const std::string& path, const ClipFileOptions& options) {
-  FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxJointTableBytes));
+Result<Model> readRobot(const ClipFileOptions& options) {
   ModelImportOptions import;
   import.import = options.import;
   import.import.up = UpAxis::Z;  // as `avatar urdf` reads it
   import.packagePaths = options.packagePaths;
-  FORETOUCH_TRY(const auto robot, importModel(options.robot, import));
+  return importModel(options.robot, import);
+}
+
+Result<ClipFile> readTable(const std::string& path, const ClipFileOptions& options) {
+  FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxJointTableBytes));
+  FORETOUCH_TRY(const auto robot, readRobot(options));
   FORETOUCH_TRY(auto clip, inFile(clipFromJointPositions(robot, text, path), path));
   return ClipFile{std::move(clip), true, robot.frame};
 }
@@ -45,6 +49,12 @@ ClipFormat clipFormatOf(const std::string& path) {
     return ClipFormat::Model;
   }
   return extension == ".csv" ? ClipFormat::JointTable : ClipFormat::Bvh;
+}
+
+Result<Clip> sampleRobotFile(const ClipFileOptions& options, std::int32_t samples,
+                             std::uint64_t seed) {
+  FORETOUCH_TRY(const auto robot, readRobot(options));
+  return inFile(clipFromSampledJoints(robot, samples, seed), options.robot);
 }
 
 Result<ClipFile> readClipFile(const std::string& path, const ClipFileOptions& options) {

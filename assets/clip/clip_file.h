@@ -43,4 +43,8 @@ struct ClipFile {
 [[nodiscard]] Result<ClipFile> readClipFile(const std::string& path,
                                             const ClipFileOptions& options = {});
 
+/// Of options.robot: clipFromSampledJoints(). Errors name the file.
+[[nodiscard]] Result<Clip> sampleRobotFile(const ClipFileOptions& options, std::int32_t samples,
+                                           std::uint64_t seed);
+
 }  // namespace foretouch

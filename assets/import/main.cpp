@@ -88,6 +88,8 @@ std::optional<ModelQuestion> modelQuestion(int argc, char** argv) {
       question.visual = true;
     } else if (option == "--robot") {
       question.isRobot = true;
+    } else if (option == "--meshes") {
+      question.needsMeshes = true;
     } else if (option == "--package" && i + 1 < argc) {
       question.packagePaths.emplace_back(argv[++i]);
     } else {

@@ -17,8 +17,9 @@ namespace foretouch::internal {
 /// The parent's request.
 struct ModelQuestion {
   std::string path;
-  bool visual = false;   ///< Of a robot: its visual description rather than its collision one.
-  bool isRobot = false;  ///< Refuse what ModelImportOptions::isRobot says.
+  bool visual = false;       ///< Of a robot: its visual description rather than its collision one.
+  bool needsMeshes = false;  ///< ModelImportOptions::needsMeshes.
+  bool isRobot = false;      ///< Refuse what ModelImportOptions::isRobot says.
   std::vector<std::string> packagePaths;
 };
 

@@ -22,6 +22,7 @@ std::vector<std::string> argumentsFor(const std::string& path, const ModelImport
   std::vector<std::string> arguments{"--model", path};
   if (options.urdfSurface == UrdfSurface::Visual) arguments.emplace_back("--visual");
   if (options.isRobot) arguments.emplace_back("--robot");
+  if (options.needsMeshes) arguments.emplace_back("--meshes");
   for (const std::string& folder : options.packagePaths) {
     arguments.emplace_back("--package");
     arguments.push_back(folder);

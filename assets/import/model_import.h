@@ -24,6 +24,7 @@ struct ModelImportOptions {
   /// by joint coordinates cannot: missing or unreadable meshes, limits the wrong way round, equal
   /// or absent, a floating joint, a mimic of a joint that is not there. Of MJCF: docs/robots.md.
   bool isRobot = false;
+  bool needsMeshes = false;  ///< Of a URDF: refuses missing and unreadable meshes, as isRobot does.
   /// Folders to search for package://NAME/..., as FOLDER/NAME/... and FOLDER/...; after them the
   /// URDF's own folder and its parents. Of MJCF: folders that its files may lie in, besides its
   /// own.

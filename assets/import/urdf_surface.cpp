@@ -166,7 +166,7 @@ void UrdfSurface::addMesh(const Shape& shape, const FlatMesh& mesh, const Vector
 }
 
 void UrdfSurface::lose(const std::string& what) {
-  if (question_.isRobot) throw Failure{ImportFailure::Refused, what};
+  if (question_.isRobot || question_.needsMeshes) throw Failure{ImportFailure::Refused, what};
   builder_.note(what);
 }
 

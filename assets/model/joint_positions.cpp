@@ -1,18 +1,21 @@
 // A robot's joint positions as a clip: assets/model/model_clip.h.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include <Eigen/Geometry>
-
+#include "articulated/robot.h"
 #include "articulated/try.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/model/joint_table.h"
 #include "assets/model/model_clip.h"
-#include "assets/model/model_frames.h"
-#include "assets/model/pose_frames.h"
+#include "assets/model/model_links.h"
+#include "assets/model/model_ownership.h"
+#include "assets/model/model_robot.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
 
@@ -24,76 +27,159 @@ using internal::JointTable;
 /// Radians or metres: the most that printing six digits may add to a limit.
 constexpr double kLimitTolerance = 1e-5;
 
-bool turns(const ModelNode& node) {
-  return node.joint == ModelJointType::Revolute || node.joint == ModelJointType::Continuous;
+bool turns(RobotJointKind kind) {
+  return kind == RobotJointKind::Revolute || kind == RobotJointKind::Continuous ||
+         kind == RobotJointKind::Planar;
 }
 
-/// One column of the table and the node that it moves.
-struct Drive {
-  std::int32_t node = -1;
-  double worstExcess = 0.0;  ///< Past a limit, radians or metres.
+/// What a column of the table is about: a link's joint, and which of its numbers.
+struct Column {
+  LinkId link = kNoParent;
+  std::int32_t number = 0;  ///< -1: one column cannot say all three of them.
 };
 
-/// By joint name; a name without a joint may be a node's.
-Result<std::vector<Drive>> findDrives(const Model& model, const JointTable& table) {
-  std::unordered_map<std::string, std::int32_t> joints, nodes;
+constexpr std::array<const char*, 3> kPlanarNumbers = {"/x", "/y", "/angle"};
+
+/// By joint name; a name without a joint may be a link's.
+std::unordered_map<std::string, Column> columnsOf(const Model& model,
+                                                  const std::vector<LinkId>& linkOfNode) {
+  std::unordered_map<std::string, Column> known;
+  const auto whole = [&](std::size_t node) {
+    return Column{linkOfNode[node], model.nodes[node].joint == ModelJointType::Planar ? -1 : 0};
+  };
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    const ModelNode& node = model.nodes[i];
-    if (!node.jointName.empty()) joints.emplace(node.jointName, static_cast<std::int32_t>(i));
-    nodes.emplace(node.name, static_cast<std::int32_t>(i));
+    const std::string& name = model.nodes[i].jointName;
+    if (name.empty()) continue;
+    known.emplace(name, whole(i));
+    if (model.nodes[i].joint != ModelJointType::Planar) continue;
+    for (std::size_t k = 0; k < kPlanarNumbers.size(); ++k) {
+      known.emplace(name + kPlanarNumbers[k], Column{linkOfNode[i], static_cast<std::int32_t>(k)});
+    }
   }
-  std::vector<Drive> drives;
-  std::vector<bool> isDriven(model.nodes.size(), false);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) known.emplace(model.nodes[i].name, whole(i));
+  return known;
+}
+
+/// A robot that has no shape, and which of its coordinates each column sets.
+class TableRobot {
+ public:
+  static Result<TableRobot> of(const Model& model, const JointTable& table);
+
+  [[nodiscard]] const Robot& robot() const { return *robot_; }
+  /// Sets the coordinates of a row; those without a column stay.
+  void read(const std::vector<double>& row, std::vector<double>& q) const {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (coordinates_[i] >= 0) q[slotOf(coordinates_[i])] = row[i];
+    }
+  }
+  /// Raises what joints are beyond their limits by.
+  void checkLimits(const std::vector<double>& q);
+  [[nodiscard]] std::vector<std::string> notes(const JointTable& table) const;
+  /// A column moves the link's joint, or the joint follows another one.
+  [[nodiscard]] bool isMoved(std::size_t link) const {
+    return isNamed_[link] || robot_->joints()[link].mimicOf != kNoParent;
+  }
+
+ private:
+  Result<Done> findColumns(const Model& model, const JointTable& table,
+                           std::vector<RobotJoint>& joints);
+
+  std::vector<LinkId> linkOfNode_;
+  std::vector<Column> columns_;
+  std::vector<std::int32_t> coordinates_;  // per column; -1: of a joint that does not move
+  std::vector<bool> isNamed_;              // per link
+  std::vector<double> worstExcess_;        // per link: past a limit, radians or metres
+  std::shared_ptr<const Robot> robot_;
+};
+
+/// What a table may leave out: an axis without a direction, limits that are none.
+void bear(RobotJoint& joint) {
+  const double length = joint.axis.norm();
+  if (!std::isfinite(length) || !(length > 0.0)) joint.kind = RobotJointKind::Fixed;
+  if (joint.lower <= joint.upper) return;
+  joint.lower = -RobotJoint::kUnlimited;
+  joint.upper = RobotJoint::kUnlimited;
+}
+
+Result<Done> TableRobot::findColumns(const Model& model, const JointTable& table,
+                                     std::vector<RobotJoint>& joints) {
+  const auto known = columnsOf(model, linkOfNode_);
+  std::vector<std::array<bool, 3>> isSet(joints.size());
   for (const std::string& name : table.joints) {
-    auto found = joints.find(name);
-    if (found == joints.end() && (found = nodes.find(name)) == nodes.end()) {
+    const auto found = known.find(name);
+    if (found == known.end() || found->second.link == kNoParent) {
       return Error::of(ErrorCode::UnknownName, "the robot has no joint " + inQuotes(name));
     }
-    if (isDriven[slotOf(found->second)]) {
+    const Column column = found->second;
+    RobotJoint& joint = joints[slotOf(column.link)];
+    if (column.number < 0) {
+      return Error::of(ErrorCode::Mismatch, "joint " + inQuotes(joint.name) +
+                                                " moves by three numbers: expected columns " +
+                                                inQuotes(joint.name + "/x") + ", " +
+                                                inQuotes(joint.name + "/y") + " and " +
+                                                inQuotes(joint.name + "/angle"));
+    }
+    if (isSet[slotOf(column.link)][slotOf(column.number)]) {
       return Error::of(ErrorCode::DuplicateName,
                        "column " + inQuotes(name) + " moves a joint that an earlier column moves");
     }
-    isDriven[slotOf(found->second)] = true;
-    drives.push_back({found->second, 0.0});
+    isSet[slotOf(column.link)][slotOf(column.number)] = true;
+    isNamed_[slotOf(column.link)] = true;
+    joint.mimicOf = kNoParent;  // the table says where it is
+    columns_.push_back(column);
   }
-  return drives;
+  return Done{};
 }
 
-bool isMovable(const ModelNode& node) {
-  const double length = node.axis.norm();
-  return (turns(node) || node.joint == ModelJointType::Prismatic) && std::isfinite(length) &&
-         length > 0.0;
-}
-
-void checkLimits(const ModelNode& node, double position, Drive& drive) {
-  const bool isLimited =
-      node.joint != ModelJointType::Continuous && node.lowerLimit < node.upperLimit;
-  if (!isLimited) return;
-  drive.worstExcess =
-      std::max({drive.worstExcess, node.lowerLimit - position, position - node.upperLimit});
-}
-
-/// The node's frame in its parent's, with its joint at `position`.
-Affine movedFrame(const ModelNode& node, double position) {
-  const Eigen::Vector3d axis = node.axis.normalized();
-  Affine motion;
-  if (turns(node)) {
-    motion.linear = Eigen::AngleAxisd(position, axis).toRotationMatrix();
-  } else {
-    motion.translation = position * axis;
+Result<TableRobot> TableRobot::of(const Model& model, const JointTable& table) {
+  FORETOUCH_CHECK(internal::checkModel(model));
+  FORETOUCH_TRY(auto links, internal::modelLinks(model, internal::ownershipOf(model)));
+  const std::size_t n = links.nodeOfLink.size();
+  TableRobot made;
+  made.linkOfNode_ = std::move(links.linkOfNode);
+  made.isNamed_.assign(n, false);
+  made.worstExcess_.assign(n, 0.0);
+  auto joints = internal::robotJoints(model, made.linkOfNode_, n);
+  std::for_each(joints.begin(), joints.end(), bear);
+  FORETOUCH_CHECK(made.findColumns(model, table, joints));
+  std::vector<std::vector<Lss>> noShape(n);
+  noShape.front().emplace_back();  // an avatar has one; no pose depends on it
+  FORETOUCH_TRY(auto avatar, Avatar::build(std::move(links.skeleton), std::move(noShape)));
+  FORETOUCH_TRY(auto robot, Robot::build(std::move(avatar), std::move(joints)));
+  made.robot_ = std::make_shared<const Robot>(std::move(robot));
+  std::vector<std::int32_t> first(n, -1);
+  const auto& coordinates = made.robot_->coordinates();
+  for (std::size_t i = coordinates.size(); i-- > 0;) {
+    first[slotOf(coordinates[i].joint)] = static_cast<std::int32_t>(i);
   }
-  return node.toParent * motion;
+  for (const Column& column : made.columns_) {
+    const std::int32_t own = first[slotOf(column.link)];
+    made.coordinates_.push_back(own < 0 ? -1 : own + column.number);
+  }
+  return made;
 }
 
-std::vector<std::string> notesOn(const Model& model, const JointTable& table,
-                                 const std::vector<Drive>& drives) {
+void TableRobot::checkLimits(const std::vector<double>& q) {
+  for (std::size_t link = 0; link < worstExcess_.size(); ++link) {
+    const RobotJoint& joint = robot_->joints()[link];
+    const bool isLimited =
+        joint.kind == RobotJointKind::Revolute || joint.kind == RobotJointKind::Prismatic;
+    if (!isLimited || !isMoved(link)) continue;
+    const double value = robot_->valueOf(static_cast<JointId>(link), q.data());
+    worstExcess_[link] = std::max({worstExcess_[link], joint.lower - value, value - joint.upper});
+  }
+}
+
+std::vector<std::string> TableRobot::notes(const JointTable& table) const {
   std::vector<std::string> notes, idle, beyond;
   double worst = 0.0;
-  for (std::size_t i = 0; i < drives.size(); ++i) {
-    if (!isMovable(model.nodes[slotOf(drives[i].node)])) idle.push_back(table.joints[i]);
-    if (!(drives[i].worstExcess > kLimitTolerance)) continue;
-    beyond.push_back(table.joints[i]);
-    worst = std::max(worst, drives[i].worstExcess);
+  for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+    if (coordinates_[i] < 0) idle.push_back(table.joints[i]);
+  }
+  for (std::size_t link = 0; link < worstExcess_.size(); ++link) {
+    if (!(worstExcess_[link] > kLimitTolerance)) continue;
+    beyond.push_back(robot_->joints()[link].name);
+    worst = std::max(worst, worstExcess_[link]);
   }
   if (!idle.empty()) {
     notes.push_back("columns of joints that do not move are left out: " + internal::listed(idle));
@@ -105,27 +191,107 @@ std::vector<std::string> notesOn(const Model& model, const JointTable& table,
   return notes;
 }
 
-Result<Clip> clipOf(const Model& model, const JointTable& table, std::vector<Drive> drives) {
-  FORETOUCH_TRY(auto collector, internal::FrameCollector::create(model, table.rows.size()));
-  for (const Drive& drive : drives) {
-    const ModelNode& node = model.nodes[slotOf(drive.node)];
-    if (isMovable(node)) collector.moves(drive.node, turns(node));
+/// How the ways between rows are cut: all alike, as frames are equally spaced.
+struct Cut {
+  int parts = 1;
+  double mostTurn = 0.0;  ///< From one row to the next (rad).
+};
+
+Result<Cut> cutOf(const TableRobot& of, const JointTable& table) {
+  const std::size_t nodes = countOf(of.robot().avatar().numLinks());
+  const std::size_t mostFrames = kMaxBvhValues / 3 / nodes;
+  if (table.rows.size() > mostFrames) {
+    return Error::of(ErrorCode::LimitExceeded, "expected at most " + std::to_string(mostFrames) +
+                                                   " frames of " + std::to_string(nodes) +
+                                                   " nodes, found " +
+                                                   std::to_string(table.rows.size()));
   }
-  std::vector<Affine> frames = internal::restFrames(model);
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    for (std::size_t i = 0; i < drives.size(); ++i) {
-      const ModelNode& node = model.nodes[slotOf(drives[i].node)];
-      if (!isMovable(node)) continue;
-      checkLimits(node, table.rows[row][i], drives[i]);
-      frames[slotOf(drives[i].node)] = movedFrame(node, table.rows[row][i]);
-    }
-    const auto added = collector.add(frames);
-    if (added.ok()) continue;
-    Error error = added.error();
+  const auto most = static_cast<int>(
+      std::min<std::size_t>(Robot::kMostParts, (mostFrames - 1) / (table.rows.size() - 1)));
+  std::vector<double> from(of.robot().numCoordinates(), 0.0), to = from;
+  of.read(table.rows.front(), to);
+  Cut cut;
+  for (std::size_t row = 1; row < table.rows.size(); ++row) {
+    std::swap(from, to);
+    of.read(table.rows[row], to);
+    const int parts = of.robot().partsBetween(from.data(), to.data(), most);
+    cut.mostTurn = std::max(cut.mostTurn, of.robot().largestTurn(from.data(), to.data()));
+    cut.parts = std::max(cut.parts, parts);
+    if (parts > 0) continue;
+    Error error =
+        Error::of(ErrorCode::LimitExceeded,
+                  "a joint turns by " + std::to_string(cut.mostTurn) +
+                      " rad since the row before: expected at most " +
+                      std::to_string(Robot::kMostTurn * most) +
+                      ", as each row's way to the next is cut into parts of less than a half turn");
     error.line = table.lines[row];
     return error;
   }
-  return collector.take(table.frameTimeS, notesOn(model, table, drives));
+  return cut;
+}
+
+std::string noteOn(const Cut& cut) {
+  return "a joint turns by " + std::to_string(cut.mostTurn) +
+         " rad from one row to the next, and goes the way that its numbers say: " +
+         std::to_string(cut.parts - 1) + (cut.parts == 2 ? " pose is" : " poses are") +
+         " put between every two rows, so " + std::to_string(cut.parts) + " steps make up a row";
+}
+
+Result<std::vector<Pose>> framesOf(TableRobot& of, const JointTable& table, const Cut& cut) {
+  const Robot& robot = of.robot();
+  std::vector<Pose> frames;
+  frames.reserve((table.rows.size() - 1) * slotOf(cut.parts) + 1);
+  const auto add = [&](const std::vector<double>& q, std::size_t row) -> Result<Done> {
+    Pose pose;
+    robot.poseAt(q.data(), pose);
+    auto valid = validatedPose(robot.avatar().skeleton(), std::move(pose));
+    if (!valid.ok()) {
+      Error error = valid.error();
+      error.line = table.lines[row];
+      return error;
+    }
+    frames.push_back(std::move(valid).value());
+    return Done{};
+  };
+  std::vector<double> from(robot.numCoordinates(), 0.0), to = from, q = from;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    std::swap(from, to);
+    of.read(table.rows[row], to);
+    of.checkLimits(to);
+    for (int part = 1; row > 0 && part < cut.parts; ++part) {
+      robot.between(from.data(), to.data(), static_cast<double>(part) / cut.parts, q.data());
+      FORETOUCH_CHECK(add(q, row));
+    }
+    FORETOUCH_CHECK(add(to, row));
+  }
+  return frames;
+}
+
+/// The frames are those of the robot.
+Clip clipOf(const TableRobot& of, std::vector<Pose> frames, double frameTimeS, bool movesAll) {
+  Clip clip{of.robot().avatar().skeleton(), frameTimeS, std::move(frames), {}, {}, {}, {}};
+  const auto& joints = of.robot().joints();
+  for (std::size_t link = 0; link < joints.size(); ++link) {
+    const RobotJointKind kind = joints[link].kind;
+    const bool shifts = kind == RobotJointKind::Prismatic || kind == RobotJointKind::Planar;
+    const bool moves = movesAll || of.isMoved(link);
+    clip.hasRotation.push_back(moves && turns(kind));
+    clip.hasTranslation.push_back(moves && shifts);
+  }
+  clip.endSites.resize(joints.size());
+  return clip;
+}
+
+Result<Clip> clipOfTable(const Model& model, const JointTable& table) {
+  FORETOUCH_TRY(auto of, TableRobot::of(model, table));
+  FORETOUCH_TRY(const Cut cut, cutOf(of, table));
+  FORETOUCH_TRY(auto frames, framesOf(of, table, cut));
+  Clip clip = clipOf(of, std::move(frames), table.frameTimeS / cut.parts, false);
+  clip.notes = of.notes(table);
+  if (cut.parts > 1) clip.notes.push_back(noteOn(cut));
+  clip.framesPerRow = cut.parts;
+  clip.mostTurn = cut.mostTurn / cut.parts;
+  return clip;
 }
 
 }  // namespace
@@ -133,8 +299,13 @@ Result<Clip> clipOf(const Model& model, const JointTable& table, std::vector<Dri
 Result<Clip> clipFromJointPositions(const Model& model, std::string_view csv,
                                     const std::string& name) {
   FORETOUCH_TRY(const auto table, inFile(internal::parseJointTable(csv), name));
-  FORETOUCH_TRY(auto drives, inFile(findDrives(model, table), name));
-  return inFile(clipOf(model, table, std::move(drives)), name);
+  return inFile(clipOfTable(model, table), name);
+}
+
+Result<Clip> clipFromSampledJoints(const Model& model, std::int32_t samples, std::uint64_t seed) {
+  FORETOUCH_TRY(const auto of, TableRobot::of(model, JointTable()));
+  FORETOUCH_TRY(auto poses, of.robot().sampledPoses(samples, seed));
+  return clipOf(of, std::move(poses), 1.0, true);
 }
 
 }  // namespace foretouch

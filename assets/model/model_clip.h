@@ -1,6 +1,7 @@
 // assets/model/model_clip.h: a model's animation, or a robot's joint positions, as a clip.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -21,10 +22,17 @@ struct ModelClipOptions {
 [[nodiscard]] Result<Clip> clipFromModel(const Model& model, const ModelClipOptions& options = {});
 
 /// Joint positions as a clip of the robot `model` (a URDF's). CSV text: a header `time` (seconds)
-/// and joint names, then one row per instant, equally spaced; radians or metres. Joints that the
-/// table does not name stay at zero; notes positions outside a joint's limits. Errors name `name`
+/// and joint names, then one row per instant, equally spaced; radians or metres. From each row to
+/// the next the robot moves as EdgeQuery moves it: where a joint turns too far for the shorter arc,
+/// poses are put in between (Clip::framesPerRow). Joints that the table does not name stay at zero,
+/// or follow the one that they mimic; notes positions outside a joint's limits. Errors name `name`
 /// as the file. Safe on hostile text.
 [[nodiscard]] Result<Clip> clipFromJointPositions(const Model& model, std::string_view csv,
                                                   const std::string& name);
+
+/// Poses at `samples` configurations of the robot `model`, drawn within its limits
+/// (Robot::sampledPoses()), as a clip whose frames have no order. All its joints are named.
+[[nodiscard]] Result<Clip> clipFromSampledJoints(const Model& model, std::int32_t samples,
+                                                 std::uint64_t seed);
 
 }  // namespace foretouch

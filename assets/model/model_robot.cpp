@@ -60,6 +60,24 @@ Result<Done> checkJoints(const Model& model, const std::vector<LinkId>& linkOfNo
 
 }  // namespace
 
+std::vector<RobotJoint> internal::robotJoints(const Model& model,
+                                              const std::vector<LinkId>& linkOfNode,
+                                              std::size_t numLinks) {
+  std::vector<RobotJoint> joints(numLinks);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (linkOfNode[i] != kNoParent) joints[slotOf(linkOfNode[i])] = jointOf(model.nodes[i]);
+  }
+  for (const ModelMimic& mimic : model.mimics) {
+    const LinkId link = linkOfNode[slotOf(mimic.node)];
+    const LinkId leader = linkOfNode[slotOf(mimic.leader)];
+    if (link == kNoParent || leader == kNoParent) continue;
+    joints[slotOf(link)].mimicOf = leader;
+    joints[slotOf(link)].mimicFactor = mimic.factor;
+    joints[slotOf(link)].mimicOffset = mimic.offset;
+  }
+  return joints;
+}
+
 Result<ModelRobot> robotFromModel(const Model& model, const ModelAvatarOptions& options) {
   FORETOUCH_TRY(auto made, avatarFromModel(model, options));
   if (made.report.droppedNonFinite > 0) {
@@ -72,16 +90,7 @@ Result<ModelRobot> robotFromModel(const Model& model, const ModelAvatarOptions& 
     linkOfNode[slotOf(made.nodeOfLink[link])] = static_cast<LinkId>(link);
   }
   FORETOUCH_CHECK(checkJoints(model, linkOfNode));
-  std::vector<RobotJoint> joints;
-  for (const std::int32_t node : made.nodeOfLink) {
-    joints.push_back(jointOf(model.nodes[slotOf(node)]));
-  }
-  for (const ModelMimic& mimic : model.mimics) {
-    RobotJoint& joint = joints[slotOf(linkOfNode[slotOf(mimic.node)])];
-    joint.mimicOf = linkOfNode[slotOf(mimic.leader)];
-    joint.mimicFactor = mimic.factor;
-    joint.mimicOffset = mimic.offset;
-  }
+  auto joints = internal::robotJoints(model, linkOfNode, made.nodeOfLink.size());
   FORETOUCH_TRY(auto robot, Robot::build(std::move(made.avatar), std::move(joints)));
   return ModelRobot{std::move(robot), std::move(made.surface), std::move(made.report)};
 }

@@ -2,6 +2,7 @@
 // coordinates. Metres, radians.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "articulated/result.h"
@@ -24,4 +25,13 @@ struct ModelRobot {
 [[nodiscard]] Result<ModelRobot> robotFromModel(const Model& model,
                                                 const ModelAvatarOptions& options = {});
 
+namespace internal {
+
+/// The joints of a model's links, link by link, with those that follow others. One that is free
+/// counts as fixed. `linkOfNode`: kNoParent, where a node is no link.
+[[nodiscard]] std::vector<RobotJoint> robotJoints(const Model& model,
+                                                  const std::vector<LinkId>& linkOfNode,
+                                                  std::size_t numLinks);
+
+}  // namespace internal
 }  // namespace foretouch

@@ -7,6 +7,7 @@
 #include "articulated/try.h"
 #include "assets/avatar/pairs_file.h"
 #include "bindings/c/handles.h"
+#include "bindings/c/robot_handle.h"
 #include "bindings/c/sized_struct.h"
 #include "lss/index.h"
 
@@ -55,13 +56,21 @@ ft_status readUsualPoses(const ft_pair_rule_options& given, const Skeleton& skel
   return FT_OK;
 }
 
-ft_status readLeftOut(const ft_pair_rule_options& given, PairRuleOptions& options) {
-  const auto s = neededArray(given.left_out, given.left_out_count, kMaxPairs, "left_out");
-  if (s != FT_OK) return s;
-  for (std::size_t i = 0; i < given.left_out_count; ++i) {
-    options.leftOut.push_back({given.left_out[i].a, given.left_out[i].b});
-  }
+ft_status readPairs(const ft_link_pair* given, std::size_t count, const char* name,
+                    std::vector<LinkPair>& pairs) {
+  if (const auto s = neededArray(given, count, kMaxPairs, name); s != FT_OK) return s;
+  for (std::size_t i = 0; i < count; ++i) pairs.push_back({given[i].a, given[i].b});
   return FT_OK;
+}
+
+ft_robot_pair_options defaultRobotOptions() {
+  const RobotPairOptions defaults;
+  ft_robot_pair_options options{};
+  options.size = sizeof options;
+  options.samples = defaults.samples;
+  options.seed = defaults.seed;
+  options.always_share = defaults.alwaysShare;
+  return options;
 }
 
 ft_status readExactly(const ft_left_out_pair* given, std::size_t count,
@@ -123,9 +132,10 @@ ft_status ft_pair_rules_create(const ft_avatar* avatar, const ft_pair_rule_optio
     given.usePairRadii = known.use_pair_radii == 1;
     given.restSkin = known.rest_skin;
     given.alwaysShare = known.always_share;
-    if (const auto s = readLeftOut(known, given); s != FT_OK) return s;
+    const auto s = readPairs(known.left_out, known.left_out_count, "left_out", given.leftOut);
+    if (s != FT_OK) return s;
     std::vector<Pose> poses;
-    if (const auto s = readUsualPoses(known, of.skeleton(), poses); s != FT_OK) return s;
+    if (const auto r = readUsualPoses(known, of.skeleton(), poses); r != FT_OK) return r;
     given.usualPoses = &poses;
     return makeRules(withNames(PairRules::derive(of, given)), rules);
   });
@@ -144,7 +154,41 @@ ft_status ft_pair_rules_create_exactly(const ft_avatar* avatar, const ft_left_ou
     for (std::size_t i = 0; i < radius_count; ++i) {
       own.push_back({radii[i].a, radii[i].lss_a, radii[i].b, radii[i].lss_b, radii[i].radius});
     }
-    return makeRules(PairRules::of(avatar->parts->avatar, std::move(pairs), std::move(own)), rules);
+    return makeRules(PairRules::leavingOut(avatar->parts->avatar, std::move(pairs), std::move(own)),
+                     rules);
+  });
+}
+
+ft_status ft_pair_rules_create_asking(const ft_avatar* avatar, const ft_link_pair* asked,
+                                      size_t asked_count, ft_pair_rules** rules) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = cleared(rules); s != FT_OK) return s;
+    if (const auto s = checked(avatar); s != FT_OK) return s;
+    std::vector<LinkPair> pairs;
+    if (const auto s = readPairs(asked, asked_count, "asked", pairs); s != FT_OK) return s;
+    return makeRules(PairRules::asking(avatar->parts->avatar, pairs), rules);
+  });
+}
+
+ft_status ft_robot_pair_options_init(ft_robot_pair_options* options, size_t size) {
+  return initStruct(__func__, options, size, "ft_robot_pair_options", defaultRobotOptions());
+}
+
+ft_status ft_pair_rules_create_of_robot(const ft_robot* robot, const ft_robot_pair_options* options,
+                                        ft_pair_rules** rules) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = cleared(rules); s != FT_OK) return s;
+    if (const auto s = checked(robot); s != FT_OK) return s;
+    ft_robot_pair_options known = defaultRobotOptions();
+    if (options != nullptr) {
+      const auto s = readStruct(options, "ft_robot_pair_options", known);
+      if (s != FT_OK) return s;
+    }
+    RobotPairOptions given{known.samples, known.seed, known.always_share, {}};
+    const auto s = readPairs(known.left_out, known.left_out_count, "left_out", given.leftOut);
+    if (s != FT_OK) return s;
+    // The robot's own avatar is the one that ft_robot_avatar() hands out.
+    return makeRules(withNames(PairRules::derive(robot->robot, given)), rules);
   });
 }
 
@@ -193,6 +237,20 @@ ft_status ft_pair_rules_radii(const ft_pair_rules* rules, ft_pair_radius* radii,
     if (room.status != FT_OK || room.isAsking) return room.status;
     for (std::size_t i = 0; i < all.size(); ++i) {
       radii[i] = {all[i].a, all[i].lssA, all[i].b, all[i].lssB, all[i].radius};
+    }
+    return FT_OK;
+  });
+}
+
+ft_status ft_pair_rules_touches(const ft_pair_rules* rules, ft_pair_touches* pairs, size_t capacity,
+                                size_t* required) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(rules); s != FT_OK) return s;
+    const auto& all = rules->rules.touches();
+    const Room room = roomFor(all.size(), pairs, capacity, required, "pairs");
+    if (room.status != FT_OK || room.isAsking) return room.status;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      pairs[i] = {all[i].a, all[i].b, all[i].touches};
     }
     return FT_OK;
   });

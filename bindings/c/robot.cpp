@@ -187,6 +187,32 @@ ft_status ft_robot_pose(const ft_robot* robot, const double* q, size_t coordinat
   });
 }
 
+ft_status ft_robot_path(const ft_robot* robot, const double* q, size_t count,
+                        size_t coordinate_count, double* rotations, double* translations,
+                        double* at, size_t capacity, size_t* required) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(robot); s != FT_OK) return s;
+    if (const auto s = needed(q, "q"); s != FT_OK) return s;
+    FORETOUCH_CHECK_OR(failure, robot->robot.checked(q, coordinate_count));
+    FORETOUCH_TRY_OR(failure, const auto path, robot->robot.pathAlong(q, count));
+    const void* const any = rotations != nullptr      ? rotations
+                            : translations != nullptr ? translations
+                                                      : at;
+    const Room room = roomFor(path.poses.size(), any, capacity, required, "poses");
+    if (room.status != FT_OK || room.isAsking) return room.status;
+    const std::size_t joints = robot->robot.joints().size();
+    for (std::size_t i = 0; i < path.poses.size(); ++i) {
+      if (at != nullptr) at[i] = path.at[i];
+      if (rotations == nullptr && translations == nullptr) continue;
+      const auto s = writePose(
+          path.poses[i], rotations == nullptr ? nullptr : rotations + 4 * i * joints,
+          translations == nullptr ? nullptr : translations + 3 * i * joints, joints, nullptr);
+      if (s != FT_OK) return s;
+    }
+    return FT_OK;
+  });
+}
+
 void ft_robot_destroy(ft_robot* robot) {
   destroy(__func__, robot);
 }

@@ -152,6 +152,7 @@ void bindAvatar(py::module_& module) {
       .def_property_readonly("num_links", &Avatar::numLinks)
       .def_property_readonly("num_lss", &Avatar::numLss)
       .def_property_readonly("names", &nameList)
+      .def_property_readonly("link_names", &nameList, "As names: Step calls them so.")
       .def_property_readonly("parents", &parentArray, "A copy, (n,); -1 for roots.")
       .def_property_readonly("lss", &lssList, "Per link, a list of Lss.")
       .def("__len__", &Avatar::numLinks)

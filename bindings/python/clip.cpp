@@ -149,6 +149,11 @@ void bindClip(py::module_& module) {
       .def("match", &match, py::arg("avatar"), py::kw_only(), py::arg("joint_map") = py::none(),
            "Which joint drives which, and what is left over: JointMatch.")
       .def_property_readonly("frame_time_s", [](const Clip& clip) { return clip.frameTimeS; })
+      .def_property_readonly(
+          "frames_per_row", [](const Clip& clip) { return clip.framesPerRow; },
+          "Of a table of joint positions: every so many frames there is one of its rows. Where a\n"
+          "joint turns too far for the shorter arc, frames lie between on the line from row to "
+          "row.")
       .def_property_readonly("duration_s", &Clip::durationS)
       .def_property_readonly("joint_names", &jointNames)
       .def_property_readonly(

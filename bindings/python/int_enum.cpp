@@ -20,6 +20,9 @@ PyObject* addIntEnum(pybind11::module_& module, const char* name, const EnumMemb
   for (const auto& [word, value] : members) named[py::str(upperCase(word))] = value;
   const py::object type = py::module_::import("enum").attr("IntEnum")(
       name, named, py::arg("module") = "foretouch._foretouch");
+  // Since Python 3.11 an IntEnum prints as its number.
+  type.attr("__str__") = py::cpp_function([](const py::object& self) { return self.attr("name"); },
+                                          py::name("__str__"), py::is_method(type));
   module.attr(name) = type;
   return type.ptr();
 }

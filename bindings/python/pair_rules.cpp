@@ -2,6 +2,7 @@
 #include "bindings/python/pair_rules.h"
 
 #include <array>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
 #include "bindings/python/poses.h"
+#include "bindings/python/robots.h"
 #include "lss/index.h"
 
 namespace foretouch::python {
@@ -54,6 +56,16 @@ Result<foretouch::PairRules> withKeywords(Result<foretouch::PairRules> made) {
   return error;
 }
 
+std::vector<LinkPair> pairsFrom(const Avatar& avatar, const Shown<shown::Items>& given,
+                                const std::string& list) {
+  std::vector<LinkPair> pairs;
+  for (const py::object& one : items(given, list)) {
+    const GivenPair pair = pairFrom(avatar, one, list, pairs.size(), 2, 2);
+    pairs.push_back({pair.a, pair.b});
+  }
+  return pairs;
+}
+
 PairRules derive(SharedAvatar avatar, const Shown<shown::Poses>& usualPoses,
                  const Shown<shown::Number>& alwaysShare, bool pairRadii,
                  const Shown<shown::Number>& restSkin, const Shown<shown::Items>& leaveOut) {
@@ -61,10 +73,7 @@ PairRules derive(SharedAvatar avatar, const Shown<shown::Poses>& usualPoses,
   options.alwaysShare = number(alwaysShare, "always_share");
   options.usePairRadii = pairRadii;
   options.restSkin = number(restSkin, "rest_skin");
-  for (const py::object& one : items(leaveOut, "leave_out")) {
-    const GivenPair pair = pairFrom(*avatar, one, "leave_out", options.leftOut.size(), 2, 2);
-    options.leftOut.push_back({pair.a, pair.b});
-  }
+  options.leftOut = pairsFrom(*avatar, leaveOut, "leave_out");
   std::vector<Pose> poses;
   if (!usualPoses.is_none()) poses = posesFrom(avatar->skeleton(), usualPoses, "usual_poses");
   options.usualPoses = &poses;
@@ -74,8 +83,39 @@ PairRules derive(SharedAvatar avatar, const Shown<shown::Poses>& usualPoses,
   return {std::move(avatar), std::move(rules)};
 }
 
-PairRules exactly(SharedAvatar avatar, const Shown<shown::Items>& leftOut,
-                  const Shown<shown::Items>& radii) {
+PairRules ofRobot(const SharedRobot& robot, const Shown<shown::Integer>& samples,
+                  const Shown<shown::Integer>& seed, const Shown<shown::Number>& alwaysShare,
+                  const Shown<shown::Items>& leaveOut) {
+  RobotPairOptions options;
+  options.samples = static_cast<std::int32_t>(
+      integer(samples, "samples", 1, std::numeric_limits<std::int32_t>::max()));
+  options.seed = static_cast<std::uint64_t>(
+      integer(seed, "seed", 0, std::numeric_limits<std::int64_t>::max()));
+  options.alwaysShare = number(alwaysShare, "always_share");
+  options.leftOut = pairsFrom(*robot.avatar, leaveOut, "leave_out");
+  const py::gil_scoped_release free;
+  auto rules = valueOf(withKeywords(foretouch::PairRules::derive(*robot.robot, options)),
+                       "PairRules.of_robot");
+  return {robot.avatar, std::move(rules)};
+}
+
+PairRules asking(SharedAvatar avatar, const Shown<shown::Items>& asked) {
+  const std::vector<LinkPair> pairs = pairsFrom(*avatar, asked, "asked");
+  auto rules = valueOf(foretouch::PairRules::asking(*avatar, pairs), "PairRules.asking");
+  return {std::move(avatar), std::move(rules)};
+}
+
+/// Its name let people believe that its list was of the pairs to ask.
+[[noreturn]] void exactly(const SharedAvatar&, const Shown<shown::Items>&,
+                          const Shown<shown::Items>&) {
+  refuse(ErrorCode::Mismatch, "PairRules.exactly",
+         "is no more, as its name did not say which pairs its list was of: expected "
+         "PairRules.asking(avatar, pairs) for the pairs to ask, or PairRules.leaving_out(avatar, "
+         "pairs, radii) for those to leave out, which exactly() took");
+}
+
+PairRules leavingOut(SharedAvatar avatar, const Shown<shown::Items>& leftOut,
+                     const Shown<shown::Items>& radii) {
   std::vector<LeftOutPair> pairs;
   for (const py::object& one : items(leftOut, "left_out")) {
     const GivenPair pair = pairFrom(*avatar, one, "left_out", pairs.size(), 2, 3);
@@ -99,8 +139,8 @@ PairRules exactly(SharedAvatar avatar, const Shown<shown::Items>& leftOut,
                    linkOf(*avatar, parts[2], what + "[2]"), lss(3),
                    number(parts[4], what + "[4]")});
   }
-  auto rules = valueOf(foretouch::PairRules::of(*avatar, std::move(pairs), std::move(own)),
-                       "PairRules.exactly");
+  auto rules = valueOf(foretouch::PairRules::leavingOut(*avatar, std::move(pairs), std::move(own)),
+                       "PairRules.leaving_out");
   return {std::move(avatar), std::move(rules)};
 }
 
@@ -137,6 +177,15 @@ py::list radiusList(const PairRules& own) {
   return list;
 }
 
+py::list touchList(const PairRules& own) {
+  const py::object type = pythonType("PairTouches");
+  py::list list;
+  for (const PairTouches& pair : own.rules.touches()) {
+    list.append(type(nameOf(*own.avatar, pair.a), nameOf(*own.avatar, pair.b), pair.touches));
+  }
+  return list;
+}
+
 const char* reasonOf(const PairRules& own, const Shown<shown::Link>& a,
                      const Shown<shown::Link>& b) {
   const LinkId first = linkOf(*own.avatar, a, "a"), second = linkOf(*own.avatar, b, "b");
@@ -153,6 +202,7 @@ std::string textOf(const PairRules& own) {
 
 void bindPairRules(py::module_& module) {
   const PairRuleOptions usual;
+  const RobotPairOptions ofRobotUsual;
   py::class_<PairRules>(module, "PairRules",
                         "Which pairs of an avatar's own links a query asks whether they touch.\n"
                         "Every pair that is left out is a hole in the proof, so each has a "
@@ -166,9 +216,22 @@ void bindPairRules(py::module_& module) {
                   "('always'), and the pairs of leave_out ('user'). pair_radii: LSS that overlap\n"
                   "at rest count with smaller radii instead, rest_skin metres apart there; only\n"
                   "for fidelity 'link'.")
-      .def_static("exactly", &exactly, py::arg("avatar").none(false), py::arg("left_out"),
+      .def_static(
+          "of_robot", &ofRobot, py::arg("robot").none(false), py::kw_only(),
+          py::arg("samples") = ofRobotUsual.samples, py::arg("seed") = ofRobotUsual.seed,
+          py::arg("always_share") = ofRobotUsual.alwaysShare, py::arg("leave_out") = py::tuple(),
+          "For a Robot: from `samples` configurations drawn within its limits. Leaves out\n"
+          "adjacent links, links that touch in always_share of the samples, and leave_out.\n"
+          "Pairs that no sample touched are asked: `touches` has the counts.")
+      .def_static("leaving_out", &leavingOut, py::arg("avatar").none(false), py::arg("left_out"),
                   py::arg("radii") = py::tuple(),
-                  "left_out: (a, b) or (a, b, reason); radii: (a, lss_a, b, lss_b, radius).")
+                  "Asks all pairs but those of left_out: (a, b) or (a, b, reason). radii:\n"
+                  "(a, lss_a, b, lss_b, radius).")
+      .def_static("asking", &asking, py::arg("avatar").none(false), py::arg("asked"),
+                  "Asks only the pairs of the list, (a, b), and leaves out all others.")
+      .def_static("exactly", &exactly, py::arg("avatar"), py::arg("left_out"),
+                  py::arg("radii") = py::tuple(),
+                  "Refused: asking() takes the pairs to ask, leaving_out() those to leave out.")
       .def_static("load", &load, py::arg("path"), py::arg("avatar").none(false),
                   "A file of foretouch avatar pairs.")
       .def("save", &save, py::arg("path"))
@@ -181,6 +244,11 @@ void bindPairRules(py::module_& module) {
       .def_property_readonly("num_asked", [](const PairRules& own) { return own.rules.numAsked(); })
       .def_property_readonly("left_out", &leftOutList)
       .def_property_readonly("radii", &radiusList)
+      .def_property_readonly(
+          "num_usual_poses", [](const PairRules& own) { return own.rules.numUsualPoses(); },
+          "That the rules were derived from.")
+      .def_property_readonly("touches", &touchList,
+                             "Of every pair, in how many of these it touches.")
       .def("__repr__", &textOf);
 }
 

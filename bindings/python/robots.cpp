@@ -1,4 +1,6 @@
 // bindings/python/robots.cpp: foretouch.Robot and foretouch.EdgeQuery.
+#include "bindings/python/robots.h"
+
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -28,16 +30,10 @@ constexpr std::array<std::pair<const char*, RobotJointKind>, 5> kJointKinds{
      {"prismatic", RobotJointKind::Prismatic},
      {"planar", RobotJointKind::Planar}}};
 
-/// A robot, and its avatar as Python's own.
-struct SharedRobot {
-  std::shared_ptr<Robot> robot;
-  std::shared_ptr<Avatar> avatar;
-
-  static SharedRobot of(Robot robot) {
-    auto avatar = std::make_shared<Avatar>(robot.avatar());
-    return {std::make_shared<Robot>(std::move(robot)), std::move(avatar)};
-  }
-};
+SharedRobot shared(Robot robot) {
+  auto avatar = std::make_shared<Avatar>(robot.avatar());
+  return {std::make_shared<Robot>(std::move(robot)), std::move(avatar)};
+}
 
 /// Takes a key out of a joint's dict; what is left at the end is unknown.
 py::object taken(py::dict& joint, const char* key) {
@@ -82,7 +78,7 @@ SharedRobot robotFromJoints(const std::shared_ptr<Avatar>& avatar,
   for (const py::object& one : items(given, "joints")) {
     joints.push_back(jointFrom(*avatar, one, "joints[" + std::to_string(joints.size()) + "]"));
   }
-  return SharedRobot::of(valueOf(Robot::build(*avatar, std::move(joints)), "joints"));
+  return shared(valueOf(Robot::build(*avatar, std::move(joints)), "joints"));
 }
 
 SharedRobot loadUrdf(const Shown<shown::Path>& file, const Shown<shown::Texts>& packages,
@@ -97,7 +93,7 @@ SharedRobot loadUrdf(const Shown<shown::Path>& file, const Shown<shown::Texts>& 
   options.making.maxLssPerLink =
       static_cast<int>(integer(maxLss, "max_lss", 1, std::int64_t{kMaxLssPerLink}));
   const py::gil_scoped_release free;
-  return SharedRobot::of(valueOf(importRobot(from, options), from).made.robot);
+  return shared(valueOf(importRobot(from, options), from).made.robot);
 }
 
 SharedRobot robotWithTool(const SharedRobot& robot, const Shown<shown::Link>& link,
@@ -106,8 +102,8 @@ SharedRobot robotWithTool(const SharedRobot& robot, const Shown<shown::Link>& li
   for (const py::object& one : items(lss, "lss")) {
     all.push_back(lssFrom(one, "lss[" + std::to_string(all.size()) + "]"));
   }
-  return SharedRobot::of(valueOf(robot.robot->withTool(linkOf(*robot.avatar, link, "link"),
-                                                       text(name, "name"), std::move(all))));
+  return shared(valueOf(robot.robot->withTool(linkOf(*robot.avatar, link, "link"),
+                                              text(name, "name"), std::move(all))));
 }
 
 template <typename T, typename Of>
@@ -133,6 +129,26 @@ py::object poseOf(const SharedRobot& robot, const Shown<shown::Array>& q) {
   return toPython(pose);
 }
 
+/// They touch nothing, whatever they do.
+py::list linksWithoutVolume(const SharedRobot& robot) {
+  py::list names;
+  for (LinkId link = 0; link < robot.avatar->numLinks(); ++link) {
+    if (robot.avatar->lss(link).empty()) names.append(nameOf(*robot.avatar, link));
+  }
+  return names;
+}
+
+/// (poses, at) of a list of configurations.
+py::tuple pathOf(const SharedRobot& robot, const Shown<shown::Array>& q) {
+  const Numbers given =
+      numbers(q, "q", {kAny, static_cast<py::ssize_t>(robot.robot->numCoordinates())});
+  const auto path =
+      valueOf(robot.robot->pathAlong(given.data(), static_cast<std::size_t>(given.shape(0))));
+  Numbers at(static_cast<py::ssize_t>(path.at.size()));
+  std::copy(path.at.begin(), path.at.end(), at.mutable_data());
+  return py::make_tuple(toPython(path.poses, robot.robot->joints().size()), at);
+}
+
 /// A column of the answers.
 template <typename T, typename Of>
 py::array_t<T> columnOf(const std::vector<EdgeAnswer>& answers, const Of& of) {
@@ -142,7 +158,9 @@ py::array_t<T> columnOf(const std::vector<EdgeAnswer>& answers, const Of& of) {
   return made;
 }
 
-py::object edgesOf(const std::vector<EdgeAnswer>& answers) {
+/// `scenes`: that of the query, then those of its props.
+py::object edgesOf(const std::vector<EdgeAnswer>& answers, const SharedRobot& robot,
+                   const std::vector<std::shared_ptr<Scene>>& scenes) {
   Numbers points({static_cast<py::ssize_t>(answers.size()), py::ssize_t{3}});
   double* to = points.mutable_data();
   for (const EdgeAnswer& answer : answers) {
@@ -158,21 +176,21 @@ py::object edgesOf(const std::vector<EdgeAnswer>& answers) {
       columnOf<std::int32_t>(answers, [&](A a) { return isClear(a) ? -1 : a.contact.link; }),
       columnOf<std::int32_t>(answers, [&](A a) { return isClear(a) ? -1 : a.contact.other; }),
       columnOf<std::int32_t>(answers, [&](A a) { return isClear(a) ? -1 : a.contact.triangle; }),
-      points, columnOf<std::int32_t>(answers, [](A a) { return a.prop; }));
+      points, columnOf<std::int32_t>(answers, [](A a) { return a.prop; }), robot.avatar, scenes);
 }
 
 /// Any number of threads may use one at once: they take turns, each on all its threads.
 class PythonEdgeQuery {
  public:
-  PythonEdgeQuery(SharedRobot robot, std::shared_ptr<Scene> scene, const EdgeOptions& options,
-                  int threads)
+  PythonEdgeQuery(SharedRobot robot, std::vector<std::shared_ptr<Scene>> scenes,
+                  const EdgeOptions& options, int threads)
       : robot_(std::move(robot)),
-        scene_(std::move(scene)),
-        question_(valueOf(EdgeQuery::build(*robot_.robot, *scene_, options))),
+        scenes_(std::move(scenes)),
+        question_(valueOf(EdgeQuery::build(*robot_.robot, *scenes_.front(), options))),
         pool_(valueOf(EdgePool::start(threads))) {}
 
   [[nodiscard]] const SharedRobot& robot() const { return robot_; }
-  [[nodiscard]] const std::shared_ptr<Scene>& scene() const { return scene_; }
+  [[nodiscard]] const std::shared_ptr<Scene>& scene() const { return scenes_.front(); }
 
   void place(const Shown<shown::Integer>& prop, const Shown<shown::Pose>& pose) {
     const auto which = static_cast<std::size_t>(
@@ -201,7 +219,7 @@ class PythonEdgeQuery {
       valueOf(pool_.answer(question_, from.data(), to.data(),
                            static_cast<std::size_t>(from.shape(0)), answers));
     }
-    return edgesOf(answers);
+    return edgesOf(answers, robot_, scenes_);
   }
 
   py::tuple answerPath(const Shown<shown::Array>& q) {
@@ -213,7 +231,7 @@ class PythonEdgeQuery {
       path = valueOf(
           pool_.answerPath(question_, given.data(), static_cast<std::size_t>(given.shape(0))));
     }
-    return py::make_tuple(path->freeUntil, edgesOf({path->answer}));
+    return py::make_tuple(path->freeUntil, edgesOf({path->answer}, robot_, scenes_));
   }
 
  private:
@@ -222,7 +240,7 @@ class PythonEdgeQuery {
   }
 
   SharedRobot robot_;
-  std::shared_ptr<Scene> scene_;
+  std::vector<std::shared_ptr<Scene>> scenes_;  // the scene, then those of props
   EdgeQuery question_;
   std::mutex mutex_;
   EdgePool pool_;
@@ -240,12 +258,14 @@ std::unique_ptr<PythonEdgeQuery> makeEdges(const SharedRobot& robot, std::shared
   options.clearance = number(clearance, "clearance");
   if (!selfPairs.is_none()) options.self = rulesFrom(selfPairs, *robot.avatar);
   options.ignored = ignoredFrom(ignore, *robot.avatar, *scene);
+  std::vector<std::shared_ptr<Scene>> scenes{std::move(scene)};
   for (const py::object& prop : items(props, "props")) {
     if (!py::isinstance<Scene>(prop)) refuse(ErrorCode::Mismatch, "props", "expected scenes");
-    options.props.push_back({*prop.cast<std::shared_ptr<Scene>>(), RigidPose{}, {}});
+    scenes.push_back(prop.cast<std::shared_ptr<Scene>>());
+    options.props.push_back({*scenes.back(), RigidPose{}, {}});
   }
   const int many = static_cast<int>(integer(threads, "threads", 1, kMaxPoolThreads));
-  return std::make_unique<PythonEdgeQuery>(robot, std::move(scene), options, many);
+  return std::make_unique<PythonEdgeQuery>(robot, std::move(scenes), options, many);
 }
 
 void bindRobot(py::module_& module) {
@@ -265,7 +285,13 @@ void bindRobot(py::module_& module) {
       .def("with_tool", &robotWithTool, py::arg("link"), py::arg("name"), py::arg("lss"),
            "Another robot: with a link of its own, fixed to `link`; lss: a list of\n"
            "(a, b, radius), in the link's frame.")
-      .def("pose", &poseOf, py::arg("q"), "The pose at q, as a Pose.")
+      .def("pose", &poseOf, py::arg("q"),
+           "The pose at q, as a Pose. A Motion between two of them turns each joint on the\n"
+           "shorter arc, which is another way where it turns by more than half a turn: path().")
+      .def(
+          "path", &pathOf, py::arg("q"),
+          "(poses, at) of q (n, coordinates): the poses there, and in between as many as it takes\n"
+          "for each joint to turn the way that q says, as on an edge. at: where each lies, i + t.")
       .def_property_readonly("num_coordinates",
                              [](const SharedRobot& r) { return r.robot->numCoordinates(); })
       .def_property_readonly("names", &coordinateNames, "Of the coordinates.")
@@ -285,8 +311,12 @@ void bindRobot(py::module_& module) {
                                    *r.robot, [](const RobotCoordinate& c) { return c.isPeriodic; });
                              })
       .def_property_readonly("avatar", [](const SharedRobot& r) { return r.avatar; })
+      .def_property_readonly("links_without_volume", &linksWithoutVolume,
+                             "Their file gives them no shape, so they touch nothing.")
       .def("__repr__", [](const SharedRobot& r) {
+        const std::size_t bare = linksWithoutVolume(r).size();
         return "<foretouch.Robot of " + std::to_string(r.avatar->numLinks()) + " links, " +
+               (bare > 0 ? std::to_string(bare) + " of them without volume, " : "") +
                std::to_string(r.robot->numCoordinates()) + " coordinates>";
       });
 }
@@ -313,7 +343,8 @@ void bindRobots(py::module_& module) {
            "translation),\n"
            "or None: it is not there.")
       .def("answer", &PythonEdgeQuery::answer, py::arg("q0"), py::arg("q1"),
-           "q0 and q1 (n, coordinates): n edges; an Edges. An edge from q to q asks about q.")
+           "q0 and q1 (n, coordinates): n edges; an Edges, whose describe() says what they meet.\n"
+           "An edge from q to q asks about q.")
       .def(
           "answer_path", &PythonEdgeQuery::answerPath, py::arg("q"),
           "q (n, coordinates): a path. (free_until, edge): it is free on [0, free_until), counted\n"

@@ -26,7 +26,7 @@ Result<Avatar> grown(const Avatar& avatar, double growth) {
 Result<PairRules> grownRules(const Avatar& avatar, const PairRules& rules, double growth) {
   std::vector<PairRadius> radii = rules.radii();
   for (PairRadius& own : radii) own.radius = (own.radius + 2.0 * growth) * internal::kInflation;
-  return PairRules::of(avatar, rules.leftOut(), std::move(radii));
+  return PairRules::leavingOut(avatar, rules.leftOut(), std::move(radii));
 }
 
 /// Of poses seen from a prop, in parts of the distance: articulated/robot.md 3.
@@ -155,10 +155,8 @@ Result<EdgeAnswer> EdgeQuery::answer(const double* q0, const double* q1, std::si
   EdgeAnswer answer;
   answer.breachAt0 = robot_->breachOf(q0);
   answer.breachAt1 = robot_->breachOf(q1);
-  const double turn = robot_->largestTurn(q0, q1);
-  int parts = 1;
-  while (parts <= kMostParts && turn > Robot::kMostTurn * parts) parts *= 2;
-  if (parts > kMostParts) {
+  const int parts = robot_->partsBetween(q0, q1, kMostParts);
+  if (parts == 0) {
     answer.reason = UndecidedReason::Resolution;
     return answer;
   }

@@ -98,7 +98,7 @@ class EdgeQuery {
                                           EdgeScratch& scratch) const;
 
   /// An edge is cut into at most so many parts, of Robot::kMostTurn each; else it is undecided.
-  static constexpr int kMostParts = 4096;
+  static constexpr int kMostParts = Robot::kMostParts;
 
  private:
   struct Prop {

@@ -115,7 +115,7 @@ Result<Equipped> equipped(const Avatar& avatar, const SolidOptions& options,
       }
     }
     FORETOUCH_TRY(result.options.self,
-                  PairRules::of(result.avatar, std::move(leftOut), options.self->radii()));
+                  PairRules::leavingOut(result.avatar, std::move(leftOut), options.self->radii()));
   }
   return result;
 }

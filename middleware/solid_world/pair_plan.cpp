@@ -77,7 +77,7 @@ Result<Done> PairPlan::makeLss(const Avatar& avatar, const AroundKind& kind, dou
   }
   QueryOptions options;
   options.tolerance = tolerance;
-  FORETOUCH_TRY(options.self, PairRules::of(both, std::move(leftOut)));
+  FORETOUCH_TRY(options.self, PairRules::leavingOut(both, std::move(leftOut)));
   FORETOUCH_TRY(const Scene nothing, nowhere());
   FORETOUCH_TRY(auto plan, QueryPlan::make(both, nothing, options, kStartShare));
   plan_ = std::make_shared<const QueryPlan>(std::move(plan));

@@ -150,7 +150,7 @@ class PlanMaker {
     plan_.isEmpty = numPairs() == static_cast<std::int64_t>(leftOut.size());
     if (plan_.isEmpty) return Done{};
     FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.skeleton, lss_));
-    FORETOUCH_TRY(options_.self, PairRules::of(avatar, std::move(leftOut)));
+    FORETOUCH_TRY(options_.self, PairRules::leavingOut(avatar, std::move(leftOut)));
     return makePlan(avatar);
   }
 
@@ -205,7 +205,8 @@ class PlanMaker {
       pair.a = linkOf(a, pair.a);
       pair.b = linkOf(a, pair.b);
     }
-    FORETOUCH_TRY(PairRules rules, PairRules::of(avatar, std::move(leftOut), std::move(radii)));
+    FORETOUCH_TRY(PairRules rules,
+                  PairRules::leavingOut(avatar, std::move(leftOut), std::move(radii)));
     return std::optional<PairRules>(std::move(rules));
   }
 

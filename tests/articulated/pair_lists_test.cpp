@@ -42,7 +42,7 @@ TEST(PairLists, ExactListsKeepTheirReasonsAndRadii) {
   const Avatar avatar = figure();
   const PairRules derived = PairRules::derive(avatar, {true, 2e-3, nullptr, 0.95, {}}).value();
   ASSERT_FALSE(derived.radii().empty());
-  const PairRules same = PairRules::of(avatar, derived.leftOut(), derived.radii()).value();
+  const PairRules same = PairRules::leavingOut(avatar, derived.leftOut(), derived.radii()).value();
   EXPECT_EQ(same.numAsked(), derived.numAsked());
   ASSERT_EQ(same.leftOut().size(), derived.leftOut().size());
   for (std::size_t i = 0; i < same.leftOut().size(); ++i) {
@@ -56,7 +56,8 @@ TEST(PairLists, ExactListsKeepTheirReasonsAndRadii) {
 
 void expectRefusal(const std::vector<PairRadius>& radii, std::int64_t index, const char* about) {
   const Avatar avatar = figure();
-  const auto rules = PairRules::of(avatar, {{kTrunk, kLeftArm, PairReason::Adjacent}}, radii);
+  const auto rules =
+      PairRules::leavingOut(avatar, {{kTrunk, kLeftArm, PairReason::Adjacent}}, radii);
   ASSERT_FALSE(rules.ok()) << about;
   EXPECT_EQ(rules.error().file, "radii") << describe(rules.error());
   EXPECT_EQ(rules.error().index, index) << describe(rules.error());
@@ -65,7 +66,7 @@ void expectRefusal(const std::vector<PairRadius>& radii, std::int64_t index, con
 
 TEST(PairLists, RefusesRadiiThatDoNotFit) {
   const PairRadius good{kLeftHand, 0, kRightHand, 0, 0.05};
-  EXPECT_TRUE(PairRules::of(figure(), {}, {good}).ok());
+  EXPECT_TRUE(PairRules::leavingOut(figure(), {}, {good}).ok());
   expectRefusal({good, {kLeftHand, 0, 99, 0, 0.05}}, 1, "links of the avatar");
   expectRefusal({{-1, 0, kLeftHand, 0, 0.05}}, 0, "links of the avatar");
   expectRefusal({{kLeftHand, 0, kLeftHand, 0, 0.05}}, 0, "two different links");

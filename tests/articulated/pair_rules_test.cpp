@@ -133,7 +133,7 @@ TEST(PairRules, RefuseWhatTheyCannotMean) {
 TEST(PairRules, KeepOneReasonPerPair) {
   const Avatar avatar = trunkWithArms();
   const PairRules rules =
-      PairRules::of(avatar, {{6, 3, PairReason::User}, {3, 6, PairReason::Always}}).value();
+      PairRules::leavingOut(avatar, {{6, 3, PairReason::User}, {3, 6, PairReason::Always}}).value();
   ASSERT_EQ(rules.leftOut().size(), 1U);
   EXPECT_EQ(rules.reasonOf(6, 3), PairReason::Always);
   EXPECT_EQ(rules.numAsked(), 9);

@@ -1,4 +1,5 @@
 // A robot's joint positions as a clip.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -85,6 +86,98 @@ TEST(ClipFromJointPositions, HasTheAvatarsJointsAndMovesThoseThatAreNamed) {
   EXPECT_EQ(clip.frames[1].rotations[0].coeffs(), Quaternion::Identity().coeffs());
   const Clip slid = clipFromJointPositions(model, "time,slide\n0,0\n1,0.25\n", "a.csv").value();
   EXPECT_TRUE(slid.hasTranslation[at(*slid.skeleton.find("finger"))]);
+}
+
+/// How far apart two rotations are, as an angle (rad); `turn` is one about z.
+double offFrom(const Quaternion& turn, double angle) {
+  const double w = std::cos(angle / 2), z = std::sin(angle / 2);
+  return 2.0 * std::acos(std::min(1.0, std::abs(turn.w() * w + turn.z() * z)));
+}
+
+TEST(ClipFromJointPositions, TurnsTheWayThatTheNumbersSayFromRowToRow) {
+  const Clip clip =
+      clipFromJointPositions(robot(), "time,elbow,slide\n5,-2,0\n6,2,0.2\n7,-8,0.2\n", "a.csv")
+          .value();
+  ASSERT_EQ(clip.framesPerRow, 4);  // 10 rad in parts of at most 3
+  ASSERT_EQ(clip.frames.size(), 9u);
+  EXPECT_EQ(clip.frameTimeS, 0.25);
+  EXPECT_NEAR(clip.mostTurn, 2.5, 1e-12);
+  EXPECT_TRUE(tableIsNoted(clip, "10.000000 rad from one row to the next"));
+  EXPECT_TRUE(tableIsNoted(clip, "4 steps make up a row"));
+  const auto fore = at(*clip.skeleton.find("fore")), finger = at(*clip.skeleton.find("finger"));
+  for (std::size_t i = 0; i + 1 < clip.frames.size(); ++i) {
+    // Halfway along the shorter arc from frame to frame.
+    const double s = 0.25 * (static_cast<double>(i) + 0.5);
+    const double angle = s < 1.0 ? -2.0 + 4.0 * s : 2.0 - 10.0 * (s - 1.0);
+    const Quaternion &from = clip.frames[i].rotations[fore],
+                     &to = clip.frames[i + 1].rotations[fore];
+    const double sign = from.dot(to) < 0.0 ? -1.0 : 1.0;
+    const Quaternion half((from.coeffs() + sign * to.coeffs()).normalized());
+    EXPECT_LT(offFrom(half, angle), 1e-7) << i;
+    const double slid = clip.frames[i].translations[finger].x() - 1.0;
+    EXPECT_NEAR(slid, i < 4 ? 0.05 * static_cast<double>(i) : 0.2, 1e-12) << i;
+  }
+}
+
+TEST(ClipFromJointPositions, LetsJointsFollowTheOneThatTheyMimic) {
+  Model model = robot();
+  const auto node = [&](const char* name) {
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+      if (model.nodes[i].name == name) return static_cast<std::int32_t>(i);
+    }
+    return -1;
+  };
+  model.mimics.push_back({node("fore"), node("upper"), -3.0, 0.5});
+  const Clip clip = clipFromJointPositions(model, "time,shoulder\n0,0\n1,1.5\n", "a").value();
+  EXPECT_EQ(clip.framesPerRow, 2) << "the follower turns by 4.5 rad";
+  const auto fore = at(*clip.skeleton.find("fore"));
+  EXPECT_LT(offFrom(clip.frames[0].rotations[fore], 0.5), 1e-7);
+  EXPECT_LT(offFrom(clip.frames[1].rotations[fore], -1.75), 1e-7);
+  EXPECT_LT(offFrom(clip.frames[2].rotations[fore], -4.0), 1e-7);
+  EXPECT_TRUE(clip.hasRotation[fore]);
+  // A table that names it says where it is.
+  const Clip named =
+      clipFromJointPositions(model, "time,shoulder,elbow\n0,0,1\n1,1.5,1\n", "a").value();
+  EXPECT_LT(offFrom(named.frames[1].rotations[fore], 1.0), 1e-7);
+}
+
+TEST(ClipFromJointPositions, MovesAPlanarBaseByItsThreeNumbers) {
+  Model model = robot();
+  for (ModelNode& node : model.nodes) {
+    if (node.name == "upper") node.joint = ModelJointType::Planar;  // about z
+  }
+  const Clip clip = clipFromJointPositions(
+                        model, "time,shoulder/x,shoulder/y,shoulder/angle\n0,1,2,0\n1,3,2,4\n", "a")
+                        .value();
+  const auto upper = at(*clip.skeleton.find("upper"));
+  ASSERT_EQ(clip.framesPerRow, 2);
+  EXPECT_LT((clip.frames[1].translations[upper] - Vector3d(2, 3, 0)).norm(),
+            1e-12);  // y = 1 at rest
+  EXPECT_LT(offFrom(clip.frames[1].rotations[upper], 2.0), 1e-7);
+  const auto whole = clipFromJointPositions(model, "time,shoulder\n0,0\n1,0\n", "a");
+  ASSERT_FALSE(whole.ok());
+  EXPECT_NE(whole.error().message.find("'shoulder/angle'"), std::string::npos);
+}
+
+TEST(ClipFromJointPositions, RefusesAWayThatTakesTooManyPoses) {
+  const auto clip = clipFromJointPositions(robot(), "time,elbow\n0,0\n1,0\n2,1e6\n", "log.csv");
+  ASSERT_FALSE(clip.ok());
+  EXPECT_EQ(clip.error().line, 4);
+  EXPECT_EQ(clip.error().code, ErrorCode::LimitExceeded);
+}
+
+TEST(ClipFromSampledJoints, MovesEveryJointWithinItsLimits) {
+  const Clip clip = clipFromSampledJoints(robot(), 500, 3).value();
+  ASSERT_EQ(clip.frames.size(), 500u);
+  const auto upper = at(*clip.skeleton.find("upper"));
+  double most = 0.0;
+  for (const Pose& pose : clip.frames) {
+    most = std::max(most, offFrom(pose.rotations[upper], 0.0));
+  }
+  EXPECT_LE(most, 2.0 + 1e-7);
+  EXPECT_GT(most, 1.9);
+  EXPECT_TRUE(clip.hasRotation[upper]);
+  EXPECT_TRUE(clip.hasTranslation[at(*clip.skeleton.find("finger"))]);
 }
 
 TEST(ClipFromJointPositions, NotesLimitsAndJointsThatDoNotMove) {

@@ -96,6 +96,17 @@ AT(ft_pair_rule_options, usual_count, 40);
 AT(ft_pair_rule_options, left_out, 48);
 AT(ft_pair_rule_options, left_out_count, 56);
 
+static_assert(sizeof(ft_pair_touches) == 16);
+AT(ft_pair_touches, b, 4);
+AT(ft_pair_touches, touches, 8);
+
+static_assert(sizeof(ft_robot_pair_options) == 40);
+AT(ft_robot_pair_options, samples, 4);
+AT(ft_robot_pair_options, seed, 8);
+AT(ft_robot_pair_options, always_share, 16);
+AT(ft_robot_pair_options, left_out, 24);
+AT(ft_robot_pair_options, left_out_count, 32);
+
 static_assert(sizeof(ft_pair_rules_info) == 40);
 AT(ft_pair_rules_info, pairs, 8);
 AT(ft_pair_rules_info, asked, 16);

@@ -96,6 +96,28 @@ TEST(CPairRules, AreDerivedListedAndMadeAgain) {
   EXPECT_EQ(infoOf(same).radii, 1u);
 }
 
+TEST(CPairRules, AskOnlyWhatIsListed) {
+  const Avatar avatar = figure(-0.12);
+  const test::AvatarHandle handle = test::makeAvatar(avatar);
+  const ft_link_pair asked{2, 0};
+  const auto rules = madeBy([&](ft_pair_rules** made) {
+    return ft_pair_rules_create_asking(handle.get(), &asked, 1, made);
+  });
+  EXPECT_EQ(infoOf(rules).asked, 1u);
+  const auto leftOut = leftOutOf(rules);
+  ASSERT_EQ(leftOut.size(), 2u);
+  for (const ft_left_out_pair& pair : leftOut) {
+    EXPECT_EQ(pair.reason, FT_PAIR_USER);
+    EXPECT_FALSE(pair.a == 0 && pair.b == 2);
+  }
+  std::size_t required = 9;
+  EXPECT_EQ(ft_pair_rules_touches(rules.get(), nullptr, 0, &required), FT_OK);
+  EXPECT_EQ(required, 0u);
+  ft_pair_rules* none = nullptr;
+  expectRefused(ft_pair_rules_create_asking(handle.get(), nullptr, 0, &none), FT_ERROR_EMPTY,
+                {"at least one pair"});
+}
+
 TEST(CPairRules, LookAtUsualPosesAndAtFiles) {
   const Avatar avatar = figure();
   const test::AvatarHandle handle = test::makeAvatar(avatar);

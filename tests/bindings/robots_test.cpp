@@ -86,6 +86,57 @@ TEST_F(CRobots, TellTheirCoordinates) {
   EXPECT_NEAR(rotations[3], std::sqrt(0.5), 1e-15);
 }
 
+TEST_F(CRobots, GoTheWayThatTheirNumbersSay) {
+  const double q[6] = {-2, 0, 0, 2, 0, 0};
+  size_t count = 0;
+  ASSERT_EQ(ft_robot_path(robot_.get(), q, 2, 3, nullptr, nullptr, nullptr, 0, &count), FT_OK);
+  ASSERT_EQ(count, 3U);
+  double rotations[36], translations[27], at[3];
+  ASSERT_EQ(ft_robot_path(robot_.get(), q, 2, 3, rotations, translations, at, 3, &count), FT_OK);
+  EXPECT_EQ(at[1], 0.5);
+  EXPECT_EQ(at[2], 1.0);
+  EXPECT_NEAR(rotations[12], 1.0, 1e-15);  // by way of zero, not of the half turn
+  EXPECT_NEAR(rotations[24], std::cos(1.0), 1e-15);
+  EXPECT_EQ(ft_robot_path(robot_.get(), q, 2, 3, rotations, translations, at, 2, &count),
+            FT_ERROR_BUFFER_TOO_SMALL);
+  EXPECT_EQ(ft_robot_path(robot_.get(), q, 2, 2, rotations, translations, at, 3, &count),
+            FT_ERROR_MISMATCH);
+  EXPECT_EQ(ft_robot_path(robot_.get(), q, 0, 3, rotations, translations, at, 3, &count),
+            FT_ERROR_EMPTY);
+}
+
+TEST_F(CRobots, HavePairRulesOfDrawnConfigurationsAsInCpp) {
+  ft_robot_pair_options options;
+  ASSERT_EQ(ft_robot_pair_options_init(&options, sizeof options), FT_OK);
+  EXPECT_EQ(options.samples, RobotPairOptions().samples);
+  EXPECT_EQ(options.seed, RobotPairOptions().seed);
+  EXPECT_EQ(options.always_share, RobotPairOptions().alwaysShare);
+  options.samples = 300;
+  options.seed = 5;
+  ft_pair_rules* made = nullptr;
+  ASSERT_EQ(ft_pair_rules_create_of_robot(robot_.get(), &options, &made), FT_OK) << ft_last_error();
+  const test::RulesHandle rules(made);
+  RobotPairOptions same;
+  same.samples = 300;
+  same.seed = 5;
+  const PairRules cpp = PairRules::derive(known_, same).value();
+  std::size_t required = 0;
+  std::vector<ft_pair_touches> touches(cpp.touches().size());
+  ASSERT_EQ(ft_pair_rules_touches(made, touches.data(), touches.size(), &required), FT_OK);
+  ASSERT_EQ(required, touches.size());
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    EXPECT_EQ(touches[i].a, cpp.touches()[i].a);
+    EXPECT_EQ(touches[i].b, cpp.touches()[i].b);
+    EXPECT_EQ(touches[i].touches, cpp.touches()[i].touches);
+  }
+  ft_edge_options asked;
+  ASSERT_EQ(ft_edge_options_init(&asked, sizeof asked), FT_OK);
+  asked.self = made;
+  edges(&asked);  // they are rules of the robot's avatar
+  options.samples = 0;
+  EXPECT_EQ(ft_pair_rules_create_of_robot(robot_.get(), &options, &made), FT_ERROR_OUT_OF_RANGE);
+}
+
 TEST_F(CRobots, AnswerEdgesAsCppDoes) {
   constexpr std::size_t kEdges = 300;
   const auto q0 = test::randomConfigurations(1, kEdges), q1 = test::randomConfigurations(2, kEdges);

@@ -75,8 +75,8 @@ TEST(AvatarMesh, MakesAnAvatarAndItsMeshThatTheCheckAccepts) {
 TEST(AvatarMesh, ScalesAndTurns) {
   const TempFolder folder;
   const std::string model = folder.write("boxes.obj", twoBoxes());
-  const Ended ended = runForetouch({"avatar", "mesh", model, "-o", folder / "a.json", "--model-scale",
-                                    "0.5", "--model-up", "z", "--max-lss", "1"});
+  const Ended ended = runForetouch({"avatar", "mesh", model, "-o", folder / "a.json",
+                                    "--model-scale", "0.5", "--model-up", "z", "--max-lss", "1"});
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   const Avatar avatar = readAvatarFile(folder / "a.json").value();
   EXPECT_EQ(avatar.numLss(), 2);
@@ -106,6 +106,49 @@ TEST(AvatarMesh, RefusesBadInputAndLeavesNothing) {
     EXPECT_EQ(ended.err.rfind("foretouch: ", 0), 0u) << ended.err;
     EXPECT_EQ(folder.names(), before);
   }
+}
+
+TEST(AvatarUrdf, RefusesMeshesThatAreMissingUnlessTheyMayBe) {
+  const TempFolder folder;
+  const std::string robot = folder.write("r.urdf", R"(<robot name="r"><link name="base"><collision>
+<geometry><sphere radius="0.1"/></geometry></collision></link><link name="arm"><collision><geometry>
+<mesh filename="absent.stl"/></geometry></collision></link><joint name="j" type="continuous">
+<parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint></robot>)");
+  const std::string made = folder / "a.json";
+  const Ended refused = runForetouch({"avatar", "urdf", robot, "-o", made});
+  EXPECT_EQ(refused.exitCode, 2);
+  EXPECT_TRUE(holds(refused.err, "'absent.stl' of link 'arm' was not found")) << refused.err;
+  EXPECT_TRUE(holds(refused.err, "--allow-missing")) << refused.err;
+  EXPECT_EQ(folder.names(), std::set<std::string>{"r.urdf"});
+  const Ended allowed = runForetouch({"avatar", "urdf", robot, "-o", made, "--allow-missing"});
+  EXPECT_EQ(allowed.exitCode, 0) << allowed.err;
+  EXPECT_TRUE(holds(allowed.err, "'absent.stl' of link 'arm' was not found")) << allowed.err;
+  EXPECT_TRUE(holds(allowed.out, "links without an LSS")) << allowed.out;
+}
+
+TEST(AvatarPairs, OfARobotAreDrawnWithinItsLimits) {
+  const TempFolder folder;
+  // At zero, outside its limits, the fold lies on the base; within them it points away.
+  const std::string robot = folder.write("r.urdf", R"(<robot name="r"><link name="base"><collision>
+<origin xyz="0.5 0 0" rpy="0 1.5707963267948966 0"/><geometry><capsule radius="0.05" length="1"/>
+</geometry></collision></link><link name="arm"><collision><origin xyz="0 0.3 0"/><geometry>
+<sphere radius="0.05"/></geometry></collision></link><link name="fold"><collision>
+<origin xyz="-0.5 -0.25 0"/><geometry><sphere radius="0.05"/></geometry></collision></link>
+<joint name="a" type="revolute"><parent link="base"/><child link="arm"/><origin xyz="1 0 0"/>
+<axis xyz="0 0 1"/><limit lower="-0.1" upper="0.1" effort="1" velocity="1"/></joint>
+<joint name="f" type="revolute"><parent link="arm"/><child link="fold"/><origin xyz="0 0.3 0"/>
+<axis xyz="0 0 1"/><limit lower="2" upper="4" effort="1" velocity="1"/></joint></robot>)");
+  const std::string made = folder / "a.json";
+  ASSERT_EQ(runForetouch({"avatar", "urdf", robot, "-o", made}).exitCode, 0);
+  const Ended ofRest = runForetouch({"avatar", "pairs", made, "--json"});
+  EXPECT_EQ(ofRest.exitCode, 2) << "it leaves no pair to ask";
+  const Ended drawn = runForetouch({"avatar", "pairs", made, "--robot", robot, "--json"});
+  ASSERT_EQ(drawn.exitCode, 0) << drawn.err;
+  EXPECT_TRUE(holds(drawn.out, R"("pairs":3,"asked":1,)")) << drawn.out;
+  EXPECT_TRUE(holds(drawn.out, R"({"a":"base","b":"fold","touches":0})")) << drawn.out;
+  EXPECT_TRUE(holds(drawn.out, R"("usual_poses":10000)")) << drawn.out;
+  const Ended told = runForetouch({"avatar", "pairs", made, "--robot", robot});
+  EXPECT_TRUE(holds(told.out, "asked, never touching  1\n")) << told.out;
 }
 
 TEST(AvatarCheck, SaysNoToTrianglesOutsideTheirLssAndTwoToMeshesThatAreNotThere) {

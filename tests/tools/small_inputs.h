@@ -29,7 +29,7 @@ inline tools::ReplayInputs smallInputs(const std::vector<double>& places,
   request.avatarPath = "some/man.json";
   request.motionPath = "some/clip.bvh";
   request.placement.origin = origin;
-  const auto steps = tools::selectSteps(places.size(), clip.frameTimeS, std::nullopt).value();
+  const auto steps = tools::selectSteps(clip, std::nullopt).value();
   return {request,           Scene::build(wallAt(0.0, wall)).value(),
           std::move(avatar), std::move(clip),
           std::move(match),  steps,

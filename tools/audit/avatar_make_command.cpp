@@ -37,7 +37,7 @@ struct AskedOfModel {
   std::string model, output;
   ModelImportOptions reading;
   ModelAvatarOptions making;
-  bool visual = false, isRobot = false;
+  bool visual = false, isRobot = false, allowsMissing = false;
 };
 
 /// Describes the result, and what looks wrong about it.
@@ -91,7 +91,14 @@ ExitCode makeFromModel(AskedOfModel asked) {
   for (const std::string& output : {asked.output, meshPathOf(asked.output)}) {
     FORETOUCH_CHECK_OR(failed, checkIsNoInput(output, {asked.model}));
   }
-  FORETOUCH_TRY_OR(failed, const auto model, importModel(asked.model, asked.reading));
+  asked.reading.needsMeshes = asked.isRobot && !asked.allowsMissing;
+  const auto failedToRead = [&](Error error) {
+    if (asked.reading.needsMeshes && error.message.find("mesh ") != std::string::npos) {
+      error.message += "; --allow-missing reads the robot without it";
+    }
+    return failed(error);
+  };
+  FORETOUCH_TRY_OR(failedToRead, const auto model, importModel(asked.model, asked.reading));
   for (const std::string& note : model.notes) printNote(asked.model + ": " + note);
   if (const auto remark =
           remarkOnFrame(model.frame, {"--model-scale", "--model-up"}, asked.model)) {
@@ -169,6 +176,9 @@ Command avatarUrdfCommand() {
       .required("a URDF file");
   addModelSettings(settings, *asked, "Metres per unit of the robot");
   settings.flag("--visual", asked->visual, "Use the visual meshes as the collision surface");
+  settings.flag("--allow-missing", asked->allowsMissing,
+                "Read the robot without meshes that are missing or unreadable: their links have no "
+                "volume, and touch nothing");
   settings.list("--package", "DIR", asked->reading.packagePaths,
                 "Where package://NAME/ is; may be repeated");
   Command command{

@@ -71,11 +71,20 @@ Result<Avatar> readAvatar(const AskedPairs& asked) {
   return inFile(avatarFromClip(clip, asked.making), asked.source);
 }
 
-/// Of all clips; of the clip that the avatar is made of, if none is given.
+/// A robot says by its limits which poses it takes: unless clips do.
+bool isSampled(const AskedPairs& asked) {
+  return asked.clips.empty() && !asked.reading.robotPath.empty();
+}
+
+/// Of all clips; of the robot, or of the clip that the avatar is made of, if none is given.
 Result<std::vector<Pose>> usualPoses(const AskedPairs& asked, const Avatar& avatar) {
   std::vector<std::string> clips = asked.clips;
   if (clips.empty() && isBvh(asked.source)) clips.push_back(asked.source);
   std::vector<Pose> poses;
+  if (isSampled(asked)) {
+    FORETOUCH_CHECK(addSampledPoses(avatar, asked.reading, poses));
+    return poses;
+  }
   for (const std::string& path : clips) {
     ClipRequest request = asked.reading;
     request.motionPath = path;
@@ -91,16 +100,33 @@ std::string named(const Avatar& avatar, LinkId link) {
   return avatar.skeleton().name(link);
 }
 
+/// ", touch in 9800 of 10000 poses", if any are known.
+std::string touchesOf(const PairRules& rules, const LeftOutPair& left) {
+  for (const PairTouches& pair : rules.touches()) {
+    if (pair.a != left.a || pair.b != left.b) continue;
+    return fmt::format(", touch in {} of {} poses", pair.touches, rules.numUsualPoses());
+  }
+  return "";
+}
+
 /// One line per pair that is left out.
 std::string leftOutTable(const Avatar& avatar, const PairRules& rules) {
   if (rules.leftOut().empty()) return "";
   std::string text =
       "\nLeft out, so that no answer says whether the two touch: each is a hole in the proof.\n";
   for (const LeftOutPair& pair : rules.leftOut()) {
-    text += fmt::format("  {:<25}{:<25}{}\n", named(avatar, pair.a), named(avatar, pair.b),
-                        toString(pair.reason));
+    text += fmt::format("  {:<25}{:<25}{}{}\n", named(avatar, pair.a), named(avatar, pair.b),
+                        toString(pair.reason), touchesOf(rules, pair));
   }
   return text;
+}
+
+/// Asked pairs that touch in no usual pose. That proves nothing: no pose between them was looked
+/// at.
+std::int64_t neverTouching(const PairRules& rules) {
+  return std::count_if(rules.touches().begin(), rules.touches().end(), [&](const auto& pair) {
+    return pair.touches == 0 && rules.reasonOf(pair.a, pair.b) == PairReason::Asked;
+  });
 }
 
 /// One line per two LSS with a radius of their own.
@@ -123,6 +149,9 @@ std::string describe(const Avatar& avatar, const PairRules& rules, std::size_t p
   if (!rules.leftOut().empty()) leftOut += ": " + reasonsOf(rules);
   return auditRow("pairs of links", count(rules.numPairs())) +
          auditRow("  asked", count(rules.numAsked())) + auditRow("  left out", leftOut) +
+         (rules.numUsualPoses() == 0
+              ? ""
+              : auditRow("  asked, never touching", count(neverTouching(rules)))) +
          auditRow("pair radii", count(rules.radii().size())) +
          auditRow("usual poses", count(poses)) + leftOutTable(avatar, rules) +
          radiiTable(avatar, rules);
@@ -153,6 +182,13 @@ std::string pairsJson(const AskedPairs& asked, const Avatar& avatar, const PairR
     out.endObject();
   });
   out.field("usual_poses", poses);
+  out.list("touches", rules.touches(), [&](const PairTouches& pair) {
+    out.beginObject();
+    out.field("a", named(avatar, pair.a));
+    out.field("b", named(avatar, pair.b));
+    out.field("touches", pair.touches);
+    out.endObject();
+  });
   if (!asked.output.empty()) out.field("output", asked.output);
   out.endObject();
   return text + "\n";
@@ -174,6 +210,7 @@ ExitCode run(AskedPairs asked) {
   FORETOUCH_CHECK_OR(failed, checkIsNoInput(asked.output, inputs));
   FORETOUCH_TRY_OR(failed, const auto avatar, readAvatar(asked));
   FORETOUCH_TRY_OR(failed, const auto poses, usualPoses(asked, avatar));
+  asked.rules.isRestTaken = !isSampled(asked);
   FORETOUCH_TRY_OR(failed, asked.rules.leftOut, parseLeftOut("--leave-out", asked.leftOut, avatar));
   asked.rules.usualPoses = &poses;
   auto derived = PairRules::derive(avatar, asked.rules);
@@ -200,9 +237,11 @@ Settings pairsSettings(AskedPairs& asked) {
   settings.output("-o,--output", "FILE", asked.output, "Pair rules to write, for replay --pairs");
   settings.asJson(asked.asJson);
   settings
-      .list("--clip", "CLIP", asked.clips,
-            "Poses that the avatar usually takes: BVH, animated model, or csv; may be repeated. "
-            "Not given: those of the clip that the avatar is made of")
+      .list(
+          "--clip", "CLIP", asked.clips,
+          "Poses that the avatar usually takes: BVH, animated model, or csv; may be repeated. "
+          "Not given: with --robot, poses drawn within its joints' limits; else those of the clip "
+          "that the avatar is made of")
       .files(kClipEndings)
       .in(kInputGroup);
   settings.number("--always-share", "S", asked.rules.alwaysShare, kShareRange,

@@ -14,6 +14,7 @@
 #include "assets/json_writer.h"
 #include "assets/text_file.h"
 #include "middleware/query/query.h"
+#include "tools/console.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
@@ -131,6 +132,7 @@ std::string certifiedLine(const CertifiedClip& found) {
 
 ExitCode run(const AskedCertificate& asked) {
   FORETOUCH_TRY_OR(failed, const auto inputs, loadReplayInputs(asked.request));
+  for (const std::string& remark : remarksOn(inputs)) printNote(remark);
   {
     const InterruptGuard guard;
     FORETOUCH_TRY_OR(failed, const auto found, certify(inputs, guard));

@@ -338,7 +338,7 @@ Result<Done> runReplay(const ReplayJob& job,
   }
   FORETOUCH_TRY(const auto inputs, loadReplayInputs(request));
   for (const std::string& remark : remarksOn(inputs)) printNote(remark);
-  const auto rate = remarkOnRate(inputs.steps, inputs.clip.frameTimeS, request.rateHz);
+  const auto rate = remarkOnRate(inputs.steps, inputs.clip, request.rateHz);
   if (rate) printNote(*rate);
 
   ReplaySummary summary(inputs);

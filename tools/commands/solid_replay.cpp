@@ -138,7 +138,7 @@ Result<Done> runSolidReplay(const SolidReplayJob& job,
   FORETOUCH_CHECK(checkFiles(job));
   FORETOUCH_TRY(const auto inputs, loadReplayInputs(job.request));
   for (const std::string& remark : remarksOn(inputs)) printNote(remark);
-  const auto rate = remarkOnRate(inputs.steps, inputs.clip.frameTimeS, job.request.rateHz);
+  const auto rate = remarkOnRate(inputs.steps, inputs.clip, job.request.rateHz);
   if (rate) printNote(*rate);
   const SolidOptions options = solidOptionsOf(job.solid, inputs, job.hasTolerance);
   SolidSummary summary(inputs);

@@ -18,7 +18,8 @@ Result<Pose> poseAtFrame(const PlacedClip& placed, std::int64_t frame) {
   auto valid = validatedPose(skeleton, foretouch::placed(skeleton, std::move(pose), placement));
   if (valid.ok()) return valid;
   Error error = inFile(valid.error(), placed.path);
-  error.message = fmt::format("frame {}: {}", frame, error.message);
+  error.message = fmt::format("{} {}: {}", placed.clip.framesPerRow > 1 ? "row" : "frame",
+                              frame / placed.clip.framesPerRow, error.message);
   return error;
 }
 

@@ -10,10 +10,12 @@
 
 #include "articulated/try.h"
 #include "assets/avatar/pairs_file.h"
+#include "assets/clip/clip_file.h"
 #include "assets/near_names.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
 #include "tools/arguments.h"
+#include "tools/inputs/joint_map.h"
 #include "tools/inputs/name_pattern.h"
 
 namespace foretouch::tools {
@@ -76,12 +78,10 @@ class LeftOutReader {
   std::vector<std::string> names_;  // of these
 };
 
-}  // namespace
-
-Result<Done> addUsualPoses(const Avatar& avatar, const Clip& clip, const JointMatch& match,
-                           const std::string& path, std::vector<Pose>& poses) {
+Result<Done> addPoses(const Avatar& avatar, const Clip& clip, const JointMatch& match,
+                      const std::string& path, std::size_t most, std::vector<Pose>& poses) {
   const std::size_t frames = clip.frames.size();
-  const std::size_t count = std::min(frames, kMostUsualPoses);
+  const std::size_t count = std::min(frames, most);
   poses.reserve(poses.size() + count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t frame = i * frames / count;
@@ -95,6 +95,13 @@ Result<Done> addUsualPoses(const Avatar& avatar, const Clip& clip, const JointMa
     poses.push_back(std::move(pose).value());
   }
   return Done{};
+}
+
+}  // namespace
+
+Result<Done> addUsualPoses(const Avatar& avatar, const Clip& clip, const JointMatch& match,
+                           const std::string& path, std::vector<Pose>& poses) {
+  return addPoses(avatar, clip, match, path, kMostUsualPoses, poses);
 }
 
 Result<std::vector<LinkPair>> parseLeftOut(const std::string& option,
@@ -119,12 +126,27 @@ Result<std::vector<LinkPair>> parseLeftOut(const std::string& option,
   return pairs;
 }
 
-Result<PairRules> pairRulesFor(const WorldRequest& request, const Avatar& avatar, const Clip& clip,
-                               const JointMatch& match, const std::string& motionPath) {
+Result<Done> addSampledPoses(const Avatar& avatar, const ClipRequest& motion,
+                             std::vector<Pose>& poses) {
+  const RobotPairOptions usual;
+  ClipFileOptions options;
+  options.robot = motion.robotPath;
+  options.packagePaths = motion.packagePaths;
+  options.import.scale = motion.motionScale;
+  FORETOUCH_TRY(const auto clip, sampleRobotFile(options, usual.samples, usual.seed));
+  FORETOUCH_TRY(const auto match,
+                matchWithMap(avatar.skeleton(), clip.skeleton, motion.mapPath, motion.robotPath));
+  return addPoses(avatar, clip, match, motion.robotPath, clip.frames.size(), poses);
+}
+
+Result<PairRules> pairRulesFor(const WorldRequest& request, const ClipRequest& motion,
+                               const Avatar& avatar, const Clip& clip, const JointMatch& match) {
   if (!request.pairsPath.empty()) return readPairsFile(request.pairsPath, avatar);
   std::vector<Pose> poses;
-  FORETOUCH_CHECK(addUsualPoses(avatar, clip, match, motionPath, poses));
   PairRuleOptions options;
+  options.isRestTaken = motion.robotPath.empty();
+  FORETOUCH_CHECK(options.isRestTaken ? addUsualPoses(avatar, clip, match, motion.motionPath, poses)
+                                      : addSampledPoses(avatar, motion, poses));
   options.usualPoses = &poses;
   auto rules = PairRules::derive(avatar, options);
   if (rules.ok()) return rules;

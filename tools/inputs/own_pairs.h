@@ -11,6 +11,7 @@
 #include "articulated/pair_rules.h"
 #include "articulated/result.h"
 #include "assets/avatar/joint_match.h"
+#include "tools/settings/clip_settings.h"
 #include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
@@ -32,11 +33,16 @@ inline constexpr std::size_t kMostUsualPoses = 2000;
                                                          const std::vector<std::string>& texts,
                                                          const Avatar& avatar);
 
+/// Adds the avatar's poses at configurations drawn within the limits of the robot that `motion`
+/// names, as RobotPairOptions has it. Errors name the robot's file.
+[[nodiscard]] Result<Done> addSampledPoses(const Avatar& avatar, const ClipRequest& motion,
+                                           std::vector<Pose>& poses);
+
 /// The rules for `request`, which asks for own links: those of its file, or derived from the avatar
-/// and the clip's poses. Errors name the file or the option.
-[[nodiscard]] Result<PairRules> pairRulesFor(const WorldRequest& request, const Avatar& avatar,
-                                             const Clip& clip, const JointMatch& match,
-                                             const std::string& motionPath);
+/// and the clip's poses, of a robot from sampled ones. Errors name the file or the option.
+[[nodiscard]] Result<PairRules> pairRulesFor(const WorldRequest& request, const ClipRequest& motion,
+                                             const Avatar& avatar, const Clip& clip,
+                                             const JointMatch& match);
 
 /// "25 adjacent, 3 rest-overlap, 1 always", without the reasons that no pair has.
 [[nodiscard]] std::string reasonsOf(const PairRules& rules);

@@ -19,9 +19,7 @@ Result<PlayedClip> loadPlayedClip(const ClipRequest& request) {
   Clip& clip = read.clip;
   auto match = matchWithMap(avatar.skeleton(), clip.skeleton, request.mapPath, request.motionPath);
   if (!match.ok()) return match.error();
-  FORETOUCH_TRY(
-      const auto steps,
-      inFile(selectSteps(clip.frames.size(), clip.frameTimeS, request.rateHz), request.motionPath));
+  FORETOUCH_TRY(const auto steps, inFile(selectSteps(clip, request.rateHz), request.motionPath));
   return PlayedClip{std::move(avatar), std::move(clip), std::move(match).value(), steps,
                     read.isUpright,    read.frame};
 }

@@ -80,8 +80,10 @@ ReplayRequest asRead(ReplayRequest request, const FileFrame& scene, const FileFr
 
 /// What nobody asks, and how to see it.
 std::string remarkOnPairs(const ReplayRequest& request, const PairRules& rules) {
+  const bool isRobot = !request.robotPath.empty();
   std::string command =
-      "foretouch avatar pairs " + request.avatarPath + " --clip " + request.motionPath;
+      "foretouch avatar pairs " + request.avatarPath +
+      (isRobot ? " --robot " + request.robotPath : " --clip " + request.motionPath);
   if (request.motionScale != 1.0) command += fmt::format(" --clip-scale {}", *request.motionScale);
   if (!request.animation.empty()) command += " --animation " + request.animation;
   return fmt::format(
@@ -128,7 +130,7 @@ Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
   FORETOUCH_TRY(auto scene, loadScene(request, sceneFrame));
   FORETOUCH_TRY(auto query, queryOptionsFor(request, request.avatarPath, avatar, scene));
   if (request.asksSelf) {
-    FORETOUCH_TRY(query.self, pairRulesFor(request, avatar, clip, match, request.motionPath));
+    FORETOUCH_TRY(query.self, pairRulesFor(request, request, avatar, clip, match));
     FORETOUCH_CHECK(checkRadii(query, request.pairsPath));
   }
   return ReplayInputs{asRead(request, sceneFrame, clipFrame),

@@ -35,6 +35,10 @@ struct ReplayInputs {
   [[nodiscard]] double timeOfStep(std::int64_t step) const {
     return static_cast<double>(step * steps.stride) * clip.frameTimeS;
   }
+  /// Of a table of joint positions, from 0: the one that the step begins at, or comes from.
+  [[nodiscard]] std::int64_t rowOfStep(std::int64_t step) const {
+    return step * steps.stride / clip.framesPerRow;
+  }
 };
 
 /// Reads, checks and matches the inputs. Errors name the file or option.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/robot.h"
 #include "lss/assert.h"
 
 namespace foretouch::tools {
@@ -13,8 +14,20 @@ double rateTaken(const StepSelection& steps, double frameTimeS) {
   return 1.0 / (frameTimeS * static_cast<double>(steps.stride));
 }
 
-std::optional<std::string> remarkOnRate(const StepSelection& steps, double frameTimeS,
+std::int64_t mostStride(const Clip& clip) {
+  if (!(clip.mostTurn > 0.0)) return kAnyStride;
+  const double frames = std::floor(Robot::kMostTurn / clip.mostTurn);
+  if (frames >= static_cast<double>(clip.frames.size())) return kAnyStride;
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(frames));
+}
+
+std::optional<std::string> remarkOnRate(const StepSelection& steps, const Clip& clip,
                                         std::optional<double> rateHz) {
+  return remarkOnRate(steps, clip.frameTimeS, rateHz, mostStride(clip));
+}
+
+std::optional<std::string> remarkOnRate(const StepSelection& steps, double frameTimeS,
+                                        std::optional<double> rateHz, std::int64_t mostStride) {
   if (!rateHz) return std::nullopt;
   const double taken = rateTaken(steps, frameTimeS);
   const double share = taken / *rateHz - 1.0;
@@ -27,13 +40,20 @@ std::optional<std::string> remarkOnRate(const StepSelection& steps, double frame
       "than asked",
       *rateHz, frames, 1.0 / frameTimeS, taken, 100.0 * std::abs(share), isMore ? "more" : "fewer");
   if (!isMore) return text;
+  if (steps.stride == mostStride) {
+    return text + "; with fewer, a joint would turn by half a turn or more between two poses";
+  }
   const StepSelection fewer{steps.stride + 1, 1};
   return text +
          fmt::format("; --rate {:.5g} would be at most as many", rateTaken(fewer, frameTimeS));
 }
 
+Result<StepSelection> selectSteps(const Clip& clip, std::optional<double> rateHz) {
+  return selectSteps(clip.frames.size(), clip.frameTimeS, rateHz, mostStride(clip));
+}
+
 Result<StepSelection> selectSteps(std::size_t frames, double frameTimeS,
-                                  std::optional<double> rateHz) {
+                                  std::optional<double> rateHz, std::int64_t mostStride) {
   FORETOUCH_ASSERT(frameTimeS > 0.0 && (!rateHz || *rateHz > 0.0));
   if (frames < 2) {
     return Error::of(ErrorCode::Empty,
@@ -56,7 +76,7 @@ Result<StepSelection> selectSteps(std::size_t frames, double frameTimeS,
                     static_cast<double>(intervals) * frameTimeS, wanted * frameTimeS, *rateHz));
   }
   StepSelection steps;
-  steps.stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(wanted));
+  steps.stride = std::clamp<std::int64_t>(static_cast<std::int64_t>(wanted), 1, mostStride);
   steps.count = intervals / steps.stride;
   return steps;
 }

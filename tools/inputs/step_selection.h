@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
+#include "articulated/clip.h"
 #include "articulated/result.h"
 
 namespace foretouch::tools {
@@ -23,15 +25,26 @@ inline constexpr double kRateSlack = 0.01;
 /// Poses per second that the steps take, of a clip with this frame time.
 [[nodiscard]] double rateTaken(const StepSelection& steps, double frameTimeS);
 
+/// Frames that one step may leave out: as many as keep every joint's turn by its coordinate below
+/// Robot::kMostTurn, as the shorter arc would be another way. Of poses, which know no coordinates,
+/// any number.
+[[nodiscard]] std::int64_t mostStride(const Clip& clip);
+inline constexpr std::int64_t kAnyStride = std::numeric_limits<std::int64_t>::max();
+
 /// What a rate asks for that no whole number of frames gives: which one it gets, and how many more
 /// or fewer poses these are. Nothing for a rate that it gets, within kRateSlack.
 [[nodiscard]] std::optional<std::string> remarkOnRate(const StepSelection& steps, double frameTimeS,
+                                                      std::optional<double> rateHz,
+                                                      std::int64_t mostStride);
+[[nodiscard]] std::optional<std::string> remarkOnRate(const StepSelection& steps, const Clip& clip,
                                                       std::optional<double> rateHz);
 
-/// stride = max(1, round(1 / (rate * frame time))); without a rate, every frame. Errors: a rate
-/// above the clip's own, and a clip without a whole step. Preconditions: frameTimeS and *rateHz are
-/// finite and greater than 0 (asserted).
+/// stride = max(1, round(1 / (rate * frame time))), at most `mostStride`; without a rate, every
+/// frame. Errors: a rate above the clip's own, and a clip without a whole step. Preconditions:
+/// frameTimeS and *rateHz are finite and greater than 0 (asserted).
 [[nodiscard]] Result<StepSelection> selectSteps(std::size_t frames, double frameTimeS,
-                                                std::optional<double> rateHz);
+                                                std::optional<double> rateHz,
+                                                std::int64_t mostStride);
+[[nodiscard]] Result<StepSelection> selectSteps(const Clip& clip, std::optional<double> rateHz);
 
 }  // namespace foretouch::tools

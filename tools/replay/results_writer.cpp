@@ -64,6 +64,7 @@ std::string headerLine(const ReplayInputs& inputs) {
   writeHeaderFields(settings, {"motion", "rate"}, out);
   out.field("k", inputs.steps.stride);
   out.field("frame_time", inputs.clip.frameTimeS);
+  if (inputs.clip.framesPerRow > 1) out.field("frames_per_row", inputs.clip.framesPerRow);
   out.field("steps", inputs.steps.count);
   writeHeaderFields(
       settings,
@@ -94,6 +95,7 @@ std::string StepFormat::line(const StepAnswer& answer) const {
   JsonWriter out(text);
   out.beginObject();
   out.field("step", answer.step);
+  if (answer.row) out.field("row", *answer.row);
   out.field("t0", answer.t0S);
   out.field("t1", answer.t1S);
   const auto writeOne = [&](const LinkContact& contact) { write(contact, answer, out); };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct StepAnswer {
   std::vector<LinkId> missedByPoses;  ///< Links in contact that touch nothing at either pose.
   QueryCounters counters;
   double latencyUs = 0.0;
+  std::optional<std::int64_t> row;  ///< Where several steps make up a row: ReplayInputs::rowOfStep.
 };
 
 // For first lines, also of a log's results. Each writes fields into an open object; beginResults()

@@ -55,6 +55,7 @@ StepAnswer StepSolver::recorded(std::int64_t step, const StepContacts& contacts,
   answer.step = step;
   answer.t0S = inputs_.timeOfStep(step);
   answer.t1S = inputs_.timeOfStep(step + 1);
+  if (inputs_.clip.framesPerRow > 1) answer.row = inputs_.rowOfStep(step);
   for (const LinkId link : reported(contacts)) {
     answer.contacts.push_back(contacts.links[slotOf(link)]);
   }

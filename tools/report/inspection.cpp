@@ -53,9 +53,7 @@ Result<PlayedClip> loadClipAlone(const ClipRequest& request) {
   FORETOUCH_TRY(auto avatar, inFile(avatarFromClip(clip), request.motionPath));
   FORETOUCH_TRY(auto match,
                 inFile(matchJoints(avatar.skeleton(), clip.skeleton), request.motionPath));
-  FORETOUCH_TRY(
-      const auto steps,
-      inFile(selectSteps(clip.frames.size(), clip.frameTimeS, request.rateHz), request.motionPath));
+  FORETOUCH_TRY(const auto steps, inFile(selectSteps(clip, request.rateHz), request.motionPath));
   return PlayedClip{std::move(avatar), std::move(clip), std::move(match), steps,
                     read.isUpright,    read.frame};
 }

@@ -86,8 +86,7 @@ Result<PlayedClip> loadWithRemarks(const ClipRequest& request) {
                      request.avatarPath, request.motionPath)) {
     printNote(remark);
   }
-  const auto rate =
-      remarkOnRate(played.value().steps, played.value().clip.frameTimeS, request.rateHz);
+  const auto rate = remarkOnRate(played.value().steps, played.value().clip, request.rateHz);
   if (rate) printNote(*rate);
   return played;
 }

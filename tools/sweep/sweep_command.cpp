@@ -68,7 +68,7 @@ void remarkOn(const SweepInputs& inputs) {
   for (const std::string& note : inputs.clip.notes) {
     printNote(inputs.request.motionPath + ": " + note);
   }
-  const auto rate = remarkOnRate(inputs.steps, inputs.clip.frameTimeS, inputs.request.rateHz);
+  const auto rate = remarkOnRate(inputs.steps, inputs.clip, inputs.request.rateHz);
   if (rate) printNote(*rate);
   if (!inputs.match.unmatchedAvatar.empty()) {
     printNote(

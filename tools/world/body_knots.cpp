@@ -36,8 +36,7 @@ struct TimedFrame {
 Result<std::vector<TimedFrame>> framesOf(const FileBody& body, const Clip& clip,
                                          const std::string& world) {
   FORETOUCH_TRY(const auto steps,
-                inFile(selectSteps(clip.frames.size(), clip.frameTimeS, body.clip.rateHz),
-                       body.clip.motionPath));
+                inFile(selectSteps(clip, body.clip.rateHz), body.clip.motionPath));
   const ClipTiming& timing = body.timing;
   // Half a frame: what one types as an instant of a frame is one, whatever its last digit.
   const double slackUs = 0.5 * clip.frameTimeS * kUsPerS;
@@ -174,7 +173,7 @@ Result<BodyKnots> KnotLoader::ofAvatar(const FileBody& body, const Avatar& avata
     WorldRequest request;
     request.asksSelf = true;
     request.pairsPath = body.pairsPath;
-    FORETOUCH_TRY(found.self, pairRulesFor(request, avatar, clip, match.value(), path));
+    FORETOUCH_TRY(found.self, pairRulesFor(request, body.clip, avatar, clip, match.value()));
   }
   return found;
 }

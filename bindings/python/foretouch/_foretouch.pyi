@@ -4,7 +4,7 @@ compares it with the module, name by name; `./run python-types` does so with myp
 import enum
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Optional, Union, overload
+from typing import Any, NoReturn, Optional, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -26,6 +26,7 @@ from foretouch._types import (
     OpenPart,
     PairRadius,
     PairRadiusLike,
+    PairTouches,
     Policy,
     PolicyKey,
     Pose,
@@ -130,6 +131,8 @@ class Avatar:
     @property
     def names(self) -> list[str]: ...
     @property
+    def link_names(self) -> list[str]: ...
+    @property
     def parents(self) -> npt.NDArray[np.int32]: ...
     @property
     def lss(self) -> list[list[Lss]]: ...
@@ -160,11 +163,28 @@ class PairRules:
         leave_out: Sequence[LinkPairLike] = (),
     ) -> PairRules: ...
     @staticmethod
-    def exactly(
+    def of_robot(
+        robot: Robot,
+        *,
+        samples: int = 10000,
+        seed: int = 1,
+        always_share: float = 0.95,
+        leave_out: Sequence[LinkPairLike] = (),
+    ) -> PairRules: ...
+    @staticmethod
+    def leaving_out(
         avatar: Avatar,
         left_out: Sequence[LeftOutLike],
         radii: Sequence[PairRadiusLike] = (),
     ) -> PairRules: ...
+    @staticmethod
+    def asking(avatar: Avatar, asked: Sequence[LinkPairLike]) -> PairRules: ...
+    @staticmethod
+    def exactly(
+        avatar: Optional[Avatar],
+        left_out: Sequence[LeftOutLike],
+        radii: Sequence[PairRadiusLike] = (),
+    ) -> NoReturn: ...
     @staticmethod
     def load(path: _Path, avatar: Avatar) -> PairRules: ...
     def save(self, path: _Path) -> None: ...
@@ -179,6 +199,10 @@ class PairRules:
     def left_out(self) -> list[LeftOutPair]: ...
     @property
     def radii(self) -> list[PairRadius]: ...
+    @property
+    def num_usual_poses(self) -> int: ...
+    @property
+    def touches(self) -> list[PairTouches]: ...
 
 class Clip:
     @staticmethod
@@ -204,6 +228,8 @@ class Clip:
     def match(self, avatar: Avatar, *, joint_map: Optional[dict[str, str]] = None) -> JointMatch: ...
     @property
     def frame_time_s(self) -> float: ...
+    @property
+    def frames_per_row(self) -> int: ...
     @property
     def duration_s(self) -> float: ...
     @property
@@ -549,6 +575,9 @@ class Robot:
     def from_joints(avatar: Avatar, joints: Sequence[Mapping[str, Any]]) -> Robot: ...
     def with_tool(self, link: LinkLike, name: str, lss: Sequence[_LssLike]) -> Robot: ...
     def pose(self, q: npt.ArrayLike) -> Pose: ...
+    def path(self, q: npt.ArrayLike) -> tuple[Poses, Doubles]: ...
+    @property
+    def links_without_volume(self) -> list[str]: ...
     @property
     def num_coordinates(self) -> int: ...
     @property

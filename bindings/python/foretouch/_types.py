@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple, Optional, TypedDict, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from foretouch._foretouch import InputError, Verdict
+from foretouch._foretouch import Avatar, InputError, Scene, Verdict
 
 Doubles = npt.NDArray[np.float64]
 
@@ -62,8 +63,32 @@ class Poses(Sequence[Pose]):
         return f"<foretouch.Poses: {len(self)} poses of {self.rotations.shape[1]} joints>"
 
 
-class Edges(NamedTuple):
-    """Answers to n edges of a robot. Metres, world; of clear edges the last five say nothing."""
+class Edge(NamedTuple):
+    """The answer to one edge. Metres, world."""
+
+    verdict: Verdict
+    free_until: float
+    """Free on [0, free_until), never too late; 1: clear."""
+    usable: bool
+    """Clear, and both ends within the joints' limits."""
+    link: Optional[str]
+    """That meets something first; None: clear."""
+    other: Optional[str]
+    """The own link that it meets."""
+    object: Optional[str]
+    """What it meets of the scene, or of a prop."""
+    point: Doubles
+    """(3,), where; of a clear edge it says nothing."""
+    prop: Optional[int]
+    """The prop that it meets."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Edges(Sequence[Edge]):
+    """Answers to n edges of a robot: a sequence of Edge, and an array of each of its parts.
+
+    Metres, world; of clear edges the last five arrays say nothing.
+    """
 
     verdicts: npt.NDArray[np.uint8]
     """(n,), each a Verdict."""
@@ -81,6 +106,112 @@ class Edges(NamedTuple):
     """(n, 3), where."""
     props: npt.NDArray[np.int32]
     """(n,), the prop that is met; -1: none."""
+    avatar: Avatar
+    """The robot's, for names."""
+    scenes: Sequence[Scene]
+    """The scene, then those of the props."""
+
+    def __len__(self) -> int:
+        return len(self.verdicts)
+
+    @overload
+    def __getitem__(self, index: int) -> Edge: ...
+    @overload
+    def __getitem__(self, index: slice) -> Edges: ...
+    def __getitem__(self, index: Union[int, slice]) -> Union[Edge, Edges]:
+        if isinstance(index, slice):
+            return Edges(
+                self.verdicts[index],
+                self.free_until[index],
+                self.usable[index],
+                self.links[index],
+                self.others[index],
+                self.triangles[index],
+                self.points[index],
+                self.props[index],
+                self.avatar,
+                self.scenes,
+            )
+        names, link, other = self.avatar.names, int(self.links[index]), int(self.others[index])
+        place = slice(index, index + 1 if index != -1 else None)
+        prop, object_ = int(self.props[index]), int(self._objects_of(place)[0])
+        return Edge(
+            Verdict(int(self.verdicts[index])),
+            float(self.free_until[index]),
+            bool(self.usable[index]),
+            names[link] if link >= 0 else None,
+            names[other] if other >= 0 else None,
+            self.scenes[prop + 1].object_names[object_] if object_ >= 0 else None,
+            self.points[index],
+            prop if prop >= 0 else None,
+        )
+
+    def _objects_of(self, index: slice) -> npt.NDArray[np.int32]:
+        """Of the scene or the prop that is met; -1: none."""
+        triangles, others, props = self.triangles[index], self.others[index], self.props[index]
+        objects = np.full(len(triangles), -1, dtype=np.int32)
+        for prop, scene in enumerate(self.scenes, -1):
+            met = (props == prop) & (others < 0) & (triangles >= 0)
+            if np.any(met):
+                objects[met] = scene.object_of[triangles[met]]
+        return objects
+
+    def __repr__(self) -> str:
+        return f"<foretouch.Edges: {self._counts()}>"
+
+    def _counts(self) -> str:
+        counts = (int(np.sum(self.verdicts == verdict)) for verdict in Verdict)
+        told = [f"{n} {verdict.name}" for n, verdict in zip(counts, Verdict) if n > 0]
+        return f"{len(self)} edges" + (": " + ", ".join(told) if told else "")
+
+    def describe(self, most: int = 10) -> str:
+        """How many edges meet what first, most frequent first; advice where all start so."""
+        lines = [self._counts()]
+        met = np.flatnonzero(self.links >= 0)
+        keys = np.stack(
+            [
+                self.verdicts[met].astype(np.int32),
+                self.links[met],
+                self.others[met],
+                self.props[met],
+                self._objects_of(slice(None))[met],
+            ],
+            axis=1,
+        )
+        _, first, counts = np.unique(keys, axis=0, return_index=True, return_counts=True)
+        order = np.lexsort((first, -counts))
+        for place in order[:most].tolist():
+            edge = self[int(met[first[place]])]
+            lines.append(f"{counts[place]} {edge.verdict.name}: {_meeting(edge)}")
+        if len(order) > most:
+            lines.append(f"and {len(order) - most} more")
+        if len(order) > 0 and counts[order[0]] == len(self):
+            lines += _advice(self[0])
+        return "\n".join(lines)
+
+
+def _meeting(edge: Edge) -> str:
+    if edge.other is not None:
+        return f"link {edge.link!r} and own link {edge.other!r}"
+    if edge.object is None:
+        return f"link {edge.link!r}"
+    place = "" if edge.prop is None else f" of prop {edge.prop}"
+    return f"link {edge.link!r} and {edge.object!r}{place}"
+
+
+def _advice(edge: Edge) -> list[str]:
+    """Of edges that all meet the same."""
+    if edge.verdict != Verdict.STARTS_IN_CONTACT or edge.prop is not None:
+        return []
+    if edge.other is not None:
+        return [
+            f"All edges start with {_meeting(edge)} in contact; if the two may touch, leave the "
+            f"pair out of the PairRules: leave_out=[({edge.link!r}, {edge.other!r})]"
+        ]
+    return [
+        f"All edges start with {_meeting(edge)} in contact; if it stands there, as a base does, "
+        f"ignore the pair: EdgeQuery(..., ignore=[({edge.link!r}, {edge.object!r})])"
+    ]
 
 
 class NearFeatures(NamedTuple):
@@ -157,6 +288,14 @@ class LeftOutPair(NamedTuple):
     b: str
     reason: str
     """'adjacent', 'rest-overlap', 'always' or 'user'."""
+
+
+class PairTouches(NamedTuple):
+    """In how many of the usual poses two own links touch: PairRules.num_usual_poses."""
+
+    a: str
+    b: str
+    touches: int
 
 
 class PairRadius(NamedTuple):

@@ -72,7 +72,7 @@ class EveryObject(unittest.TestCase):
         avatar = arm()
         with self.assertRaisesRegex(foretouch.InputError, "at least one pair"):
             foretouch.PairRules.derive(avatar)
-        rules = foretouch.PairRules.exactly(avatar, [])
+        rules = foretouch.PairRules.leaving_out(avatar, [])
         step = foretouch.first_contacts(avatar, swing(avatar), wall(), scope="objects",
                                         self_pairs=rules)
         self.assertEqual([c.link for c in step.objects], ["fore", "upper"])

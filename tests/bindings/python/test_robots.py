@@ -55,8 +55,8 @@ class Robots(unittest.TestCase):
         q = random.uniform([-1, 0], [1, 0.5], (200, 2))
         one, two = (foretouch.EdgeQuery(robot, wall(), threads=n) for n in (1, 2))
         first, second = one.answer(q[:-1], q[1:]), two.answer(q[:-1], q[1:])
-        for a, b in zip(first, second):
-            np.testing.assert_array_equal(a, b)
+        for name in ("verdicts", "free_until", "usable", "links", "others", "triangles", "points"):
+            np.testing.assert_array_equal(getattr(first, name), getattr(second, name), name)
         clear = first.verdicts == foretouch.Verdict.CLEAR
         self.assertTrue(20 < clear.sum() < 180)
         expected = int(np.argmin(clear))
@@ -75,6 +75,62 @@ class Robots(unittest.TestCase):
         rules = foretouch.PairRules.derive(tooled.avatar)
         edges = foretouch.EdgeQuery(tooled, wall(), self_pairs=rules, ignore=["upper"])
         self.assertEqual(edges.answer(near, near).links[0], 2)
+
+    def test_edges_are_a_sequence_that_says_what_is_met(self):
+        edges = foretouch.EdgeQuery(swinging(), wall(-0.3))
+        answer = edges.answer([[0, 0], [0, 0], [0, 0.5]], [[1, 0], [-1, 0], [0, 0.6]])
+        self.assertEqual(len(answer), 3)
+        self.assertEqual([str(edge.verdict) for edge in answer], ["CONTACT", "CLEAR", "CLEAR"])
+        first, last = answer[0], answer[-1]
+        self.assertEqual((first.link, first.object, first.other, first.prop),
+                         ("fore", "wall", None, None))
+        self.assertEqual(first.free_until, answer.free_until[0])
+        self.assertEqual((last.link, last.object, last.usable), (None, None, False))
+        self.assertEqual([edge.usable for edge in answer[1:]], [True, False])
+        self.assertIn("2 CLEAR, 1 CONTACT", repr(answer))
+        with self.assertRaises(IndexError):
+            answer[3]
+        self.assertEqual(answer.describe().splitlines(),
+                         ["3 edges: 2 CLEAR, 1 CONTACT", "1 CONTACT: link 'fore' and 'wall'"])
+        self.assertEqual(answer[1:].describe(), "2 edges: 2 CLEAR")
+
+    def test_edges_that_all_start_in_contact_say_what_to_ignore(self):
+        robot, scene = swinging(), wall(0.02, "table")  # through the upper arm
+        q = np.zeros((5, 2))
+        told = foretouch.EdgeQuery(robot, scene).answer(q, q).describe()
+        self.assertIn("5 STARTS_IN_CONTACT: link 'upper' and 'table'", told)
+        self.assertIn("ignore=[('upper', 'table')]", told)
+        ignored = foretouch.EdgeQuery(robot, scene, ignore=[("upper", "table"), ("fore", "table")])
+        self.assertEqual(ignored.answer(q, q).describe(), "5 edges: 5 CLEAR")
+
+    def test_a_path_turns_the_way_that_q_says(self):
+        robot = swinging()
+        poses, at = robot.path([[-2, 0], [2, 0.5]])
+        np.testing.assert_array_equal(at, [0, 0.5, 1])
+        np.testing.assert_allclose(poses[1].rotations[0], [1, 0, 0, 0], atol=1e-15)
+        np.testing.assert_allclose(poses[1].translations[1], [0.55, 0, 0], atol=1e-15)
+        with self.assertRaises(foretouch.InputError):
+            robot.path([[0, np.nan]])
+
+    def test_pair_rules_ask_or_leave_out_and_are_drawn_within_limits(self):
+        robot = swinging().with_tool("fore", "rod", [((0.3, 0, 0), (0.6, 0, 0), 0.01)])
+        rules = foretouch.PairRules.asking(robot.avatar, [("rod", "upper")])
+        self.assertEqual(rules.num_asked, 1)
+        self.assertEqual(rules.reason_of("upper", "fore"), "user")
+        rules = foretouch.PairRules.leaving_out(robot.avatar, [("rod", "upper")])
+        self.assertEqual((rules.num_asked, rules.reason_of("upper", "rod")), (2, "user"))
+        with self.assertRaisesRegex(foretouch.InputError, r"asking\(.*leaving_out\("):
+            foretouch.PairRules.exactly(robot.avatar, [])
+        with self.assertRaisesRegex(foretouch.InputError, "at least one pair"):
+            foretouch.PairRules.asking(robot.avatar, [])
+        drawn = foretouch.PairRules.of_robot(robot, samples=200, seed=3)
+        self.assertEqual(drawn.num_usual_poses, 200)
+        touches = {(pair.a, pair.b): pair.touches for pair in drawn.touches}
+        self.assertEqual(len(touches), 3)
+        self.assertEqual((touches["upper", "rod"], touches["fore", "rod"]), (0, 200))
+        self.assertTrue(15 < touches["upper", "fore"] < 52)  # out by 8 of 50 cm: 32, five sigmas
+        self.assertEqual(drawn.reason_of("upper", "rod"), "asked")
+        foretouch.EdgeQuery(robot, wall(), self_pairs=drawn)
 
     def test_props_are_placed_anew(self):
         robot = swinging()

@@ -124,12 +124,12 @@ class Rules(unittest.TestCase):
         (own,) = rules.radii
         self.assertEqual(own[:4], ("left", 0, "right", 0))
         self.assertAlmostEqual(own.radius, 0.078)
-        same = PairRules.exactly(avatar, rules.left_out, rules.radii)
+        same = PairRules.leaving_out(avatar, rules.left_out, rules.radii)
         self.assertEqual((same.left_out, same.radii), (rules.left_out, rules.radii))
 
     def test_come_back_from_a_file(self):
         avatar = hands()
-        rules = PairRules.exactly(avatar, [("left", "trunk", "adjacent"), (0, 2)])
+        rules = PairRules.leaving_out(avatar, [("left", "trunk", "adjacent"), (0, 2)])
         self.assertEqual(rules.reason_of(0, 2), "user")
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "hands.pairs.json"
@@ -153,12 +153,12 @@ class Rules(unittest.TestCase):
              "self_pairs: expected link or exact fidelity, found limb"),
             (lambda: foretouch.Query(avatar, scene, self_pairs=rules, scope="avatar"),
              "self_pairs: expected scope links"),
-            (lambda: PairRules.exactly(avatar, [("left", "rigth")]), "did you mean 'right'"),
-            (lambda: PairRules.exactly(avatar, [("left", "left")]), "two different links"),
-            (lambda: PairRules.exactly(avatar, [("left", "right", "because")]), "'adjacent'"),
-            (lambda: PairRules.exactly(avatar, [("left",)]), r"left_out\[0\]: expected 2 or more"),
-            (lambda: PairRules.exactly(avatar, [], [("left", 0, "right", 0)]), r"radii\[0\]"),
-            (lambda: PairRules.exactly(avatar, [], [("left", 0, "right", 0, 1.0)]),
+            (lambda: PairRules.leaving_out(avatar, [("left", "rigth")]), "did you mean 'right'"),
+            (lambda: PairRules.leaving_out(avatar, [("left", "left")]), "two different links"),
+            (lambda: PairRules.leaving_out(avatar, [("left", "right", "because")]), "'adjacent'"),
+            (lambda: PairRules.leaving_out(avatar, [("left",)]), r"left_out\[0\]: expected 2 or more"),
+            (lambda: PairRules.leaving_out(avatar, [], [("left", 0, "right", 0)]), r"radii\[0\]"),
+            (lambda: PairRules.leaving_out(avatar, [], [("left", 0, "right", 0, 1.0)]),
              "below the sum"),
             (lambda: PairRules.derive(avatar, always_share=0), "always_share: expected"),
             (lambda: PairRules.derive(avatar, leave_out=["left"]), "leave_out"),

@@ -119,7 +119,7 @@ TEST_P(SelfOracle, ProvesEveryAnswerThatGrazes) {
     Random random(static_cast<std::uint64_t>(i));
     const std::optional<OwnBody> body = grazingBody(random);
     if (!body) continue;
-    const auto rules = PairRules::of(body->avatar, {});
+    const auto rules = PairRules::leavingOut(body->avatar, {});
     ASSERT_TRUE(rules.ok());
     QueryOptions options;
     options.tolerance = random.magnitude(1e-7, 1e-3);
@@ -177,7 +177,7 @@ TEST_P(SelfOracle, ProvesEveryAnswerOfCranksThatPassBetweenInstants) {
     Random random(static_cast<std::uint64_t>(i));
     const double depth = random.magnitude(1e-9, 1e-2) * (random.chance(0.7) ? 1.0 : -1.0);
     const OwnBody body = passingCranks(random, depth);
-    const auto rules = PairRules::of(body.avatar, {});
+    const auto rules = PairRules::leavingOut(body.avatar, {});
     ASSERT_TRUE(rules.ok());
     QueryOptions options;
     options.tolerance = random.magnitude(1e-9, 1e-3);
@@ -192,7 +192,7 @@ TEST_P(SelfOracle, ProvesEveryAnswerWhereNoPairIsLeftOut) {
     SCOPED_TRACE("case " + std::to_string(i));
     Random random(static_cast<std::uint64_t>(i));
     const OwnBody body = test::randomOwnBody(random);
-    const auto rules = PairRules::of(body.avatar, {});
+    const auto rules = PairRules::leavingOut(body.avatar, {});
     ASSERT_TRUE(rules.ok());
     QueryOptions options;
     options.tolerance = random.magnitude(1e-7, 1e-2);

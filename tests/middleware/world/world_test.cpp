@@ -117,7 +117,7 @@ TEST(World, TellsTheStaticSceneAndOwnLinks) {
                                     {{Vector3d(0.3, 0, 0), Vector3d(0.3, 0, 0), 0.1}}})
           .value();
   BodyOptions options;
-  options.self = PairRules::of(avatar, {}).value();
+  options.self = PairRules::leavingOut(avatar, {}).value();
   const BodyId body = world.add(avatar, options).value();
   Pose from = restPose(avatar.skeleton()), to = from;
   from.translations[0] = to.translations[0] = Vector3d(-1, 0, 0);
@@ -269,7 +269,7 @@ TEST(World, RefusesByName) {
   const Avatar two = Avatar::build(skeletonOf(2), {{{Vector3d::Zero(), Vector3d::Zero(), 0.1}},
                                                    {{Vector3d(1, 0, 0), Vector3d(1, 0, 0), 0.1}}})
                          .value();
-  options.self = PairRules::of(two, {}).value();
+  options.self = PairRules::leavingOut(two, {}).value();
   EXPECT_FALSE(world.add(ball(0.1), options).ok());
   EXPECT_FALSE(world.add(wall(), options).ok());
   ASSERT_TRUE(world.add(two, options).ok());
@@ -333,7 +333,7 @@ TEST(World, RefusesSurfacesOfOthers) {
   ASSERT_FALSE(other.ok());
   EXPECT_EQ(other.error().file, "surface");
   options.surface = AvatarSurface::build(two, {{}, {}}).value();
-  options.self = PairRules::of(two, {}, {{0, 0, 1, 0, 0.9}}).value();
+  options.self = PairRules::leavingOut(two, {}, {{0, 0, 1, 0, 0.9}}).value();
   const auto smaller = world.add(two, options);
   ASSERT_FALSE(smaller.ok());
   EXPECT_EQ(smaller.error().file, "self");

@@ -201,8 +201,7 @@ tools::ReplayInputs chainInputs(int joints, int frames, const Vector3d& origin) 
   JointMatch match = matchJoints(avatar.skeleton(), clip.skeleton).value();
   tools::ReplayRequest request;
   request.placement.origin = origin;
-  const auto steps =
-      tools::selectSteps(static_cast<std::size_t>(frames), clip.frameTimeS, std::nullopt).value();
+  const auto steps = tools::selectSteps(clip, std::nullopt).value();
   return {request,           Scene::build(wallAt(0.0, "wall")).value(),
           std::move(avatar), std::move(clip),
           std::move(match),  steps,

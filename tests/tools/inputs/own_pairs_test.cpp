@@ -83,9 +83,9 @@ TEST(AddUsualPoses, SpreadsThemOverALongClip) {
 
 TEST(ReasonsOf, CountsEachReason) {
   const Avatar avatar = row();
-  const PairRules rules = PairRules::of(avatar, {{0, 1, PairReason::Adjacent},
-                                                 {0, 2, PairReason::Adjacent},
-                                                 {1, 2, PairReason::User}})
+  const PairRules rules = PairRules::leavingOut(avatar, {{0, 1, PairReason::Adjacent},
+                                                         {0, 2, PairReason::Adjacent},
+                                                         {1, 2, PairReason::User}})
                               .value();
   EXPECT_EQ(reasonsOf(rules), "2 adjacent, 1 user");
 }

@@ -66,7 +66,7 @@ TEST(ReplayReport, HoldsTheContactsOfOwnLinks) {
   std::string avatar = test::kManAvatar;  // with the arm 5 cm deep in the hips
   avatar.replace(avatar.find("[0,0.3,0]"), 9, "[0,0.1,0]");
   inputs.avatar = parseAvatar(avatar, "man.json").value();
-  inputs.query.self = PairRules::of(inputs.avatar, {}).value();
+  inputs.query.self = PairRules::leavingOut(inputs.avatar, {}).value();
   const Reported reported = report(inputs);
   std::size_t own = 0;
   for (const json& contact : reported.document["avatars"][0]["contacts"]) {

@@ -333,11 +333,15 @@ FT_API ft_status ft_pair_rule_options_init(ft_pair_rule_options* options, size_t
  * Errors: bad options, and rules that leave no pair to ask. O(LSS^2) per pose. */
 FT_API ft_status ft_pair_rules_create(const ft_avatar* avatar, const ft_pair_rule_options* options,
                                       ft_pair_rules** rules);
-/* Exactly these pairs are left out, and only these LSS have radii of their own. */
+/* All pairs are asked but these, which are left out, and only these LSS have radii of their own. */
 FT_API ft_status ft_pair_rules_create_exactly(const ft_avatar* avatar,
                                               const ft_left_out_pair* left_out,
                                               size_t left_out_count, const ft_pair_radius* radii,
                                               size_t radius_count, ft_pair_rules** rules);
+/* The other way round: only these pairs are asked, all others are left out (FT_PAIR_USER). Errors:
+ * no pair, links that are not there or have no LSS; the index is the link. */
+FT_API ft_status ft_pair_rules_create_asking(const ft_avatar* avatar, const ft_link_pair* asked,
+                                             size_t asked_count, ft_pair_rules** rules);
 /* Reads a file of pair rules (docs/formats.md). */
 FT_API ft_status ft_pair_rules_create_from_file(const char* path, const ft_avatar* avatar,
                                                 ft_pair_rules** rules);
@@ -356,6 +360,14 @@ FT_API ft_status ft_pair_rules_left_out(const ft_pair_rules* rules, ft_left_out_
                                         size_t capacity, size_t* required);
 FT_API ft_status ft_pair_rules_radii(const ft_pair_rules* rules, ft_pair_radius* radii,
                                      size_t capacity, size_t* required);
+/* Of every pair of links with LSS, by a, then by b: in how many of the usual poses the two touch.
+ * None of rules that were not derived from poses. */
+typedef struct ft_pair_touches {
+  int32_t a, b;
+  int64_t touches;
+} ft_pair_touches;
+FT_API ft_status ft_pair_rules_touches(const ft_pair_rules* rules, ft_pair_touches* pairs,
+                                       size_t capacity, size_t* required);
 FT_API void ft_pair_rules_destroy(ft_pair_rules* rules);
 
 /* ---- Queries: what does each link meet first? ---- */

@@ -80,6 +80,33 @@ FT_API ft_status ft_robot_coordinates(const ft_robot* robot, ft_robot_coordinate
 FT_API ft_status ft_robot_pose(const ft_robot* robot, const double* q, size_t coordinate_count,
                                double* rotations, double* translations, size_t capacity,
                                size_t* required);
+/* The poses at `count` configurations, one after the other in q, and between two of them as many as
+ * it takes to keep every joint's turn below a half turn: a step takes the shorter arc, which is
+ * then the way that q says, as in an edge. `capacity` and `required` count poses, each as from
+ * ft_robot_pose(). `at`: where each lies, i + t on the edge from configuration i to i + 1. Any of
+ * the three arrays may be NULL. */
+FT_API ft_status ft_robot_path(const ft_robot* robot, const double* q, size_t count,
+                               size_t coordinate_count, double* rotations, double* translations,
+                               double* at, size_t capacity, size_t* required);
+
+/* Own links by configurations drawn within the robot's limits. */
+typedef struct ft_robot_pair_options {
+  uint32_t size;
+  int32_t samples;              /* at least 1; default 10,000 */
+  uint64_t seed;                /* the same configurations on every machine; default 1 */
+  double always_share;          /* of these, for FT_PAIR_ALWAYS; default 0.95 */
+  const ft_link_pair* left_out; /* by the user */
+  size_t left_out_count;
+} ft_robot_pair_options;
+
+FT_API ft_status ft_robot_pair_options_init(ft_robot_pair_options* options, size_t size);
+/* Rules of ft_robot_avatar(). Leaves out adjacent links and links that touch in nearly all samples.
+ * Zeros may lie outside the limits, so touching there is no reason; that no sample touched proves
+ * nothing, so such pairs are asked: ft_pair_rules_touches() has the counts. `options` may be NULL.
+ */
+FT_API ft_status ft_pair_rules_create_of_robot(const ft_robot* robot,
+                                               const ft_robot_pair_options* options,
+                                               ft_pair_rules** rules);
 FT_API void ft_robot_destroy(ft_robot* robot);
 
 /* ---- Edges ---- */

@@ -1,0 +1,164 @@
+// A robot's configurations as poses, and which pairs of its links are asked. Expected values are
+// closed forms.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "articulated/motion.h"
+#include "articulated/pair_rules.h"
+#include "articulated/robot.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr LinkId kBase = 0, kArm = 1, kFold = 2, kCuff = 3;
+
+RobotJoint turning(RobotJointKind kind, double lower, double upper) {
+  RobotJoint joint;
+  joint.kind = kind;
+  joint.lower = lower;
+  joint.upper = upper;
+  return joint;
+}
+
+/// Flat, about z: a base of 1 m along x, a short arm up from its end, and from the arm's end a
+/// foldable link, which lies back on the base at zero, outside its limits, and points away from it
+/// within them. A ball around the fold's joint holds the arm's end, too.
+Robot foldable() {
+  RawSkeleton raw;
+  raw.joints = {{"base", kNoParent, Vector3d::Zero()},
+                {"arm", kBase, Vector3d(1, 0, 0)},
+                {"fold", kArm, Vector3d(0, 0.3, 0)},
+                {"cuff", kFold, Vector3d::Zero()}};
+  const auto lss = [](const Vector3d& to, double radius) {
+    return std::vector<Lss>{{Vector3d::Zero(), to, radius}};
+  };
+  Avatar avatar = Avatar::build(Skeleton::build(raw).value(),
+                                {lss({1, 0, 0}, 0.05), lss({0, 0.3, 0}, 0.05),
+                                 lss({-0.5, -0.25, 0}, 0.05), lss(Vector3d::Zero(), 0.2)})
+                      .value();
+  return Robot::build(std::move(avatar),
+                      {RobotJoint(), turning(RobotJointKind::Revolute, -0.1, 0.1),
+                       turning(RobotJointKind::Revolute, 2.0, 4.0),
+                       turning(RobotJointKind::Continuous, 0, 0)})
+      .value();
+}
+
+TEST(RobotPairRules, LookAtConfigurationsWithinTheLimitsAndNotAtZero) {
+  const Robot robot = foldable();
+  const PairRules rules = PairRules::derive(robot).value();
+  EXPECT_EQ(rules.numUsualPoses(), 10000);
+  EXPECT_EQ(rules.numPairs(), 6);
+  EXPECT_EQ(rules.numAsked(), 2);
+  EXPECT_EQ(rules.reasonOf(kArm, kCuff), PairReason::Always);
+  EXPECT_EQ(rules.reasonOf(kBase, kArm), PairReason::Adjacent);
+  EXPECT_EQ(rules.reasonOf(kBase, kFold), PairReason::Asked) << "though they touch at zero";
+  EXPECT_EQ(rules.reasonOf(kBase, kCuff), PairReason::Asked) << "though no sample touches";
+  ASSERT_EQ(rules.touches().size(), 6u);
+  for (const PairTouches& pair : rules.touches()) {
+    const bool never = pair.a == kBase && pair.b != kArm;
+    EXPECT_EQ(pair.touches, never ? 0 : 10000) << pair.a << " " << pair.b;
+  }
+  // What the rest pose alone says of the same avatar.
+  EXPECT_EQ(PairRules::derive(robot.avatar()).value().reasonOf(kBase, kFold),
+            PairReason::RestOverlap);
+}
+
+TEST(RobotPairRules, AreTheSameForASeedAndLeaveOutWhatTheUserSays) {
+  const Robot robot = foldable();
+  RobotPairOptions options;
+  options.samples = 50;
+  options.leftOut = {{kCuff, kBase}};
+  const PairRules rules = PairRules::derive(robot, options).value();
+  EXPECT_EQ(rules.reasonOf(kBase, kCuff), PairReason::User);
+  EXPECT_EQ(rules.numUsualPoses(), 50);
+  options.samples = 0;
+  EXPECT_EQ(PairRules::derive(robot, options).error().file, "samples");
+}
+
+TEST(SampledPoses, FillTheLimitsEvenlyAndAreTheSameForASeed) {
+  const Robot robot = foldable();
+  const auto poses = robot.sampledPoses(4000, 7).value();
+  double least = 10.0, most = -10.0, sum = 0.0;
+  for (const Pose& pose : poses) {
+    const Quaternion& turn = pose.rotations[kFold];
+    const double angle = 2.0 * std::atan2(turn.z(), turn.w());
+    least = std::min(least, angle);
+    most = std::max(most, angle);
+    sum += angle;
+  }
+  EXPECT_GE(least, 2.0 - 1e-12);
+  EXPECT_LE(most, 4.0 + 1e-12);
+  EXPECT_LT(least, 2.01);
+  EXPECT_GT(most, 3.99);
+  EXPECT_NEAR(sum / 4000, 3.0, 5.0 * 2.0 / std::sqrt(12.0 * 4000.0));  // five standard errors
+  const auto again = robot.sampledPoses(4000, 7).value(), other = robot.sampledPoses(1, 8).value();
+  EXPECT_EQ(again.back().rotations[kFold].coeffs(), poses.back().rotations[kFold].coeffs());
+  EXPECT_NE(other[0].rotations[kFold].coeffs(), poses[0].rotations[kFold].coeffs());
+}
+
+TEST(SampledPoses, KeepTheLimitsOfJointsThatFollow) {
+  const Robot of = foldable();
+  std::vector<RobotJoint> joints = of.joints();
+  joints[kFold].mimicOf = kArm;
+  joints[kFold].mimicOffset = 2.0;  // within [2, 4] for the half of the leader's range
+  const Robot robot = Robot::build(of.avatar(), joints).value();
+  const auto poses = robot.sampledPoses(100, 1).value();
+  for (const Pose& pose : poses) EXPECT_GE(pose.rotations[kArm].z(), 0.0);
+  joints[kFold].mimicOffset = 9.0;
+  EXPECT_EQ(Robot::build(of.avatar(), joints).value().sampledPoses(3, 1).error().file, "samples");
+}
+
+TEST(PathAlong, TurnsEveryJointTheWayThatItsNumberSays) {
+  const Robot robot = foldable();
+  const std::vector<double> q = {0.0, 2.0, -2.0, 0.1, 3.0, 2.0, 0.1, 3.0, 100.0};
+  const RobotPath path = robot.pathAlong(q.data(), 3).value();
+  ASSERT_EQ(path.poses.size(), 2u + 64u + 1u);  // 4 rad in two parts, 98 in 64
+  ASSERT_EQ(path.at.size(), path.poses.size());
+  EXPECT_EQ(path.at[1], 0.5);
+  EXPECT_EQ(path.at[2], 1.0);
+  EXPECT_EQ(path.at.back(), 2.0);
+  const Skeleton& skeleton = robot.avatar().skeleton();
+  for (std::size_t i = 0; i + 1 < path.poses.size(); ++i) {
+    // Halfway along the shorter arc, the joint is at the mean of its two numbers.
+    const ChainMotion motion(skeleton, path.poses[i], path.poses[i + 1]);
+    Pose half;
+    motion.poseAt(0.5, half);
+    const double at = 0.5 * (path.at[i] + path.at[i + 1]);
+    const double angle = at < 1.0 ? -2.0 + 4.0 * at : 2.0 + 98.0 * (at - 1.0);
+    const Quaternion& turn = half.rotations[kCuff];
+    const double sign = turn.w() * std::cos(angle / 2) + turn.z() * std::sin(angle / 2);
+    EXPECT_NEAR(std::abs(sign), 1.0, 1e-12) << at;
+  }
+  EXPECT_FALSE(robot.pathAlong(q.data(), 0).ok());
+  const std::vector<double> bad = {0.0, 2.0, 0.0, 0.0, 2.0, 2000.0};
+  EXPECT_EQ(robot.pathAlong(bad.data(), 2).error().index, 2);
+}
+
+TEST(PairRulesAsking, AskOnlyWhatIsListedAndRefuseWhatMakesNoSense) {
+  const Avatar avatar = foldable().avatar();
+  const PairRules rules = PairRules::asking(avatar, {{kCuff, kBase}, {kBase, kCuff}}).value();
+  EXPECT_EQ(rules.numAsked(), 1);
+  EXPECT_EQ(rules.reasonOf(kBase, kCuff), PairReason::Asked);
+  EXPECT_EQ(rules.reasonOf(kBase, kFold), PairReason::User);
+  const PairRules adjacent = PairRules::asking(avatar, {{kBase, kArm}}).value();
+  EXPECT_EQ(adjacent.reasonOf(kBase, kArm), PairReason::Asked);
+  // Its mirror image.
+  const PairRules others = PairRules::leavingOut(avatar, {{kBase, kCuff}}).value();
+  EXPECT_EQ(others.numAsked(), 5);
+  EXPECT_EQ(others.reasonOf(kBase, kCuff), PairReason::User);
+  EXPECT_EQ(PairRules::asking(avatar, {}).error().code, ErrorCode::Empty);
+  EXPECT_EQ(PairRules::asking(avatar, {{0, 0}}).error().index, 0);
+  EXPECT_EQ(PairRules::asking(avatar, {{0, 4}}).error().index, 4);
+  RawSkeleton raw;
+  raw.joints = {{"a", kNoParent, Vector3d::Zero()}, {"bare", 0, Vector3d::Zero()}};
+  const Avatar bare =
+      Avatar::build(Skeleton::build(raw).value(), {{{Vector3d::Zero(), Vector3d::Zero(), 0.1}}, {}})
+          .value();
+  EXPECT_EQ(PairRules::asking(bare, {{0, 1}}).error().index, 1);
+}
+
+}  // namespace
+}  // namespace foretouch
