@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tests/network/world_stream/crowd_spans.h"
+#include "tests/network/world_stream/small_world.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {
