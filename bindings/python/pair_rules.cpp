@@ -11,7 +11,7 @@
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
 #include "bindings/python/poses.h"
-#include "bindings/python/robots.h"
+#include "bindings/python/shared_robot.h"
 #include "lss/index.h"
 
 namespace foretouch::python {

@@ -1,5 +1,4 @@
 // bindings/python/robots.cpp: foretouch.Robot and foretouch.EdgeQuery.
-#include "bindings/python/robots.h"
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,7 @@
 #include "bindings/python/importer_place.h"
 #include "bindings/python/poses.h"
 #include "bindings/python/query_options.h"
+#include "bindings/python/shared_robot.h"
 #include "lss/index.h"
 #include "middleware/edges/edge_pool.h"
 

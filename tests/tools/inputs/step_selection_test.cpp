@@ -55,7 +55,8 @@ TEST(SelectSteps, TakesNoStepInWhichAJointTurnsTooFarForTheShorterArc) {
     EXPECT_EQ(steps.count, 100 / stride);
     const auto remark = remarkOnRate(steps, clip, 1.0);
     ASSERT_EQ(remark.has_value(), stride != 10);
-    if (remark) EXPECT_NE(remark->find("a joint would turn"), std::string::npos) << *remark;
+    if (!remark) continue;
+    EXPECT_NE(remark->find("a joint would turn"), std::string::npos) << *remark;
   }
 }
 

@@ -1,4 +1,4 @@
-// bindings/python/robots.h: foretouch.Robot.
+// bindings/python/shared_robot.h: what stands behind foretouch.Robot.
 #pragma once
 
 #include <memory>
