@@ -235,11 +235,11 @@ TEST(LogReplayProgram, RefusesByName) {
       "empty.toml", "format = \"foretouch-world\"\nversion = 1\n[scene]\nfile = \"wall.obj\"\n" +
                         sphereNamed("ball", "position = [9, 0, 0]\n"));
   refused({"log", "replay", log, "--world", empty}, "expected a [[body]] with an avatar");
-  // A log without a moving world is answered all the same, and says so.
+  // A log without a moving world has nothing to compare, and says so.
   const std::string without =
       stage.changed(log, "without.lcmlog", [](EventsMessage&) { return false; });
   const Ended ended = stage.replayed(without);
-  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_EQ(ended.exitCode, 1) << ended.err;
   EXPECT_TRUE(holds(ended.out, "the log has no events of a moving world")) << ended.out;
   // Who replays it without a world is told that there is more.
   const Ended plain = runForetouch({"replay", "--scene", stage.folder / "wall.obj", "--avatar",

@@ -190,8 +190,9 @@ TEST(ReplayOfALog, KeepsAvatarsApart) {
   EXPECT_EQ(json::parse(lines[9])["avatar"], 2);
   EXPECT_EQ(contactsIn(lines[9]), "[]");  // nine metres away
   const Ended other = world.replayLog(log);
-  EXPECT_EQ(other.exitCode, 0);
+  EXPECT_EQ(other.exitCode, 1) << "nothing was answered: that is no result";
   EXPECT_TRUE(holds(other.out, "of avatar 2")) << other.out;
+  EXPECT_TRUE(holds(other.out, "nothing was answered")) << other.out;
   EXPECT_EQ(linesOf(contentOf(world.folder / "log.jsonl")).size(), 1u);
 }
 
@@ -199,7 +200,7 @@ TEST(ReplayOfALog, RefusesByNameWhatMakesNoSense) {
   const LoggedWorld world;
   const std::vector<std::vector<std::string>> ofClips = {
       {"--rate", "10"},      {"--place", "0,0,0"}, {"--clip-scale", "1"},
-      {"--clip-up", "y"},  {"--map", "m"},       {"--animation", "Walk"},
+      {"--clip-up", "y"},    {"--map", "m"},       {"--animation", "Walk"},
       {"--robot", "r"},      {"--threads", "2"},   {"--rays"},
       {"--compare-rigid"},   {"--compare-link"},   {"--scope", "links"},
       {"--pass-separating"}, {"--package", "p"}};
