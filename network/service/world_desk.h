@@ -41,7 +41,7 @@ class WorldDesk final : WorldRecord {
   const std::string bodyChannel_, rigidChannel_, eventsChannel_, speakerChannel_;
   const Clock& clock_;
   Outlet& outlet_;
-  mutable std::timed_mutex mutex_;  // of all but the last two members
+  mutable std::mutex mutex_;  // of the next members, but the last two
   BoundWorld world_;
   std::vector<EventsMessage> answers_;
   Bytes payload_;
