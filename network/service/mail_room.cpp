@@ -151,11 +151,7 @@ MailRoom::Taken MailRoom::takeNow(std::size_t& avatar, std::unique_ptr<Mail>& ma
   Box& box = boxes_[avatar];
   box.isReady = false;
   box.isHandled = true;
-  if (isCounted(avatar)) {
-    ++handled_;
-  } else {
-    isWorldHandled_ = true;
-  }
+  if (isCounted(avatar)) ++handled_;
   keep(std::exchange(mail, std::move(box.mail.front())));
   box.mail.erase(box.mail.begin());
   --countOf(box, mail->kind);
@@ -185,13 +181,9 @@ void MailRoom::finish(std::size_t avatar) {
   Box& box = boxes_[avatar];
   box.isHandled = false;
   box.handled.reset();
-  if (isCounted(avatar)) {
-    --handled_;
-  } else {
-    isWorldHandled_ = false;
-  }
+  if (isCounted(avatar)) --handled_;
   if (!box.mail.empty()) makeReady(avatar);
-  if (isClosed_ && handled_ == 0 && !isWorldHandled_) changed_.notify_all();
+  if (isClosed_ && handled_ == 0 && !isWorldHandled()) changed_.notify_all();
 }
 
 void MailRoom::close() {

@@ -132,9 +132,12 @@ class MailRoom {
   [[nodiscard]] std::size_t firstReady() const;
   [[nodiscard]] bool mayTake() const { return firstReady() < ready_.size(); }
   [[nodiscard]] bool mayLead() const { return !isLed_ && !isLeadOver_ && !isClosed_; }
+  [[nodiscard]] bool isWorldHandled() const {
+    return world_ < boxes_.size() && boxes_[world_].isHandled;
+  }
   /// While a thread handles an avatar, more of its mail may become ready.
   [[nodiscard]] bool isOver() const {
-    return isClosed_ && ready_.empty() && handled_ == 0 && !isWorldHandled_;
+    return isClosed_ && ready_.empty() && handled_ == 0 && !isWorldHandled();
   }
   Taken takeNow(std::size_t& avatar, std::unique_ptr<Mail>& mail);
 
@@ -145,7 +148,6 @@ class MailRoom {
   std::vector<std::size_t> ready_;  // avatars with mail that nobody handles, longest waiting first
   std::vector<std::unique_ptr<Mail>> empty_;
   std::size_t handled_ = 0, steps_ = 0;  // of avatars; that wait
-  bool isWorldHandled_ = false;
   bool isLed_ = false, isLeadOver_ = false;
   bool isClosed_ = false;
 };

@@ -136,10 +136,14 @@ std::string recoveryJson(const Recovery& asked, const LogCounts& counts) {
   return text + "\n";
 }
 
-/// An empty log is of no use to anybody.
-ExitCode nothingToRecover(const Recovery& asked, const LogCounts& counts) {
+void dropOutput(const Recovery& asked) {
   std::error_code ignored;
   std::filesystem::remove(asked.output, ignored);
+}
+
+/// An empty log is of no use to anybody.
+ExitCode nothingToRecover(const Recovery& asked, const LogCounts& counts) {
+  dropOutput(asked);
   printError(asked.log + ": no event of it can be trusted" +
              (counts.badBlocks + counts.missingBlocks > 0
                   ? "; --unchecked takes events that other tools renumbered, merged or filtered"
@@ -165,8 +169,7 @@ ExitCode recover(const Recovery& asked) {
     return nothingToRecover(asked, counts.value());
   }
   if (!counts.ok()) {
-    std::error_code ignored;
-    std::filesystem::remove(asked.output, ignored);
+    dropOutput(asked);
     return failed(counts.error());
   }
   printOut(asked.asJson ? recoveryJson(asked, counts.value()) : summary(asked, counts.value()));

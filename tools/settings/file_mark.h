@@ -9,8 +9,7 @@
 namespace foretouch::tools {
 
 /// Sixteen hexadecimal digits of a file's content (XXH64): for files that somebody replaced by
-/// mistake, not for those that an attacker did. Errors: what is no file, or cannot
-/// be read.
+/// mistake, not for those that an attacker did. Errors: what is no file, or cannot be read.
 [[nodiscard]] Result<std::string> markOfFile(const std::string& path);
 /// The same of a text, and of the mark of what comes before it, if any.
 [[nodiscard]] std::string markOfText(std::string_view text, std::string_view before = {});
