@@ -129,10 +129,7 @@ WorldPart partOf(const OpenPart& open, std::int64_t untilUs) {
 
 ft_status checkedWeighed(const ft_world* world, std::int32_t body) {
   if (const auto s = checkedFollower(world); s != FT_OK) return s;
-  if (body >= 0 && static_cast<std::size_t>(body) < world->bodies.size()) return FT_OK;
-  return failure(FT_ERROR_UNKNOWN_NAME, body,
-                 "body: expected one of the %zu that were added, found %d", world->bodies.size(),
-                 body);
+  return checkedBody(*world, body);
 }
 
 }  // namespace
@@ -225,10 +222,8 @@ ft_status ft_world_events(const ft_world* world, ft_event* events, size_t capaci
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checkedFollowed(world); s != FT_OK) return s;
     const auto& all = world->events.events;
-    const Room room = roomFor(all.size(), events, capacity, required, "events");
-    if (room.status != FT_OK || room.isAsking || all.empty()) return room.status;
     const auto at = [&](std::size_t i) { return eventOf(*world, all[i]); };
-    return writeStructs("ft_event", all.size(), at, events);
+    return writeList("ft_event", "events", all.size(), at, events, capacity, required);
   });
 }
 
@@ -236,10 +231,8 @@ ft_status ft_world_parts(const ft_world* world, ft_part* parts, size_t capacity,
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checkedFollowed(world); s != FT_OK) return s;
     const auto& all = world->events.parts;
-    const Room room = roomFor(all.size(), parts, capacity, required, "parts");
-    if (room.status != FT_OK || room.isAsking || all.empty()) return room.status;
     const auto at = [&](std::size_t i) { return partOf(*world, all[i]); };
-    return writeStructs("ft_part", all.size(), at, parts);
+    return writeList("ft_part", "parts", all.size(), at, parts, capacity, required);
   });
 }
 
@@ -248,10 +241,8 @@ ft_status ft_world_open_parts(const ft_world* world, ft_part* parts, size_t capa
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checkedFollower(world); s != FT_OK) return s;
     const auto& all = world->follower->open();
-    const Room room = roomFor(all.size(), parts, capacity, required, "parts");
-    if (room.status != FT_OK || room.isAsking || all.empty()) return room.status;
     const std::int64_t untilUs = world->follower->followedUntilUs();
     const auto at = [&](std::size_t i) { return partOf(*world, partOf(all[i], untilUs)); };
-    return writeStructs("ft_part", all.size(), at, parts);
+    return writeList("ft_part", "parts", all.size(), at, parts, capacity, required);
   });
 }

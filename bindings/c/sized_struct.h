@@ -63,6 +63,16 @@ template <typename Struct, typename At>
   return FT_OK;
 }
 
+/// The same into the array `name` of a caller who may only be asking for the number.
+template <typename Struct, typename At>
+[[nodiscard]] ft_status writeList(const char* structName, const char* name, std::size_t count,
+                                  const At& at, Struct* array, std::size_t capacity,
+                                  std::size_t* required) {
+  const Room room = roomFor(count, array, capacity, required, name);
+  if (room.status != FT_OK || room.isAsking || count == 0) return room.status;
+  return writeStructs(structName, count, at, array);
+}
+
 /// The body of a struct's ft_*_init().
 template <typename Struct>
 ft_status initStruct(const char* function, Struct* given, std::size_t size, const char* name,

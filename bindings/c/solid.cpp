@@ -5,38 +5,15 @@
 #include "articulated/try.h"
 #include "bindings/c/sized_struct.h"
 #include "bindings/c/solid_handle.h"
-#include "bindings/snake_case.h"
 #include "lss/index.h"
 
 namespace foretouch::c {
 namespace {
 
-static_assert(static_cast<int>(SolidState::Placing) == FT_SOLID_PLACING);
-static_assert(static_cast<int>(SolidState::Equal) == FT_SOLID_EQUAL);
-static_assert(static_cast<int>(SolidState::Following) == FT_SOLID_FOLLOWING);
-static_assert(static_cast<int>(SolidState::Sliding) == FT_SOLID_SLIDING);
-static_assert(static_cast<int>(SolidState::Held) == FT_SOLID_HELD);
-static_assert(static_cast<int>(SolidState::Around) == FT_SOLID_AROUND);
-static_assert(static_cast<int>(SolidState::Snapped) == FT_SOLID_SNAPPED);
-static_assert(static_cast<int>(SolidJointState::Free) == FT_SOLID_JOINT_FREE);
-static_assert(static_cast<int>(SolidJointState::Sliding) == FT_SOLID_JOINT_SLIDING);
-static_assert(static_cast<int>(SolidJointState::Held) == FT_SOLID_JOINT_HELD);
-static_assert(static_cast<int>(SolidJointState::Lost) == FT_SOLID_JOINT_LOST);
-static_assert(static_cast<int>(SolidLimit::None) == FT_SOLID_LIMIT_NONE);
-static_assert(static_cast<int>(SolidLimit::Budget) == FT_SOLID_LIMIT_BUDGET);
-static_assert(static_cast<int>(SolidLimit::CatchUp) == FT_SOLID_LIMIT_CATCH_UP);
-static_assert(static_cast<int>(SolidLimit::Inside) == FT_SOLID_LIMIT_INSIDE);
-
 ft_status checkedTick(const ft_solid* solid) {
   if (const auto s = checked(solid); s != FT_OK) return s;
   if (solid->hasTick) return FT_OK;
   return failure(FT_ERROR_NO_STEP, kNoIndex, "expected ft_solid_follow() to be answered before");
-}
-
-/// An error about an option or argument names it as C does.
-ft_status solidFailure(Error error) {
-  error.file = snakeCase(error.file);
-  return failure(error);
 }
 
 /// What an exception left half written is made anew, and goes on from where it was.
@@ -72,51 +49,6 @@ void takeTick(ft_solid& solid) {
   solid.hasTick = true;
   solid.hasLast = solid.tick.state != SolidState::Placing;
   if (solid.hasLast) solid.last = solid.tick.shown;
-}
-
-ft_solid_tick tickOf(const SolidTick& tick) {
-  ft_solid_tick c{};
-  c.state = static_cast<std::int32_t>(tick.state);
-  c.limit = static_cast<std::int32_t>(tick.limit);
-  c.is_certified = tick.isCertified ? 1 : 0;
-  c.has_appeared = tick.hasAppeared ? 1 : 0;
-  c.deviation = tick.deviation;
-  c.lift = tick.lift;
-  c.clearance = tick.clearance;
-  c.snap_in_s = tick.snapInS;
-  c.joint_count = tick.joints.size();
-  c.contact_count = tick.contacts.size();
-  c.way_count = tick.numWay;
-  c.queries = tick.counters.queries;
-  c.iterations = tick.counters.iterations;
-  c.features = tick.counters.features;
-  c.rows = tick.counters.rows;
-  c.around_queries = tick.counters.aroundQueries;
-  c.placing_queries = tick.counters.placingQueries;
-  c.work = tick.counters.work;
-  return c;
-}
-
-ft_solid_joint jointOf(const SolidTick& tick, std::size_t joint) {
-  ft_solid_joint c{};
-  c.state = static_cast<std::int32_t>(tick.joints[joint]);
-  c.deviation = tick.linkDeviation[joint];
-  return c;
-}
-
-ft_solid_contact solidContactOf(const SolidContact& contact, const Scene& scene) {
-  ft_solid_contact c{};
-  c.link = contact.link;
-  c.lss = contact.lss;
-  c.triangle = contact.triangle;
-  c.object = contact.triangle < 0 ? -1 : scene.object(contact.triangle);
-  c.other = contact.other;
-  Eigen::Map<Eigen::Vector3d>(c.point) = contact.p_W;
-  Eigen::Map<Eigen::Vector3d>(c.normal) = contact.nhat_W;
-  c.gap = contact.gap;
-  c.push = contact.push;
-  c.slip_speed = contact.slipSpeed;
-  return c;
 }
 
 }  // namespace
@@ -155,7 +87,7 @@ ft_status ft_solid_follow(ft_solid* solid, const ft_pose* tracked, const uint8_t
                           [&](SolidAvatar& avatar) { return avatar.follow(target, solid->next); });
     if (s != FT_OK) return s;
     takeTick(*solid);
-    return writeStruct(tick, "ft_solid_tick", tickOf(solid->tick));
+    return writeTick(solid->tick, tick);
   });
 }
 
@@ -171,11 +103,7 @@ ft_status ft_solid_joints(const ft_solid* solid, ft_solid_joint* joints, size_t 
                           size_t* required) {
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checkedTick(solid); s != FT_OK) return s;
-    const std::size_t count = solid->tick.joints.size();
-    const Room room = roomFor(count, joints, capacity, required, "joints");
-    if (room.status != FT_OK || room.isAsking) return room.status;
-    const auto at = [&](std::size_t i) { return jointOf(solid->tick, i); };
-    return writeStructs("ft_solid_joint", count, at, joints);
+    return writeJoints(solid->tick, joints, capacity, required);
   });
 }
 
@@ -183,11 +111,7 @@ ft_status ft_solid_contacts(const ft_solid* solid, ft_solid_contact* contacts, s
                             size_t* required) {
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checkedTick(solid); s != FT_OK) return s;
-    const auto& all = solid->tick.contacts;
-    const Room room = roomFor(all.size(), contacts, capacity, required, "contacts");
-    if (room.status != FT_OK || room.isAsking || all.empty()) return room.status;
-    const auto at = [&](std::size_t i) { return solidContactOf(all[i], solid->scene); };
-    return writeStructs("ft_solid_contact", all.size(), at, contacts);
+    return writeContacts(solid->tick, solid->scene, contacts, capacity, required);
   });
 }
 
@@ -195,15 +119,7 @@ ft_status ft_solid_way(const ft_solid* solid, size_t index, double* time, double
                        double* translations, size_t capacity, size_t* required) {
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checkedTick(solid); s != FT_OK) return s;
-    const SolidTick& tick = solid->tick;
-    if (index >= tick.numWay) {
-      return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex,
-                     "index: expected a piece of the way, which has %zu, found %zu", tick.numWay,
-                     index);
-    }
-    const auto s = writePose(tick.way[index], rotations, translations, capacity, required);
-    if (s == FT_OK && time != nullptr) *time = tick.times[index];
-    return s;
+    return writeWay(solid->tick, index, time, rotations, translations, capacity, required);
   });
 }
 

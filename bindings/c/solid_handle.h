@@ -40,5 +40,18 @@ namespace foretouch::c {
 [[nodiscard]] ft_solid_options defaultSolidOptions();
 /// NULL: the usual ones. The library itself checks the values.
 [[nodiscard]] ft_status readSolidOptions(const ft_solid_options* given, SolidOptions& options);
+/// An error about an option or argument names it as C does.
+[[nodiscard]] ft_status solidFailure(Error error);
+
+// What a tick says, written as the functions of the header that are named so have it.
+[[nodiscard]] ft_status writeTick(const SolidTick& tick, ft_solid_tick* written);
+[[nodiscard]] ft_status writeJoints(const SolidTick& tick, ft_solid_joint* joints,
+                                    std::size_t capacity, std::size_t* required);
+[[nodiscard]] ft_status writeContacts(const SolidTick& tick, const Scene& scene,
+                                      ft_solid_contact* contacts, std::size_t capacity,
+                                      std::size_t* required);
+[[nodiscard]] ft_status writeWay(const SolidTick& tick, std::size_t index, double* time,
+                                 double* rotations, double* translations, std::size_t capacity,
+                                 std::size_t* required);
 
 }  // namespace foretouch::c

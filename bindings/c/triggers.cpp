@@ -46,14 +46,11 @@ ft_status add(ft_world& world, const Result<TriggerVolume>& volume, std::optiona
   FORETOUCH_CHECK_OR(worldFailure, volume);
   TriggerOptions options;
   if (const auto s = readTriggerOptions(given, options); s != FT_OK) return s;
-  auto& bodies = world.bodies;
-  if (bodies.size() == bodies.capacity()) bodies.reserve(2 * bodies.size() + 8);
-  FORETOUCH_TRY_OR(worldFailure, const TriggerId added,
-                   world.triggers.add(world.world, volume.value(), options));
-  bodies.push_back({nullptr, std::move(shape)});  // there is room
-  if (trigger != nullptr) *trigger = added;
-  if (body != nullptr) *body = world.triggers.body(added);
-  return FT_OK;
+  return addBody(world, {nullptr, std::move(shape)}, body, [&]() -> Result<BodyId> {
+    FORETOUCH_TRY(const TriggerId added, world.triggers.add(world.world, volume.value(), options));
+    if (trigger != nullptr) *trigger = added;
+    return world.triggers.body(added);
+  });
 }
 
 ft_status checkedTriggerEvents(const ft_world* world) {
@@ -171,10 +168,8 @@ ft_status ft_world_trigger_events(const ft_world* world, ft_trigger_event* event
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checkedTriggerEvents(world); s != FT_OK) return s;
     const auto& all = world->triggerEvents.events;
-    const Room room = roomFor(all.size(), events, capacity, required, "events");
-    if (room.status != FT_OK || room.isAsking || all.empty()) return room.status;
     const auto at = [&](std::size_t i) { return eventOf(all[i]); };
-    return writeStructs("ft_trigger_event", all.size(), at, events);
+    return writeList("ft_trigger_event", "events", all.size(), at, events, capacity, required);
   });
 }
 
@@ -183,10 +178,8 @@ ft_status ft_world_occupants(const ft_world* world, ft_occupant* occupants, size
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checkedTriggerEvents(world); s != FT_OK) return s;
     const auto& all = world->triggers.occupants();
-    const Room room = roomFor(all.size(), occupants, capacity, required, "occupants");
-    if (room.status != FT_OK || room.isAsking || all.empty()) return room.status;
     const auto at = [&](std::size_t i) { return occupantOf(all[i]); };
-    return writeStructs("ft_occupant", all.size(), at, occupants);
+    return writeList("ft_occupant", "occupants", all.size(), at, occupants, capacity, required);
   });
 }
 

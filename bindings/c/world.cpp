@@ -18,9 +18,6 @@ const Skeleton& skeletonOfMesh() {
   return one;
 }
 
-namespace {
-
-/// FT_ERROR_UNKNOWN_NAME with the body's number, unless it was added.
 ft_status checkedBody(const ft_world& world, std::int32_t body) {
   if (body >= 0 && static_cast<std::size_t>(body) < world.bodies.size()) return FT_OK;
   return failure(FT_ERROR_UNKNOWN_NAME, body,
@@ -28,30 +25,27 @@ ft_status checkedBody(const ft_world& world, std::int32_t body) {
                  body);
 }
 
-/// Copies the pose of a body, which the world itself checks.
-ft_status copyBodyPose(ft_world& world, std::int32_t body, const ft_pose* given) {
+ft_status copyBodyPose(const ft_world& world, std::int32_t body, const ft_pose* given, Pose& pose) {
   if (const auto s = checkedBody(world, body); s != FT_OK) return s;
   const auto& avatar = world.bodies[slotOf(body)].avatar;
   const Skeleton& skeleton = avatar ? avatar->avatar.skeleton() : skeletonOfMesh();
-  return copyPose(given, "pose", skeleton, world.given);
+  return copyPose(given, "pose", skeleton, pose);
 }
+
+namespace {
 
 ft_status ended(const Result<Done>& done, const char* place = "") {
   return done.ok() ? ft_status{FT_OK} : worldFailure(inFile(done, place).error());
 }
 
-/// Adds an avatar's or a mesh's body; nothing has changed where memory runs out.
+/// Adds an avatar's or a mesh's body.
 template <typename Shape>
 ft_status add(ft_world& world, const Shape& shape, const ft_body_options* given,
               ft_world::Body body, std::int32_t* number) {
   if (const auto s = needed(number, "body"); s != FT_OK) return s;
   BodyOptions options;
   if (const auto s = readBodyOptions(given, body.avatar.get(), options); s != FT_OK) return s;
-  auto& bodies = world.bodies;
-  if (bodies.size() == bodies.capacity()) bodies.reserve(2 * bodies.size() + 8);
-  FORETOUCH_TRY_OR(worldFailure, *number, world.world.add(shape, options));
-  bodies.push_back(std::move(body));  // there is room
-  return FT_OK;
+  return addBody(world, std::move(body), number, [&] { return world.world.add(shape, options); });
 }
 
 }  // namespace
@@ -126,7 +120,7 @@ ft_status ft_world_ask_still(ft_world* world, int32_t group, int32_t is_asked) {
 ft_status ft_world_push(ft_world* world, int32_t body, int64_t utime_us, const ft_pose* pose) {
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checked(world); s != FT_OK) return s;
-    if (const auto s = copyBodyPose(*world, body, pose); s != FT_OK) return s;
+    if (const auto s = copyBodyPose(*world, body, pose, world->given); s != FT_OK) return s;
     return ended(world->world.push(body, utime_us, world->given), "pose");
   });
 }
@@ -140,7 +134,7 @@ ft_status ft_world_attach(ft_world* world, int32_t body, const ft_carrier* carri
     Carrier by{known.body, known.link, false};
     const auto t = readTruth(known.moves_in_frame, "moves_in_frame", by.movesInFrame);
     if (t != FT_OK) return t;
-    if (const auto s = copyBodyPose(*world, body, pose); s != FT_OK) return s;
+    if (const auto s = copyBodyPose(*world, body, pose, world->given); s != FT_OK) return s;
     return ended(world->world.attach(body, by, utime_us, world->given), "pose");
   });
 }
@@ -148,7 +142,7 @@ ft_status ft_world_attach(ft_world* world, int32_t body, const ft_carrier* carri
 ft_status ft_world_detach(ft_world* world, int32_t body, int64_t utime_us, const ft_pose* pose) {
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checked(world); s != FT_OK) return s;
-    if (const auto s = copyBodyPose(*world, body, pose); s != FT_OK) return s;
+    if (const auto s = copyBodyPose(*world, body, pose, world->given); s != FT_OK) return s;
     return ended(world->world.detach(body, utime_us, world->given), "pose");
   });
 }

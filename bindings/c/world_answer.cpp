@@ -107,10 +107,8 @@ ft_status ft_world_contacts(const ft_world* world, ft_world_contact* contacts, s
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checkedAnswer(world); s != FT_OK) return s;
     const auto& all = world->answer.contacts;
-    const Room room = roomFor(all.size(), contacts, capacity, required, "contacts");
-    if (room.status != FT_OK || room.isAsking || all.empty()) return room.status;
     const auto at = [&](std::size_t i) { return worldContactOf(*world, all[i]); };
-    return writeStructs("ft_world_contact", all.size(), at, contacts);
+    return writeList("ft_world_contact", "contacts", all.size(), at, contacts, capacity, required);
   });
 }
 
@@ -119,10 +117,8 @@ ft_status ft_world_silent(const ft_world* world, ft_silent_body* bodies, size_t 
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checkedAnswer(world); s != FT_OK) return s;
     const auto& all = world->answer.silent;
-    const Room room = roomFor(all.size(), bodies, capacity, required, "bodies");
-    if (room.status != FT_OK || room.isAsking || all.empty()) return room.status;
     const auto at = [&](std::size_t i) { return silentOf(all[i]); };
-    return writeStructs("ft_silent_body", all.size(), at, bodies);
+    return writeList("ft_silent_body", "bodies", all.size(), at, bodies, capacity, required);
   });
 }
 

@@ -1,15 +1,18 @@
 // bindings/c/world_handle.h: the struct behind ft_world.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "articulated/try.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/include/foretouch/world.h"
 #include "middleware/depth/world_depth.h"
 #include "middleware/events/world_follower.h"
+#include "middleware/solid_world/solid_world.h"
 #include "middleware/triggers/triggers.h"
 #include "middleware/world/world_query.h"
 
@@ -24,12 +27,30 @@ struct ft_world {
     std::optional<foretouch::Scene> mesh;
   };
 
+  /// Of the solid avatars of a solid world.
+  struct Solids {
+    explicit Solids(foretouch::SolidWorld made) : world(std::move(made)) {}
+    foretouch::SolidWorld world;
+    std::vector<foretouch::Pose> poses;              // of the targets
+    std::vector<std::vector<std::uint8_t>> tracked;  // likewise
+    std::vector<foretouch::SolidBodyTarget> targets;
+    std::vector<foretouch::SolidBodyTick> ticks, next;
+    bool isBroken = false;  // memory ran out within a tick
+  };
+
   ft_world(std::optional<foretouch::Scene> ofStill, foretouch::World made)
-      : still(std::move(ofStill)), world(std::move(made)) {}
+      : still(std::move(ofStill)), own(std::move(made)), world(*own) {}
+  ft_world(foretouch::Scene ofStill, foretouch::SolidWorld made, foretouch::WorldFollower follows)
+      : still(std::move(ofStill)),
+        solids(std::move(made)),
+        world(solids->world.world()),
+        follower(std::move(follows)) {}
 
   foretouch::c::Mark mark = kMark;
   std::optional<foretouch::Scene> still;
-  foretouch::World world;
+  std::optional<Solids> solids;
+  std::optional<foretouch::World> own;
+  foretouch::World& world;  // one of these two
   std::vector<Body> bodies;
   foretouch::Pose given;
   std::optional<foretouch::WorldScratch> scratch;
@@ -59,7 +80,26 @@ namespace foretouch::c {
 /// Of a body of one joint, as meshes and triggers are.
 [[nodiscard]] const Skeleton& skeletonOfMesh();
 
+/// FT_ERROR_UNKNOWN_NAME with the body's number, unless it was added.
+[[nodiscard]] ft_status checkedBody(const ft_world& world, std::int32_t body);
+/// Copies the pose of a body, which the world itself checks.
+[[nodiscard]] ft_status copyBodyPose(const ft_world& world, std::int32_t body, const ft_pose* given,
+                                     Pose& pose);
 /// An error about an option or argument names it as C does.
 [[nodiscard]] ft_status worldFailure(Error error);
+
+/// Calls `call`, which adds a body to the library's world, and keeps what it is made of; nothing
+/// has changed where memory runs out. `number` may be null.
+template <typename Call>
+[[nodiscard]] ft_status addBody(ft_world& world, ft_world::Body body, std::int32_t* number,
+                                const Call& call) {
+  auto& bodies = world.bodies;
+  if (bodies.size() == bodies.capacity()) bodies.reserve(2 * bodies.size() + 8);
+  const Result<BodyId> added = call();
+  FORETOUCH_CHECK_OR(worldFailure, added);
+  bodies.push_back(std::move(body));  // there is room
+  if (number != nullptr) *number = added.value();
+  return FT_OK;
+}
 
 }  // namespace foretouch::c

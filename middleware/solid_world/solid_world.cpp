@@ -66,9 +66,12 @@ class SolidWorld::Parts {
     if (reach_ == SolidReach::Skin && !body.self && !body.surface) {
       FORETOUCH_TRY(met, grownBy(avatar, options.skin));
     }
+    // Memory runs out before the world has the body, or not at all.
+    auto made = std::make_unique<internal::SolidBody>(std::move(solid));
+    solids_.reserve(solids_.size() + 1);
+    signatures_.resize(solids_.size() + 1);
     FORETOUCH_TRY(const BodyId id, world_.add(met, body));
-    solids_.push_back(std::make_unique<internal::SolidBody>(std::move(solid)));
-    signatures_.emplace_back();
+    solids_.push_back(std::move(made));
     return id;
   }
 

@@ -88,6 +88,18 @@ template <typename Struct>
   return made;
 }
 
+/// All that `read` lists: a function of C with an array, its capacity and the required number.
+template <typename Struct, typename Read>
+std::vector<Struct> listed(const Read& read) {
+  std::size_t count = 0;
+  EXPECT_EQ(read(static_cast<Struct*>(nullptr), 0, &count), FT_OK) << ft_last_error();
+  std::vector<Struct> all(count);
+  if (count == 0) return all;
+  all[0].size = sizeof(Struct);
+  EXPECT_EQ(read(all.data(), all.size(), &count), FT_OK) << ft_last_error();
+  return all;
+}
+
 /// Expects the status, and a message with the function's name and all of `words`.
 void expectRefused(ft_status got, ft_status expected, const std::vector<std::string>& words);
 

@@ -24,31 +24,20 @@ using Eigen::Vector3d;
 using test::MovingWorld;
 using test::Random;
 
-template <typename Struct, typename Read>
-std::vector<Struct> listed(const Read& read) {
-  std::size_t count = 0;
-  EXPECT_EQ(read(nullptr, 0, &count), FT_OK) << ft_last_error();
-  std::vector<Struct> all(count);
-  if (count == 0) return all;
-  all[0].size = sizeof(Struct);
-  EXPECT_EQ(read(all.data(), all.size(), &count), FT_OK) << ft_last_error();
-  return all;
-}
-
 std::vector<ft_event> eventsOf(const ft_world* world) {
-  return listed<ft_event>([&](ft_event* events, std::size_t room, std::size_t* required) {
+  return test::listed<ft_event>([&](ft_event* events, std::size_t room, std::size_t* required) {
     return ft_world_events(world, events, room, required);
   });
 }
 
 std::vector<ft_part> partsOf(const ft_world* world) {
-  return listed<ft_part>([&](ft_part* parts, std::size_t room, std::size_t* required) {
+  return test::listed<ft_part>([&](ft_part* parts, std::size_t room, std::size_t* required) {
     return ft_world_parts(world, parts, room, required);
   });
 }
 
 std::vector<ft_part> openOf(const ft_world* world) {
-  return listed<ft_part>([&](ft_part* parts, std::size_t room, std::size_t* required) {
+  return test::listed<ft_part>([&](ft_part* parts, std::size_t room, std::size_t* required) {
     return ft_world_open_parts(world, parts, room, required);
   });
 }

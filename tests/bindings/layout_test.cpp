@@ -5,6 +5,7 @@
 #include <foretouch/mechanics.h>
 #include <foretouch/robots.h>
 #include <foretouch/solid.h>
+#include <foretouch/solid_world.h>
 #include <foretouch/triggers.h>
 #include <foretouch/world.h>
 
@@ -468,10 +469,39 @@ AT(ft_path, verdict, 4);
 AT(ft_path, edge, 8);
 AT(ft_path, free_until, 16);
 
+static_assert(sizeof(ft_solid_target) == 24);
+AT(ft_solid_target, body, 0);
+AT(ft_solid_target, reserved, 4);
+AT(ft_solid_target, pose, 8);
+AT(ft_solid_target, is_tracked, 16);
+
+static_assert(sizeof(ft_solid_body_contact) == 88);
+AT(ft_solid_body_contact, body, 4);
+AT(ft_solid_body_contact, link, 8);
+AT(ft_solid_body_contact, lss, 12);
+AT(ft_solid_body_contact, triangle, 16);
+AT(ft_solid_body_contact, object, 20);
+AT(ft_solid_body_contact, point, 24);
+AT(ft_solid_body_contact, normal, 48);
+AT(ft_solid_body_contact, gap, 72);
+AT(ft_solid_body_contact, push, 80);
+
+static_assert(sizeof(ft_solid_crush) == 32);
+AT(ft_solid_crush, body, 4);
+AT(ft_solid_crush, link, 8);
+AT(ft_solid_crush, is_over, 12);
+AT(ft_solid_crush, since_us, 16);
+AT(ft_solid_crush, depth, 24);
+
+static_assert(sizeof(ft_solid_held) == 16);
+AT(ft_solid_held, body, 4);
+AT(ft_solid_held, state, 8);
+AT(ft_solid_held, reserved, 12);
+
 namespace {
 
 TEST(CLayout, IsWhatProgramsWereCompiledAgainst) {
-  EXPECT_EQ(FT_ABI_VERSION, 4);  // a field or a function more: count up, and add its lines above
+  EXPECT_EQ(FT_ABI_VERSION, 5);  // a field or a function more: count up, and add its lines above
 }
 
 }  // namespace

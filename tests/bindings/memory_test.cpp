@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <dlfcn.h>
+#include <foretouch/solid_world.h>
 #include <new>
 #include <string_view>
 
@@ -320,6 +321,52 @@ TEST(CMemory, RunningOutInASolidAvatarIsAnErrorAndLeavesItWhereItWas) {
     return status;
   });
   EXPECT_GT(made, 10);
+}
+
+/// Whatever runs out in a tick, it is said, and nothing is shown that is not proven.
+TEST(CMemory, RunningOutInASolidWorldIsAnErrorAndIsSaidFromThenOn) {
+  const test::SolidWorld arm;
+  const test::PoseArrays above(test::armPose(arm.avatarOfCxx, 0.0));
+  const test::PoseArrays below(test::armPose(arm.avatarOfCxx, 1.0));
+  const ft_pose first = above.view(), next = below.view();
+  const ft_solid_target begin{0, 0, &first, nullptr}, target{0, 0, &next, nullptr};
+  std::vector<double> shown(12);
+  const int failed = failingOneByOne([&]() -> ft_status {
+    const std::int64_t until = std::exchange(callsUntilFailure, -1);
+    ft_world* made = nullptr;
+    EXPECT_EQ(ft_solid_world_create(arm.scene.get(), 0, 0, nullptr, &made), FT_OK);
+    const test::WorldHandle world(made);
+    std::int32_t body = -1;
+    EXPECT_EQ(ft_solid_world_add(made, arm.avatar.get(), nullptr, nullptr, &body), FT_OK);
+    EXPECT_EQ(ft_solid_world_tick(made, 1000, &begin, 1), FT_OK) << ft_last_error();
+    callsUntilFailure = until;
+    const ft_status status = ft_solid_world_tick(made, 12000, &target, 1);
+    if (status == FT_OK) return status;
+    const std::int64_t after = std::exchange(callsUntilFailure, -1);
+    EXPECT_EQ(ft_solid_world_shown(made, 0, shown.data(), nullptr, 3, nullptr), FT_OK);
+    EXPECT_EQ(shown, above.rotations);
+    EXPECT_NE(ft_solid_world_tick(made, 23000, &target, 1), FT_ERROR_OUT_OF_RANGE);
+    callsUntilFailure = after;
+    return status;
+  });
+  EXPECT_GT(failed, 1);
+  const int added = failingOneByOne([&]() -> ft_status {
+    const std::int64_t until = std::exchange(callsUntilFailure, -1);
+    ft_world* made = nullptr;
+    EXPECT_EQ(ft_solid_world_create(arm.scene.get(), 0, 0, nullptr, &made), FT_OK);
+    const test::WorldHandle world(made);
+    callsUntilFailure = until;
+    std::int32_t body = -1;
+    const ft_status status = ft_solid_world_add(made, arm.avatar.get(), nullptr, nullptr, &body);
+    const std::int64_t after = std::exchange(callsUntilFailure, -1);
+    if (status != FT_OK) {  // and the world does not have it
+      EXPECT_EQ(ft_solid_world_add(made, arm.avatar.get(), nullptr, nullptr, &body), FT_OK);
+    }
+    EXPECT_EQ(body, 0);
+    callsUntilFailure = after;
+    return status;
+  });
+  EXPECT_GT(added, 10);
 }
 
 /// Two bodies that pass through each other and through a door that swings, one of them carrying a

@@ -3,6 +3,7 @@
 #include <array>
 #include <foretouch/events.h>
 #include <foretouch/mechanics.h>
+#include <foretouch/solid_world.h>
 #include <foretouch/triggers.h>
 #include <limits>
 #include <string>
@@ -230,6 +231,30 @@ class Caller : public test::RandomCaller {
     if (random_.chance(0.1)) return kInstants[static_cast<std::size_t>(random_.below(4))];
     return 100 * ++now_;
   }
+  /// The calls of a solid world, of one that may be none.
+  void tickWorld(test::SmallWorld& small, ft_world* world) {
+    const ft_pose good = small.up(), given = pose();
+    const ft_solid_options made = solidOptions();
+    std::int32_t body = 0, isAssumed = 0;
+    take(ft_solid_world_add(maybe(world), maybe(small.avatar.get()), maybe(&made), nullptr, &body));
+    const ft_solid_target target{random_.chance(0.6) ? 0 : index(), random_.chance(0.9) ? 0 : 1,
+                                 random_.chance(0.6) ? &good : maybe(&given), nullptr};
+    take(ft_solid_world_tick(maybe(world), instant(), maybe(&target), 1));
+    std::int64_t at = 0;
+    take(ft_solid_world_at(maybe(world), maybe(&at)));
+    ft_solid_tick tick{};
+    tick.size = sizeOr(sizeof tick);
+    std::size_t required = 0;
+    take(ft_solid_world_get_tick(world, index(), maybe(&tick), maybe(&isAssumed)));
+    take(ft_solid_world_shown(maybe(world), index(), nullptr, nullptr, 0, maybe(&required)));
+    take(ft_solid_world_joints(world, index(), nullptr, 0, maybe(&required)));
+    take(ft_solid_world_contacts(world, index(), nullptr, 0, maybe(&required)));
+    take(ft_solid_world_way(world, index(), static_cast<std::size_t>(index()), nullptr, nullptr,
+                            nullptr, 0, maybe(&required)));
+    take(ft_solid_world_body_contacts(world, index(), nullptr, 0, maybe(&required)));
+    take(ft_solid_world_crushes(world, index(), nullptr, 0, maybe(&required)));
+    take(ft_solid_world_held(world, index(), nullptr, 0, maybe(&required)));
+  }
   void playWorld(test::SmallWorld& small) {
     ft_world_options made = test::initialised(ft_world_options_init);
     made.size = sizeOr(sizeof made);
@@ -237,14 +262,20 @@ class Caller : public test::RandomCaller {
     const ft_scene* still = maybe(small.scene.get());
     if (random_.chance(0.1)) still = reinterpret_cast<const ft_scene*>(small.avatar.get());
     ft_world* world = nullptr;
-    const ft_status status = ft_world_create(still, maybe(&made), &world);
+    const bool isSolid = random_.chance(0.5);
+    const ft_status status =
+        isSolid ? ft_solid_world_create(still, 0, random_.chance(0.9) ? 0 : index(), maybe(&made),
+                                        &world)
+                : ft_world_create(still, maybe(&made), &world);
     take(status);
     ASSERT_EQ(world != nullptr, status == FT_OK);
     if (world == nullptr) return;
     const test::WorldHandle owner(world);
     for (int i = 0; i < 3; ++i) addBody(small, world);
     if (random_.chance(0.5)) addTriggers(small, world);
+    for (int i = 0; isSolid && i < 3; ++i) tickWorld(small, world);
     for (int i = 0; i < 12; ++i) tellWorld(small, world);
+    if (random_.chance(0.2)) tickWorld(small, world);
     for (int i = 0; i < 3; ++i) follow(world, i == 0 || random_.chance(0.2));
     askWorld(world);
     collide();

@@ -5,7 +5,6 @@
 #include <thread>
 #include <vector>
 
-#include "tests/bindings/same_answers.h"
 #include "tests/bindings/solid_world.h"
 #include "tests/support/threads.h"
 
@@ -16,69 +15,6 @@ using test::SolidWorld;
 using test::WholeTick;
 
 constexpr double kTick = 1.0 / 90.0;
-
-void expectSameCounters(const ft_solid_tick& c, const SolidCounters& cxx) {
-  EXPECT_EQ(c.queries, cxx.queries);
-  EXPECT_EQ(c.iterations, cxx.iterations);
-  EXPECT_EQ(c.features, cxx.features);
-  EXPECT_EQ(c.rows, cxx.rows);
-  EXPECT_EQ(c.around_queries, cxx.aroundQueries);
-  EXPECT_EQ(c.placing_queries, cxx.placingQueries);
-  EXPECT_EQ(c.work, cxx.work);
-}
-
-void expectSameContact(const ft_solid_contact& c, const SolidContact& cxx, const Scene& scene) {
-  EXPECT_EQ(c.size, sizeof c);
-  EXPECT_EQ(c.link, cxx.link);
-  EXPECT_EQ(c.lss, cxx.lss);
-  EXPECT_EQ(c.triangle, cxx.triangle);
-  EXPECT_EQ(c.object, cxx.triangle < 0 ? -1 : scene.object(cxx.triangle));
-  EXPECT_EQ(c.other, cxx.other);
-  test::expectSameVector(c.point, cxx.p_W);
-  test::expectSameVector(c.normal, cxx.nhat_W);
-  EXPECT_EQ(c.gap, cxx.gap);
-  EXPECT_EQ(c.push, cxx.push);
-  EXPECT_EQ(c.slip_speed, cxx.slipSpeed);
-}
-
-void expectSameWay(const WholeTick& c, const SolidTick& cxx) {
-  ASSERT_EQ(c.tick.way_count, cxx.numWay);
-  std::vector<double> rotations, translations;
-  for (std::size_t i = 0; i < cxx.numWay; ++i) {
-    EXPECT_EQ(c.wayTimes[i], cxx.times[i]);
-    const test::PoseArrays piece(cxx.way[i]);
-    rotations.insert(rotations.end(), piece.rotations.begin(), piece.rotations.end());
-    translations.insert(translations.end(), piece.translations.begin(), piece.translations.end());
-  }
-  EXPECT_EQ(c.wayRotations, rotations);
-  EXPECT_EQ(c.wayTranslations, translations);
-}
-
-void expectSame(const WholeTick& c, const SolidTick& cxx, const Scene& scene) {
-  EXPECT_EQ(c.tick.state, static_cast<int>(cxx.state));
-  EXPECT_EQ(c.tick.limit, static_cast<int>(cxx.limit));
-  EXPECT_EQ(c.tick.is_certified, cxx.isCertified ? 1 : 0);
-  EXPECT_EQ(c.tick.has_appeared, cxx.hasAppeared ? 1 : 0);
-  EXPECT_EQ(c.tick.deviation, cxx.deviation);
-  EXPECT_EQ(c.tick.lift, cxx.lift);
-  EXPECT_EQ(c.tick.clearance, cxx.clearance);
-  EXPECT_EQ(c.tick.snap_in_s, cxx.snapInS);
-  expectSameCounters(c.tick, cxx.counters);
-  const test::PoseArrays shown(cxx.shown);
-  EXPECT_EQ(c.rotations, shown.rotations);
-  EXPECT_EQ(c.translations, shown.translations);
-  ASSERT_EQ(c.joints.size(), cxx.joints.size());
-  for (std::size_t j = 0; j < c.joints.size(); ++j) {
-    EXPECT_EQ(c.joints[j].size, sizeof(ft_solid_joint));
-    EXPECT_EQ(c.joints[j].state, static_cast<int>(cxx.joints[j]));
-    EXPECT_EQ(c.joints[j].deviation, cxx.linkDeviation[j]);
-  }
-  ASSERT_EQ(c.contacts.size(), cxx.contacts.size());
-  for (std::size_t i = 0; i < c.contacts.size(); ++i) {
-    expectSameContact(c.contacts[i], cxx.contacts[i], scene);
-  }
-  expectSameWay(c, cxx);
-}
 
 /// How often a tick had each state.
 struct SeenStates {
@@ -102,7 +38,7 @@ SeenStates playBeside(const SolidWorld& world, ft_solid* c, SolidAvatar& cxx,
     const auto done = cxx.follow({pose, kTick, flags}, tick);
     EXPECT_TRUE(done.ok()) << describe(done.error());
     const WholeTick whole = test::follow(c, pose, flags);
-    expectSame(whole, tick, world.sceneOfCxx);
+    test::expectSame(whole, tick, world.sceneOfCxx);
     seen.count(whole.tick);
     if (testing::Test::HasFailure()) break;
   }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <foretouch/solid.h>
+#include <foretouch/world.h>
 #include <memory>
 #include <vector>
 
@@ -48,6 +49,9 @@ struct WholeTick {
 };
 /// Of the tick that ft_solid_follow() has just filled.
 [[nodiscard]] WholeTick wholeTick(const ft_solid* solid, const ft_solid_tick& tick);
+/// Of a solid avatar of a solid world.
+[[nodiscard]] WholeTick wholeTick(const ft_world* world, std::int32_t body);
+void expectSame(const WholeTick& c, const SolidTick& cxx, const Scene& scene);
 /// One tick of 1/90 s.
 WholeTick follow(ft_solid* solid, const Pose& tracked,
                  const std::vector<std::uint8_t>* isTracked = nullptr);
