@@ -21,6 +21,7 @@ void bindNear(pybind11::module_& module);
 void bindSweep(pybind11::module_& module);
 void bindSolid(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
+void bindSolidWorld(pybind11::module_& module);
 void bindTriggers(pybind11::module_& module);
 void bindFollower(pybind11::module_& module);
 void bindRobots(pybind11::module_& module);

@@ -122,15 +122,7 @@ class Follower {
   [[nodiscard]] py::object follow(std::int64_t untilUs) {
     world_.with("until_us",
                 [&](foretouch::World& world) { return follower_.follow(world, untilUs, answer_); });
-    const auto shapes = world_.shapes();
-    const Tales tales(world_.still().get(), *shapes);
-    py::list silent;
-    const py::object silentType = pythonType("SilentBody");
-    for (const SilentBody& one : answer_.silent) {
-      silent.append(silentType(one.body, one.sinceUs, toString(one.takenTo)));
-    }
-    return pythonType("WorldEvents")(answer_.fromUs, answer_.toUs, tales.events(answer_.events),
-                                     tales.parts(answer_.parts), silent);
+    return toPython(answer_, world_);
   }
 
   [[nodiscard]] py::list open() {
@@ -174,6 +166,18 @@ void weighBody(Follower& follower, const Shown<shown::Integer>& body,
 }
 
 }  // namespace
+
+py::object toPython(const WorldEvents& events, World& world) {
+  const auto shapes = world.shapes();
+  const Tales tales(world.still().get(), *shapes);
+  py::list silent;
+  const py::object silentType = pythonType("SilentBody");
+  for (const SilentBody& one : events.silent) {
+    silent.append(silentType(one.body, one.sinceUs, toString(one.takenTo)));
+  }
+  return pythonType("WorldEvents")(events.fromUs, events.toUs, tales.events(events.events),
+                                   tales.parts(events.parts), silent);
+}
 
 void bindFollower(py::module_& module) {
   module.attr("EVERY_BODY") = kEveryBody;

@@ -24,6 +24,7 @@ PYBIND11_MODULE(_foretouch, module) {
   bindSweep(module);
   bindSolid(module);
   bindWorld(module);
+  bindSolidWorld(module);
   bindTriggers(module);
   bindFollower(module);
   bindRobots(module);

@@ -16,7 +16,8 @@ T solidValue(Result<T> result) {
   return std::move(result).value();
 }
 
-/// Booleans, or integers of which 0 is lost.
+}  // namespace
+
 std::vector<std::uint8_t> flagsFrom(const py::object& given, const Avatar& avatar) {
   if (given.is_none()) return {};
   const py::object array = py::module_::import("numpy").attr("asarray")(given);
@@ -27,8 +28,6 @@ std::vector<std::uint8_t> flagsFrom(const py::object& given, const Avatar& avata
   for (py::ssize_t j = 0; j < flags.size(); ++j) found.push_back(flags.at(j) != 0 ? 1 : 0);
   return found;
 }
-
-}  // namespace
 
 SolidAvatar::SolidAvatar(std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene,
                          const SolidOptions& options)

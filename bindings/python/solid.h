@@ -53,18 +53,23 @@ class SolidAvatar {
   bool isSuspect_ = false;  // memory ran out half-way
 };
 
-/// The keywords of a solid avatar, as given.
+/// The keywords of a solid avatar, as given; those that are null are as usual.
 struct GivenSolidOptions {
   py::object skin, tolerance, catchUp, visibility, floor, feet, up, mostLift, mostDeviation,
       mostLimbDeviation, patience, maySnap, snapNotice, aroundPerTick, aroundInAll, placingReach,
       ignore, selfPairs, workBudget;
 };
+/// TypeError for a keyword that is none of these.
+[[nodiscard]] GivenSolidOptions solidKeywords(const py::kwargs& given);
 
 /// Looks up the names of links and objects. The library itself checks the values.
 [[nodiscard]] SolidOptions solidOptionsFrom(const GivenSolidOptions& given, const Avatar& avatar,
                                             const Scene& scene);
 /// An error about an option is one about its keyword.
 [[nodiscard]] Error withKeywordsOfSolid(Error error);
+
+/// Booleans, or integers of which 0 is lost; empty of None.
+[[nodiscard]] std::vector<std::uint8_t> flagsFrom(const py::object& given, const Avatar& avatar);
 
 void bindSolidTick(py::module_& module);
 

@@ -37,8 +37,13 @@ T worldValue(Result<T> result) {
 World::World(std::shared_ptr<const Scene> still, const WorldOptions& options)
     : still_(std::move(still)),
       tolerance_(options.tolerance),
-      world_(worldValue(foretouch::World::build(
-          still_ ? std::optional<Scene>(*still_) : std::nullopt, options))) {}
+      own_(worldValue(
+          foretouch::World::build(still_ ? std::optional<Scene>(*still_) : std::nullopt, options))),
+      world_(*own_) {}
+
+World::World(std::shared_ptr<const Scene> still, const WorldOptions& options,
+             foretouch::World& world)
+    : still_(std::move(still)), tolerance_(options.tolerance), world_(world) {}
 
 template <typename Call>
 auto World::change(const char* place, const Call& call) {
@@ -134,14 +139,6 @@ BodyShape World::shape(BodyId body) {
          body);
 }
 
-namespace {
-
-Pose bodyPose(World& world, BodyId body, const py::object& given) {
-  const BodyShape shape = world.shape(body);
-  const Skeleton& skeleton = shape.avatar ? shape.avatar->skeleton() : skeletonOfProp();
-  return poseFrom(skeleton, skeleton.numJoints() == 1 ? withJointAxis(given) : given, "pose");
-}
-
 std::int32_t smallInteger(py::handle given, const char* what) {
   using Limits = std::numeric_limits<std::int32_t>;
   return static_cast<std::int32_t>(integer(given, what, Limits::min(), Limits::max()));
@@ -151,12 +148,9 @@ std::int64_t instantFrom(py::handle given, const char* what) {
   return integer(given, what, -kMostUtimeUs, kMostUtimeUs);
 }
 
-std::unique_ptr<World> createWorld(std::shared_ptr<Scene> still,
-                                   const Shown<shown::Number>& tolerance,
-                                   const Shown<shown::Truth>& askMeshes,
-                                   const Shown<shown::Integer>& workPerPair,
-                                   const Shown<shown::Integer>& workPerWindow,
-                                   const Shown<shown::Integer>& mostNear) {
+WorldOptions worldOptionsFrom(const py::object& tolerance, const py::object& askMeshes,
+                              const py::object& workPerPair, const py::object& workPerWindow,
+                              const py::object& mostNear) {
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   WorldOptions options;
   options.tolerance = number(tolerance, "tolerance");
@@ -169,7 +163,30 @@ std::unique_ptr<World> createWorld(std::shared_ptr<Scene> still,
   if (!mostNear.is_none()) {
     options.mostNear = static_cast<std::size_t>(integer(mostNear, "most_near", 0, kMost));
   }
-  return std::make_unique<World>(std::move(still), options);
+  return options;
+}
+
+WhenSilent whenSilentFrom(const py::object& given) {
+  return oneOf(given, "when_silent", kSilences);
+}
+
+namespace {
+
+Pose bodyPose(World& world, BodyId body, const py::object& given) {
+  const BodyShape shape = world.shape(body);
+  const Skeleton& skeleton = shape.avatar ? shape.avatar->skeleton() : skeletonOfProp();
+  return poseFrom(skeleton, skeleton.numJoints() == 1 ? withJointAxis(given) : given, "pose");
+}
+
+std::unique_ptr<World> createWorld(std::shared_ptr<Scene> still,
+                                   const Shown<shown::Number>& tolerance,
+                                   const Shown<shown::Truth>& askMeshes,
+                                   const Shown<shown::Integer>& workPerPair,
+                                   const Shown<shown::Integer>& workPerWindow,
+                                   const Shown<shown::Integer>& mostNear) {
+  return std::make_unique<World>(
+      std::move(still),
+      worldOptionsFrom(tolerance, askMeshes, workPerPair, workPerWindow, mostNear));
 }
 
 BodyId addBody(World& world, const py::object& shape, const Shown<shown::Integer>& group,
@@ -177,7 +194,7 @@ BodyId addBody(World& world, const py::object& shape, const Shown<shown::Integer
                const Shown<shown::Surface>& surface) {
   BodyOptions options;
   options.group = smallInteger(group, "group");
-  options.whenSilent = oneOf(whenSilent, "when_silent", kSilences);
+  options.whenSilent = whenSilentFrom(whenSilent);
   if (py::isinstance<Avatar>(shape)) {
     const auto avatar = shape.cast<std::shared_ptr<Avatar>>();
     options.self = rulesFrom(selfPairs, *avatar);

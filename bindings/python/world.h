@@ -11,6 +11,7 @@
 #include "articulated/avatar.h"
 #include "bindings/python/arguments.h"
 #include "middleware/depth/world_depth.h"
+#include "middleware/events/world_event.h"
 #include "middleware/scene/scene.h"
 #include "middleware/world/world_query.h"
 
@@ -29,6 +30,8 @@ class World {
  public:
   /// Throws if the library refuses the options.
   World(std::shared_ptr<const Scene> still, const WorldOptions& options);
+  /// Somebody else's world, which outlives this one.
+  World(std::shared_ptr<const Scene> still, const WorldOptions& options, foretouch::World& world);
 
   BodyId add(BodyShape shape, const BodyOptions& options);
   void push(BodyId body, std::int64_t utimeUs, const Pose& pose);
@@ -62,7 +65,8 @@ class World {
   std::shared_ptr<const Scene> still_;
   double tolerance_;
   std::mutex mutex_;  // never waited for with the GIL held
-  foretouch::World world_;
+  std::optional<foretouch::World> own_;
+  foretouch::World& world_;
   std::shared_ptr<const BodyShapes> shapes_ = std::make_shared<BodyShapes>();
   WorldScratch scratch_;
   bool isScratchSuspect_ = false;  // memory ran out half-way
@@ -75,6 +79,19 @@ class World {
 /// no triangle says which it is.
 [[nodiscard]] py::object sideToPython(const ContactSide& side, ObjectId object, const Scene* still,
                                       const BodyShapes& shapes);
+/// What was told of a world: foretouch.WorldEvents.
+[[nodiscard]] py::object toPython(const WorldEvents& events, World& world);
+
+/// The keywords of a world, and of what a body does when it is silent.
+[[nodiscard]] WorldOptions worldOptionsFrom(const py::object& tolerance,
+                                            const py::object& askMeshes,
+                                            const py::object& workPerPair,
+                                            const py::object& workPerWindow,
+                                            const py::object& mostNear);
+[[nodiscard]] WhenSilent whenSilentFrom(const py::object& given);
+[[nodiscard]] std::int32_t smallInteger(py::handle given, const char* what);
+[[nodiscard]] std::int64_t instantFrom(py::handle given, const char* what);
+
 /// Borrows the classes that answers are made of from the module.
 void bindWorldAnswer(py::module_& module);
 

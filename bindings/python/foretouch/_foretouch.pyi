@@ -34,6 +34,7 @@ from foretouch._types import (
     Poses,
     PosesLike,
     SceneAudit,
+    SolidBodyTick,
     SolidContact,
     SweptSurface,
     TriggerEvent,
@@ -518,6 +519,35 @@ class World:
     @property
     def tolerance(self) -> float: ...
     def depth(self, utime_us: int, body: int, other: Optional[int] = None) -> Depth: ...
+
+class SolidWorld:
+    def __init__(
+        self,
+        still: Scene,
+        begin_us: int,
+        *,
+        reach: str = "skin",
+        tolerance: float = 0.001,
+        work_per_pair: int = 100000000,
+        work_per_window: Optional[int] = None,
+        most_near: Optional[int] = None,
+    ) -> None: ...
+    def add(
+        self, avatar: Avatar, *, group: int = 0, when_silent: str = "wait", **options: Any
+    ) -> int: ...
+    def tick(
+        self,
+        utime_us: int,
+        targets: Mapping[int, PoseLike],
+        is_tracked: Optional[Mapping[int, npt.ArrayLike]] = None,
+    ) -> dict[int, SolidBodyTick]: ...
+    def follow(self) -> WorldEvents: ...
+    @property
+    def utime(self) -> int: ...
+    @property
+    def world(self) -> World: ...
+    @property
+    def still(self) -> Scene: ...
 
 class Follower:
     def __init__(

@@ -9,7 +9,7 @@ from typing import NamedTuple, Optional, TypedDict, Union, overload
 import numpy as np
 import numpy.typing as npt
 
-from foretouch._foretouch import Avatar, InputError, Scene, Verdict
+from foretouch._foretouch import Avatar, InputError, Scene, SolidTick, Verdict
 
 Doubles = npt.NDArray[np.float64]
 
@@ -374,6 +374,62 @@ class SolidContact(NamedTuple):
     """Of the link's point along the surface, m/s."""
 
 
+class SolidBodyContact(NamedTuple):
+    """A moving body that holds or pushes a solid avatar. Metres, world frame."""
+
+    body: int
+    link: str
+    """The avatar's."""
+    link_id: int
+    lss: int
+    """Of the link's LSS; those of tools in its hand come after its own."""
+    triangle: Optional[int]
+    """Of a mesh."""
+    object: Optional[str]
+    """The name of the triangle's object."""
+    point: Doubles
+    """(3,), on the body's surface."""
+    normal: Doubles
+    """(3,), unit, from it to the avatar."""
+    gap: float
+    push: float
+    """As of SolidContact; what the body's own motion adds is in it."""
+
+
+class SolidCrush(NamedTuple):
+    """A body that nobody holds back has left a solid avatar no proven way: between the two nothing
+    is claimed from `since_us` on. Everything else stays proven."""
+
+    body: int
+    link: str
+    """Where it was met; while they overlap, the link that is deepest."""
+    link_id: int
+    since_us: int
+    is_over: bool
+    """It ended at the tick's begin, where the two are proven apart; told once."""
+    depth: float
+    """Of a link's axis below the body's surface at the tick's end, metres; 0: no overlap there."""
+
+
+class SolidBodyTick(NamedTuple):
+    """What a solid avatar among moving bodies shows at one tick, and what they do to it."""
+
+    body: int
+    tick: SolidTick
+    """As of a SolidAvatar; its contacts are those with what is still and with own links. Moving
+    bodies are part of what it proves."""
+    contacts: list[SolidBodyContact]
+    crushes: list[SolidCrush]
+    tools: list[int]
+    """What its hands hold and is solid with it."""
+    loose_tools: list[int]
+    """What they hold, and touched something where it was taken: nothing is claimed of it yet."""
+    let_go: list[int]
+    """What they let go of and still touch: the two are not asked until they are apart."""
+    is_assumed: bool
+    """A body around it was silent, and was taken to hold still or to be nowhere."""
+
+
 class ContactSide(NamedTuple):
     """One of the two that meet in a world."""
 
@@ -524,7 +580,7 @@ class OpenPart(NamedTuple):
 
 
 class WorldEvents(NamedTuple):
-    """What happened from one Follower.follow() to the next."""
+    """What happened from one Follower.follow() to the next, or from one SolidWorld.follow()."""
 
     from_us: int
     to_us: int

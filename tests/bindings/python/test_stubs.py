@@ -33,7 +33,7 @@ def stub_members(node):
 
 
 def stub_parameters(function):
-    """Names in order, with a star where only keywords follow, and defaults as text."""
+    """Names in order, with a star where only keywords follow, two for any, and defaults as text."""
     arguments = function.args
     positional = [a.arg for a in arguments.args]
     defaults = [None] * (len(positional) - len(arguments.defaults)) + arguments.defaults
@@ -41,6 +41,8 @@ def stub_parameters(function):
     if arguments.kwonlyargs:
         found.append(("*", None))
         found += zip([a.arg for a in arguments.kwonlyargs], map(value_of, arguments.kw_defaults))
+    if arguments.kwarg:
+        found.append(("**", None))
     return [pair for pair in found if pair[0] != "self"]
 
 
@@ -72,7 +74,7 @@ def bound_as_call(inside):
     parts.append(current)
     pairs = []
     for part in filter(str.strip, parts):
-        name = re.match(r"\s*(\*|\w+)", part).group(1)
+        name = re.match(r"\s*(\*{1,2}|\w+)", part).group(1)
         default = re.search(r" = (.*)$", part)
         pairs.append(f"({name!r}, {f'({default.group(1)},)' if default else None})")
     return ", ".join(pairs)
