@@ -165,6 +165,16 @@ if [ -f "$prefix/share/foretouch/cpp-example/play_clip.cpp" ]; then
   tail -n 1 "$folder/play.txt"
   "$folder/play/game_loop"
   "$folder/play/vr_hands"
+  if command -v python3 >/dev/null; then  # when hands meet and leave, by plain arithmetic on where they were shown
+    "$folder/play/vr_hands" ways >"$folder/ways.txt"
+    python3 "$source/tests/examples/vr_hands_judge.py" <"$folder/ways.txt"
+    if grep -v "RightHand leaves door" "$folder/ways.txt" | python3 "$source/tests/examples/vr_hands_judge.py"; then
+      echo "a hand that never leaves was taken for right" >&2
+      exit 1
+    fi
+  else
+    echo "left out: when hands meet and leave, which python3 judges"
+  fi
   if [ -f "$folder/solid-hand.txt" ]; then "$folder/play/solid_hand" | cmp - "$folder/solid-hand.txt"; fi
   if [ -f "$folder/swinging-door.txt" ]; then "$folder/play/swinging_door" | cmp - "$folder/swinging-door.txt"; fi
   room=$prefix/share/foretouch/examples
