@@ -43,11 +43,13 @@ AT(ft_scene_info, box_min, 40);
 AT(ft_scene_info, box_max, 64);
 
 static_assert(sizeof(ft_lss) == 56);
+AT(ft_lss, a, 0);
 AT(ft_lss, b, 24);
 AT(ft_lss, radius, 48);
 static_assert(sizeof(ft_triangle) == 72);
 
 static_assert(sizeof(ft_avatar_arrays) == 96);
+AT(ft_avatar_arrays, reserved, 4);
 AT(ft_avatar_arrays, joint_count, 8);
 AT(ft_avatar_arrays, names, 16);
 AT(ft_avatar_arrays, parents, 24);

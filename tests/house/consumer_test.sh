@@ -147,6 +147,8 @@ if [ -f "$prefix/include/foretouch/foretouch.h" ]; then
   if command -v mcs >/dev/null && command -v mono >/dev/null && [ -z "${7:-}" ]; then
     mcs -unsafe -define:FORETOUCH_TRY -out:"$folder/unity.exe" "$prefix/share/foretouch/c-example/Foretouch.cs"
     mono "$folder/unity.exe" | cmp - <(head -n 1 "$folder/c.txt")
+    mcs -unsafe -define:FORETOUCH_TRY_WORLD -out:"$folder/world.exe" "$prefix"/share/foretouch/c-example/*.cs
+    mono "$folder/world.exe"
   else
     echo "left out: C#, which needs mcs and mono, and a library without sanitizers"
   fi

@@ -3,11 +3,12 @@
 // Arrays are Unity's: metres, left-handed, +Y up, quaternions x, y, z, w. Copy libforetouch.so into
 // Assets/Plugins/x86_64 and tick "Allow 'unsafe' Code" in the player's settings.
 // Without Unity: mcs -unsafe -define:FORETOUCH_TRY Foretouch.cs && mono Foretouch.exe
+// Worlds in which things move, and solid bodies among them: ForetouchWorld.cs, beside this file.
 using System;
 using System.Runtime.InteropServices;
 using System.Text;
 
-public unsafe sealed class Foretouch : IDisposable {
+public unsafe sealed partial class Foretouch : IDisposable {
   [StructLayout(LayoutKind.Sequential)]
   public struct Lss { public fixed double a[3]; public fixed double b[3]; public double radius; }
   [StructLayout(LayoutKind.Sequential)]
