@@ -1,7 +1,7 @@
 /* foretouch.h: Foretouch in C99 and C++: what an articulated body meets between two poses, when,
  * where and along which normal. One page about its use: docs/c-api.md. Headers of their own have
- * the avatar that passes through nothing, foretouch/solid.h, and worlds in which everything may
- * move, foretouch/world.h.
+ * the avatar that passes through nothing, foretouch/solid.h, worlds in which everything may move,
+ * foretouch/world.h, and both together, foretouch/solid_world.h.
  *
  * Units and frames. Metres, radians, doubles; right-handed world W, +Y up; t is normalised, 0 at
  * the earlier pose and 1 at the later. Quaternions are unit, in the order w, x, y, z. To convert
@@ -54,7 +54,7 @@ extern "C" {
 
 /* ---- Versions ---- */
 
-/* Of this header, solid.h and world.h. Every new function or field increments it; programs built
+/* Of this header and those beside it. Every new function or field increments it; programs built
  * with an older header still work. A change that would break them changes the library's soname
  * instead. */
 #define FT_ABI_VERSION 5
