@@ -66,6 +66,7 @@ Result<EdgeQuery> EdgeQuery::build(const Robot& robot, const Scene& scene,
   }
   EdgeQuery edges;
   edges.robot_ = std::make_shared<const Robot>(robot);
+  edges.options_ = std::make_shared<const EdgeOptions>(options);
   QueryOptions asked;
   asked.tolerance = options.tolerance;
   asked.ignored = options.ignored;

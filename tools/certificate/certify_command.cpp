@@ -1,7 +1,6 @@
 #include "tools/certificate/certify_command.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,10 +9,10 @@
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
-#include "assets/certificate/certificate_writer.h"
+#include "assets/certificate/edge_certificate.h"
 #include "assets/json_writer.h"
-#include "assets/text_file.h"
 #include "middleware/query/query.h"
+#include "tools/certificate/certify_edges.h"
 #include "tools/console.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/interrupt.h"
@@ -26,6 +25,7 @@ namespace {
 
 struct AskedCertificate {
   ReplayRequest request;
+  AskedEdges edges;
   std::string folder;
   bool asJson = false;
 };
@@ -47,6 +47,7 @@ Settings certifySettings(AskedCertificate& asked) {
       .required();
   addRateSetting(settings, asked.request);
   addClipSettings(settings, asked.request);
+  addEdgeSettings(settings, asked.edges, asked.request);
   settings
       .number("--tolerance", "M", asked.request.query.tolerance, kToleranceRange,
               "Largest separation (m) of a contact: links that come nearer have no proof")
@@ -101,17 +102,10 @@ Result<CertifiedClip> certify(const ReplayInputs& inputs, const InterruptGuard& 
 
 Result<Done> writeCertified(const std::string& folder, const Avatar& avatar,
                             const CertifiedClip& found) {
-  std::error_code unmade;
-  std::filesystem::create_directories(folder, unmade);
-  FORETOUCH_CHECK(writeAvatarFile(avatar, folder + "/avatar.json"));
-  const std::pair<const char*, const std::string&> texts[] = {
-      {"/scene.obj", found.scene}, {"/steps.txt", found.steps}, {"/certificate.txt", found.proof}};
-  for (const auto& [name, text] : texts) {
-    FORETOUCH_TRY(auto file, PendingFile::create(folder + name));
-    file.write(text);
-    FORETOUCH_CHECK(file.commit());
-  }
-  return Done{};
+  return writeTexts(folder, {{"scene.obj", found.scene},
+                             {"avatar.json", formatAvatar(avatar)},
+                             {"steps.txt", found.steps},
+                             {"certificate.txt", found.proof}});
 }
 
 std::string certifiedLine(const CertifiedClip& found) {
@@ -131,6 +125,9 @@ std::string certifiedLine(const CertifiedClip& found) {
 }
 
 ExitCode run(const AskedCertificate& asked) {
+  if (!asked.edges.path.empty()) {
+    return certifyEdgesOf(asked.edges, asked.request, asked.folder, asked.asJson);
+  }
   FORETOUCH_TRY_OR(failed, const auto inputs, loadReplayInputs(asked.request));
   for (const std::string& remark : remarksOn(inputs)) printNote(remark);
   {
@@ -156,6 +153,9 @@ constexpr char kCertifyExamples[] = R"(Example:
   foretouch certify --scene room.obj --avatar dancer.avatar.json --motion dancer.bvh --rate 30 \
       --output proof
   foretouch-verify proof/scene.obj proof/avatar.json proof/steps.txt proof/certificate.txt
+  foretouch certify --scene cell.obj --scene-up z --robot arm.urdf --edges roadmap.csv \
+      --clearance 0.005 --self --ignore base:table --output proof
+  foretouch-verify proof/scene.obj proof/avatar.json proof/edges.txt proof/certificate.txt
 
 Only links that touch nothing have something to prove, at link fidelity. Exit code 1: a link is clear,
 and no proof of it was found: it comes too near.)";
