@@ -27,10 +27,10 @@ std::vector<Hull> hullsOf(const std::vector<Capsule>& capsules, const LinkPlace&
 
 /// Some triangle of the scene is none that it may touch.
 bool EdgeProof::isAsked(std::size_t link) const {
-  return !links_[link].capsules.empty() &&
-         std::none_of(statement_.ignored.begin(), statement_.ignored.end(), [&](const Ignored& i) {
-           return i.link == link && i.first == 0 && i.end == scene_.size();
-         });
+  const std::vector<Ignored>& ignored = statement_.ignored[link];
+  const bool isAll =
+      ignored.size() == 1 && ignored[0].first == 0 && ignored[0].end == scene_.size();
+  return !links_[link].capsules.empty() && !isAll;
 }
 
 std::string EdgeProof::provePairSpan(const PairClaim& claim, const Span& span, int carrier,
@@ -84,8 +84,9 @@ Fault EdgeProof::prove(const StepClaim& claim, Motion& motion, Tally& tally) con
   std::set<std::size_t> named;
   std::set<std::pair<std::size_t, std::size_t>> pairs;
   for (const LinkClaim& link : claim.links) {
-    Fault fault =
-        scene_.prove(links_, link, motion, statement_.clearance, statement_.ignored, tally);
+    if (link.link >= links_.size()) return {link.line, "the avatar has no such link"};
+    Fault fault = scene_.prove(links_, link, motion, statement_.clearance,
+                               statement_.ignored[link.link], tally);
     if (!fault.what.empty()) return fault;
     named.insert(link.link);
   }

@@ -22,6 +22,7 @@ class StatementReader {
   StatementReader(const std::vector<Link>& links, std::size_t triangles, EdgeStatement& statement)
       : links_(links), triangles_(triangles), all_(statement) {
     all_.joints.resize(links.size());
+    all_.ignored.resize(links.size());
   }
 
   /// Clearance and the number of coordinates. Empty, or what is wrong.
@@ -85,7 +86,8 @@ class StatementReader {
 
   std::string readIgnored(const Words& words) {
     Ignored ignored;
-    if (!isLink(words[1], ignored.link)) return "expected a link's number";
+    std::size_t link = 0;
+    if (!isLink(words[1], link)) return "expected a link's number";
     ignored.end = triangles_;
     if (words.size() == 4) {
       std::size_t count = 0;
@@ -95,7 +97,7 @@ class StatementReader {
       }
       ignored.end = ignored.first + count;
     }
-    all_.ignored.push_back(ignored);
+    all_.ignored[link].push_back(ignored);
     return "";
   }
 
@@ -135,7 +137,28 @@ class StatementReader {
   std::set<long long> numbers_;
 };
 
+void merge(std::vector<Ignored>& ignored) {
+  std::sort(ignored.begin(), ignored.end(),
+            [](const Ignored& a, const Ignored& b) { return a.first < b.first; });
+  std::vector<Ignored> merged;
+  for (const Ignored& one : ignored) {
+    if (merged.empty() || one.first > merged.back().end) {
+      merged.push_back(one);
+    } else {
+      merged.back().end = std::max(merged.back().end, one.end);
+    }
+  }
+  ignored = std::move(merged);
+}
+
 }  // namespace
+
+bool isIgnored(const std::vector<Ignored>& ignored, std::size_t triangle) {
+  const auto behind =
+      std::upper_bound(ignored.begin(), ignored.end(), triangle,
+                       [](std::size_t at, const Ignored& one) { return at < one.first; });
+  return behind != ignored.begin() && triangle < (behind - 1)->end;
+}
 
 bool isOfEdges(std::string_view text) {
   TextLines lines(text);
@@ -163,6 +186,7 @@ Fault readEdges(std::string_view text, const std::vector<Link>& links, std::size
   }
   if (!what.empty()) return {lines.line(), std::move(what)};
   if (!isEnded) return {lines.line(), "expected the line end last: the text is cut"};
+  for (std::vector<Ignored>& ofLink : statement.ignored) merge(ofLink);
   return {};
 }
 

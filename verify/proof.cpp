@@ -10,12 +10,6 @@ bool isNot(double least, double most) {
   return !(least <= most);  // true where either is no number
 }
 
-bool isIgnored(const std::vector<Ignored>& ignored, std::size_t link, std::size_t triangle) {
-  return std::any_of(ignored.begin(), ignored.end(), [&](const Ignored& one) {
-    return one.link == link && one.first <= triangle && triangle < one.end;
-  });
-}
-
 }  // namespace
 
 Hull Hull::of(const Capsule& capsule, const LinkPlace& begin, const LinkPlace& end,
@@ -77,7 +71,7 @@ bool SceneProof::isBehind(const Triangle& triangle, const Plane& plane) {
 }
 
 /// Empty where it is proven.
-std::string SceneProof::proveSpan(const Hull& hull, const Span& span, std::size_t link,
+std::string SceneProof::proveSpan(const Hull& hull, const Span& span,
                                   const std::vector<Ignored>& ignored, Tally& tally) const {
   for (const Plane& plane : span.planes) {
     if (!hull.isInFrontOf(plane)) return "a plane that the LSS is not surely in front of";
@@ -96,7 +90,7 @@ std::string SceneProof::proveSpan(const Hull& hull, const Span& span, std::size_
                     [&](const Plane& plane) { return isBehind(triangles_[i], plane); });
     if (isHeld) {
       ++tally.byPlanes;
-    } else if (!isIgnored(ignored, link, i)) {
+    } else if (!isIgnored(ignored, i)) {
       return "triangle " + std::to_string(i) + " is behind none of its planes";
     }
   }
@@ -116,7 +110,7 @@ Fault SceneProof::prove(const std::vector<Link>& links, const LinkClaim& claim, 
       const LinkPlace& end = motion.at(span.level, span.index + 1, claim.link);
       const Hull hull =
           Hull::of(capsules[capsule.capsule], begin, end, bound, span.level, clearance);
-      std::string what = proveSpan(hull, span, claim.link, ignored, tally);
+      std::string what = proveSpan(hull, span, ignored, tally);
       if (!what.empty()) return what;
       ++tally.spans;
       tally.planes += static_cast<std::int64_t>(span.planes.size());

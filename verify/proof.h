@@ -64,14 +64,15 @@ class SceneProof {
   /// t = 0 to t = 1.
   [[nodiscard]] Fault prove(const std::vector<Link>& links, const StepClaim& claim, Motion& motion,
                             Tally& tally) const;
-  /// The same of one link, which has to keep more than `clearance` away from all but `ignored`.
+  /// The same of one link, which has to keep more than `clearance` away from all that is not in
+  /// `ignored`.
   [[nodiscard]] Fault prove(const std::vector<Link>& links, const LinkClaim& claim, Motion& motion,
                             double clearance, const std::vector<Ignored>& ignored,
                             Tally& tally) const;
 
  private:
   [[nodiscard]] static bool isBehind(const Triangle& triangle, const Plane& plane);
-  [[nodiscard]] std::string proveSpan(const Hull& hull, const Span& span, std::size_t link,
+  [[nodiscard]] std::string proveSpan(const Hull& hull, const Span& span,
                                       const std::vector<Ignored>& ignored, Tally& tally) const;
 
   std::vector<Triangle> triangles_;

@@ -36,10 +36,6 @@ double inFewDigits(double number) {
   return number;
 }
 
-void addNumbers(std::string& text, const Eigen::Vector3d& v) {
-  for (int axis = 0; axis < 3; ++axis) text += " " + numberText(v[axis]);
-}
-
 }  // namespace
 
 /// Of one LSS on one motion.
@@ -202,7 +198,7 @@ void CertificateWriter::addSpan(int level, std::int64_t index, const std::vector
   text += "span " + std::to_string(level + deeper) + " " + std::to_string(before + index) + "\n";
   for (const Plane& plane : planes) {
     text += "plane";
-    addNumbers(text, plane.normal);
+    for (const double part : plane.normal) text += " " + numberText(part);
     text += " " + numberText(plane.offset) + "\n";
   }
   ++counts_.spans;
@@ -372,38 +368,6 @@ std::optional<std::string> CertificateWriter::edge(std::int64_t number,
   }
   for (const LinkPair& own : asked_.pairs) {
     if (!add(pair(own))) return std::nullopt;
-  }
-  return text;
-}
-
-std::string sceneAsObj(const Scene& scene) {
-  std::string vertices, faces;
-  const auto count = static_cast<TriangleId>(scene.numTriangles());
-  std::int64_t last = 0;
-  for (TriangleId id = 0; id < count; ++id) {
-    if (!isFinite(scene.triangle(id))) continue;
-    faces += "f";
-    for (const Eigen::Vector3d& vertex : scene.triangle(id).vertices) {
-      vertices += "v";
-      addNumbers(vertices, vertex);
-      vertices += "\n";
-      faces += " " + std::to_string(++last);
-    }
-    faces += "\n";
-  }
-  return vertices + faces;
-}
-
-std::string stepText(std::int64_t number, const Pose& from, const Pose& to) {
-  std::string text = "step " + std::to_string(number) + "\n";
-  for (const Pose* const pose : {&from, &to}) {
-    for (std::size_t joint = 0; joint < pose->rotations.size(); ++joint) {
-      const auto& q = pose->rotations[joint];
-      const Eigen::Vector3d& p = pose->translations[joint];
-      text += numberText(p.x()) + " " + numberText(p.y()) + " " + numberText(p.z());
-      for (const double part : {q.w(), q.x(), q.y(), q.z()}) text += " " + numberText(part);
-      text += "\n";
-    }
   }
   return text;
 }

@@ -90,9 +90,4 @@ class CertificateWriter {
   CertificateCounts counts_;
 };
 
-/// The scene as an OBJ of triangles, with all digits; those that are not finite are left out.
-[[nodiscard]] std::string sceneAsObj(const Scene& scene);
-/// A step's two poses as foretouch-steps has them.
-[[nodiscard]] std::string stepText(std::int64_t number, const Pose& from, const Pose& to);
-
 }  // namespace foretouch

@@ -1,15 +1,14 @@
 #include "assets/certificate/edge_certificate.h"
 
 #include <cstdint>
-#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
+#include "assets/certificate/certificate_texts.h"
 #include "assets/json_writer.h"
-#include "assets/text_file.h"
 #include "lss/index.h"
 
 namespace foretouch {
@@ -174,17 +173,6 @@ Result<EdgeCertificate> certifyEdges(const EdgeQuery& edges, const double* q0, c
   made.proof += "end\n";
   made.counts = writer.counts();
   return made;
-}
-
-Result<Done> writeTexts(const std::string& folder, const std::vector<NamedText>& texts) {
-  std::error_code unmade;
-  std::filesystem::create_directories(folder, unmade);
-  for (const auto& [name, text] : texts) {
-    FORETOUCH_TRY(auto file, PendingFile::create(folder + "/" + name));
-    file.write(text);
-    FORETOUCH_CHECK(file.commit());
-  }
-  return Done{};
 }
 
 Result<Done> writeEdgeCertificate(const EdgeCertificate& certificate, const std::string& folder) {

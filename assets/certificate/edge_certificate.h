@@ -32,12 +32,4 @@ struct EdgeCertificate {
 [[nodiscard]] Result<Done> writeEdgeCertificate(const EdgeCertificate& certificate,
                                                 const std::string& folder);
 
-/// Each text as a file of this folder, which is made. Never half a file.
-struct NamedText {
-  const char* name;
-  const std::string& text;
-};
-[[nodiscard]] Result<Done> writeTexts(const std::string& folder,
-                                      const std::vector<NamedText>& texts);
-
 }  // namespace foretouch

@@ -23,6 +23,7 @@ bool feedEdgeClaims(const std::vector<verify::StepClaim>& claims, const verify::
   verify::EdgeStatement statement;
   statement.coordinates = 1;
   statement.joints.resize(2);
+  statement.ignored.resize(2);
   statement.joints[0].shifts.push_back({{1, 0, 0}, 0, 1.0, 0.0});
   statement.pairs.emplace_back(0, 1);
   statement.edges.push_back({0, {0.3}, {1.0}});
@@ -35,9 +36,9 @@ bool feedEdgeClaims(const std::vector<verify::StepClaim>& claims, const verify::
   for (const verify::StepClaim& claim : claims) {
     if (!claim.verdict.empty()) continue;
     mustHold(!isProven(claim));
-    statement.ignored.push_back({0, 0, 1});
+    statement.ignored[0].push_back({0, 1});
     isAny = isProven(claim) || isAny;
-    statement.ignored.clear();
+    statement.ignored[0].clear();
   }
   return isAny;
 }
@@ -51,8 +52,13 @@ bool feedEdges(std::string_view text) {
   verify::EdgeStatement statement;
   if (!verify::readEdges(text, links, 7, statement).what.empty()) return false;
   mustHold(statement.joints.size() == links.size() && statement.clearance >= 0.0);
-  for (const auto& ignored : statement.ignored) {
-    mustHold(ignored.link < 3 && ignored.first < ignored.end && ignored.end <= 7);
+  mustHold(statement.ignored.size() == links.size());
+  for (const auto& ofLink : statement.ignored) {
+    std::size_t before = 0;
+    for (const verify::Ignored& ignored : ofLink) {
+      mustHold(ignored.first >= before && ignored.first < ignored.end && ignored.end <= 7);
+      before = ignored.end + 1;
+    }
   }
   for (const auto& [a, b] : statement.pairs) mustHold(a == 0 && b == 2);
   for (const verify::Edge& edge : statement.edges) {

@@ -344,8 +344,7 @@ bool tell(Lie lie, const Case& c, const std::vector<double>& gaps, Random& rando
       verify::Triangle triangle;
       for (auto& vertex : triangle.corners) vertex = {corner.x(), corner.y(), corner.z()};
       told.triangles.push_back(triangle);  // behind those that are ignored
-      return std::none_of(told.edges.ignored.begin(), told.edges.ignored.end(),
-                          [&](const auto& i) { return i.link == link.link; });
+      return told.edges.ignored[link.link].empty();
     }
     case kEdgeSwapped:
       for (std::size_t other = 0; other < gaps.size(); ++other) {

@@ -9,7 +9,8 @@
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
-#include "assets/certificate/edge_certificate.h"
+#include "assets/certificate/certificate_texts.h"
+#include "assets/certificate/certificate_writer.h"
 #include "assets/json_writer.h"
 #include "middleware/query/query.h"
 #include "tools/certificate/certify_edges.h"
