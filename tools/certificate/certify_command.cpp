@@ -55,7 +55,7 @@ Settings certifySettings(AskedCertificate& asked) {
       .in(kTouchGroup);
   settings
       .path("-o,--output", "DIR", asked.folder,
-            "The folder for scene.obj, avatar.json, steps.txt and certificate.txt")
+            "The folder for scene.obj, avatar.json, steps.txt (or edges.txt) and certificate.txt")
       .in(kOutputGroup)
       .required();
   settings.asJson(asked.asJson);
@@ -125,9 +125,9 @@ std::string certifiedLine(const CertifiedClip& found) {
   return text + "\n";
 }
 
-ExitCode run(const AskedCertificate& asked) {
+ExitCode run(const Settings& settings, const AskedCertificate& asked) {
   if (!asked.edges.path.empty()) {
-    return certifyEdgesOf(asked.edges, asked.request, asked.folder, asked.asJson);
+    return certifyEdgesOf(settings, asked.edges, asked.request, asked.folder, asked.asJson);
   }
   FORETOUCH_TRY_OR(failed, const auto inputs, loadReplayInputs(asked.request));
   for (const std::string& remark : remarksOn(inputs)) printNote(remark);
@@ -168,7 +168,7 @@ Command certifyCommand() {
   Command command{"certify",
                   "Write down why links touch nothing, for anybody to check without this program",
                   kCertifyExamples, certifySettings(*asked)};
-  command.run = [asked](const Settings&) { return run(*asked); };
+  command.run = [asked](const Settings& settings) { return run(settings, *asked); };
   return command;
 }
 

@@ -160,17 +160,17 @@ std::string edgesInWords(const EdgeQuery& query, const EdgeCertificate& made,
                     folder);
 }
 
-Result<Done> checkGiven(const ReplayRequest& request, const std::string& folder) {
+Result<Done> checkGiven(const Settings& settings, const ReplayRequest& request,
+                        const std::string& folder) {
   for (const auto& [option, value] :
        {std::pair<const char*, const std::string&>{"--robot", request.robotPath},
         {"--scene", request.scenePath},
         {"--output", folder}}) {
     if (value.empty()) return Error::in(option, ErrorCode::Empty, "expected it with --edges");
   }
-  for (const auto& [option, value] :
-       {std::pair<const char*, const std::string&>{"--motion", request.motionPath},
-        {"--avatar", request.avatarPath}}) {
-    if (value.empty()) continue;
+  for (const char* const option : {"--motion", "--avatar", "--rate", "--animation", "--map",
+                                   "--clip-scale", "--clip-up", "--place"}) {
+    if (!settings.isGiven(option)) continue;
     return Error::in(option, ErrorCode::Mismatch, "not with --edges, which are of the robot alone");
   }
   return Done{};
@@ -205,9 +205,9 @@ void addEdgeSettings(Settings& settings, AskedEdges& asked, WorldRequest& reques
       .needing("--self");
 }
 
-ExitCode certifyEdgesOf(const AskedEdges& asked, const ReplayRequest& request,
-                        const std::string& folder, bool asJson) {
-  FORETOUCH_CHECK_OR(failed, checkGiven(request, folder));
+ExitCode certifyEdgesOf(const Settings& settings, const AskedEdges& asked,
+                        const ReplayRequest& request, const std::string& folder, bool asJson) {
+  FORETOUCH_CHECK_OR(failed, checkGiven(settings, request, folder));
   FORETOUCH_TRY_OR(failed, const auto question, roadmapOf(asked, request));
   const EdgeTable& edges = question.edges;
   FORETOUCH_TRY_OR(failed, const auto made,

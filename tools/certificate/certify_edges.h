@@ -18,8 +18,8 @@ struct AskedEdges {
 /// --edges and what it alone takes.
 void addEdgeSettings(Settings& settings, AskedEdges& asked, WorldRequest& request);
 
-/// Writes the files into `folder`.
-ExitCode certifyEdgesOf(const AskedEdges& asked, const ReplayRequest& request,
-                        const std::string& folder, bool asJson);
+/// Writes the files into `folder`. `settings`: the command's; those of clips are refused.
+ExitCode certifyEdgesOf(const Settings& settings, const AskedEdges& asked,
+                        const ReplayRequest& request, const std::string& folder, bool asJson);
 
 }  // namespace foretouch::tools

@@ -337,6 +337,8 @@ class SameEdge(unittest.TestCase):
                           'stands there, as a base does, ignore the pair: --ignore "base:table"',
                           " ".join(told.stderr.split()))
             self.assertIn('edge 1: starts_in_contact: link "base" and object "table"', told.stdout)
+            refused = run(*asked, "--rate", "30", codes=(2,))
+            self.assertIn("--rate: not with --edges", refused.stderr)
             told = run(*asked, "--ignore", "base:table", "--clearance", "0.02", "--self")
             self.assertIn('edge 1: contact: link "tip" and object "table"', told.stdout)
 
