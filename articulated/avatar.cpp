@@ -8,6 +8,7 @@
 
 #include "articulated/quoted.h"
 #include "lss/index.h"
+#include "lss/rounding.h"
 
 namespace foretouch {
 namespace {
@@ -90,6 +91,14 @@ std::int32_t Avatar::numLss() const {
   std::size_t count = 0;
   for (const auto& lss : lss_) count += lss.size();
   return static_cast<std::int32_t>(count);
+}
+
+Result<Avatar> Avatar::grownBy(double growth) const {
+  std::vector<std::vector<Lss>> grown = lss_;
+  for (std::vector<Lss>& ofLink : grown) {
+    for (Lss& lss : ofLink) lss.radius = (lss.radius + growth) * internal::kInflation;
+  }
+  return build(skeleton_, std::move(grown));
 }
 
 }  // namespace foretouch

@@ -36,6 +36,9 @@ class Avatar {
   [[nodiscard]] const std::vector<Lss>& lss(LinkId link) const { return lss_[slotOf(link)]; }
   [[nodiscard]] const MeshReference& mesh(LinkId link) const { return meshes_[slotOf(link)]; }
   [[nodiscard]] std::int32_t numLss() const;
+  /// Another avatar, without meshes, whose LSS hold all within `growth` (m, >= 0) of these: no
+  /// radius is below the exact sum. Errors: a radius beyond kMaxCoordinate (Error::index).
+  [[nodiscard]] Result<Avatar> grownBy(double growth) const;
   /// Equal for this avatar and its copies, different for every other avatar of the process. Data
   /// derived from an avatar uses it to tell whether it still fits.
   [[nodiscard]] std::uint64_t identity() const { return identity_; }

@@ -75,13 +75,12 @@ Quaternion turned(const Quaternion& rest, const Vector3d& axis, double angle) {
          Quaternion(std::cos(0.5 * angle), sine * axis.x(), sine * axis.y(), sine * axis.z());
 }
 
-/// Two unit vectors across a unit axis: of z, they are x and y.
+}  // namespace
+
 std::pair<Vector3d, Vector3d> planeAcross(const Vector3d& axis) {
   const Quaternion turn = Quaternion::FromTwoVectors(Vector3d::UnitZ(), axis);
   return {turn * Vector3d::UnitX(), turn * Vector3d::UnitY()};
 }
-
-}  // namespace
 
 Result<Robot> Robot::build(Avatar avatar, std::vector<RobotJoint> joints) {
   if (joints.size() != countOf(avatar.numLinks())) {

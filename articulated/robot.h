@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -50,6 +51,9 @@ struct RobotCoordinate {
 /// No number of a configuration may be larger: rounding is proportional to it
 /// (articulated/robot.md).
 inline constexpr double kMaxJointCoordinate = 1000.0;
+
+/// Two unit vectors across a unit axis, along which a planar joint is shifted: of z, x and y.
+[[nodiscard]] std::pair<Eigen::Vector3d, Eigen::Vector3d> planeAcross(const Eigen::Vector3d& axis);
 
 /// What does not lie within its limits.
 struct LimitBreach {

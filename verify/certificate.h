@@ -1,7 +1,9 @@
-// verify/certificate.h: the format "foretouch-certificate" version 1, as text and as what it says.
+// verify/certificate.h: the format "foretouch-certificate", as text and as what it says: version 1
+// of steps, version 2 of a robot's edges.
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -36,14 +38,29 @@ struct LinkClaim {
   long long line = 0;
 };
 
+/// Two own links keep apart at every instant of the edge. Each span's planes stand between the two:
+/// `a` in front of them, `b` behind, in the frame of the nearest link that carries both.
+struct PairClaim {
+  std::size_t a = 0, b = 0;
+  std::vector<Span> spans;
+  long long line = 0;
+};
+
+/// Of a step, or of an edge.
 struct StepClaim {
   long long step = 0;
+  std::string verdict;  ///< Of an edge that nothing is claimed of: why not.
   std::vector<LinkClaim> links;
+  std::vector<PairClaim> pairs;  ///< Of an edge.
   long long line = 0;
 };
 
 inline constexpr int kDeepestLevel = 40;
 
-[[nodiscard]] Fault readCertificate(std::string_view text, std::vector<StepClaim>& claims);
+/// The format's versions: a reader of one refuses the other.
+inline constexpr int kOfSteps = 1, kOfEdges = 2;
+
+[[nodiscard]] Fault readCertificate(std::string_view text, std::vector<StepClaim>& claims,
+                                    int version = kOfSteps);
 
 }  // namespace verify

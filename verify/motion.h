@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "verify/edges.h"
 #include "verify/interval.h"
 #include "verify/statement.h"
 
@@ -26,6 +27,10 @@ class Motion {
   /// `mostWork`: at() takes no more halvings of rotations.
   Motion(const std::vector<Link>& links, const Step& step, std::size_t mostWork = kMostWork);
 
+  /// On an edge of the statement, whose links these are.
+  Motion(const std::vector<Link>& links, const EdgeStatement& statement, const Edge& edge,
+         std::size_t mostWork = kMostWork);
+
   static constexpr std::size_t kMostWork = 4'000'000;
 
   /// What makes the step no motion; empty: nothing.
@@ -33,11 +38,22 @@ class Motion {
 
   /// Halvings so far.
   [[nodiscard]] std::size_t work() const { return work_; }
+  /// Adds to them. Throws beyond the most work.
+  void spend(std::size_t work);
 
   /// At t = index / 2^level.
   /// O(level) for each link above it that is not known at that instant yet; only so many instants
   /// are kept. Throws beyond the most work: whoever asks for as much wants it to take its time.
   [[nodiscard]] const LinkPlace& at(int level, std::int64_t index, std::size_t link);
+
+  /// Of points at a distance from a link's origin: what acceleration() bounds.
+  struct Bound {
+    double turns = 0.0, origin = 0.0;
+    [[nodiscard]] double at(double distance) const {
+      const Interval s(turns);
+      return (Interval(origin) + s * s * Interval(distance)).hi;
+    }
+  };
 
   /// At least the acceleration of any point of the link at this distance from its origin, at any
   /// instant, per unit of t squared.
@@ -47,22 +63,42 @@ class Motion {
   /// product of such rotations is at most (sum of w)^2 in norm, its first at most the sum of w; so
   /// |(R0...Rk o)''| <= S^2 |o| + 2 S |o'| with S the sum of w from 0 to k, and |o| is largest at
   /// an end.
-  [[nodiscard]] double acceleration(std::size_t link, double distance) const;
+  [[nodiscard]] double acceleration(std::size_t link, double distance) const {
+    return fastest_[link].at(distance);
+  }
+
+  /// The nearest link that carries both, either of them included; -1: only the world does.
+  [[nodiscard]] int carrierOf(std::size_t a, std::size_t b) const;
+  /// As at(), in the frame of a link that carries this one (-1: the world); nothing is kept.
+  [[nodiscard]] LinkPlace in(int carrier, int level, std::int64_t index, std::size_t link);
+  [[nodiscard]] const Bound& boundOf(std::size_t link) const { return fastest_[link]; }
+  [[nodiscard]] Bound boundIn(int carrier, std::size_t link) const;
 
  private:
+  struct Turn {
+    Vector axis;         // unit
+    Interval angle, by;  // at t = 0, and from there to t = 1
+  };
   struct Joint {
-    Quaternion from, to;
+    Quaternion from, to;       // of a step; on an edge both are the rotation at rest
+    std::optional<Turn> turn;  // on an edge
     Vector start, drift;
+    double most = 0.0;  // at least the angle by which it turns
   };
   using Places = std::vector<std::optional<LinkPlace>>;
 
-  [[nodiscard]] static double turnOf(const Joint& joint);
-  [[nodiscard]] static Quaternion rotationAt(const Joint& joint, int level, std::int64_t index);
+  void add(Joint joint);
+  [[nodiscard]] static Bound below(const Bound& above, const Joint& joint);
+  [[nodiscard]] LinkPlace placeOf(const Joint& joint, int level, std::int64_t index) const;
+  [[nodiscard]] std::size_t workAt(int level) const;
+  [[nodiscard]] double turnOf(const Joint& joint) const;
+  [[nodiscard]] Quaternion rotationAt(const Joint& joint, int level, std::int64_t index) const;
   [[nodiscard]] std::size_t mostInstants() const;
 
   const std::vector<Link>& links_;
+  bool isOnEdge_ = false;
   std::vector<Joint> joints_;
-  std::vector<double> turns_, accelerations_;  // of the chain down to each link; of its origin
+  std::vector<Bound> fastest_;  // of each link in the world
   std::map<std::pair<int, std::int64_t>, Places> known_;
   std::size_t work_ = 0, mostWork_;
   std::string fault_;

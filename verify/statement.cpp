@@ -1,5 +1,6 @@
 #include "verify/statement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -73,9 +74,10 @@ bool readPose(TextLines& lines, std::size_t joints, std::vector<JointPose>& pose
   return true;
 }
 
-bool readPoint(const Json* value, Point& point) {
-  if (value == nullptr || value->items.size() != 3) return false;
-  for (std::size_t i = 0; i < 3; ++i) {
+template <std::size_t Count>
+bool readPoint(const Json* value, std::array<double, Count>& point) {
+  if (value == nullptr || value->items.size() != Count) return false;
+  for (std::size_t i = 0; i < Count; ++i) {
     if (value->items[i].kind != Json::Kind::Number) return false;
     point[i] = value->items[i].number;
   }
@@ -158,6 +160,10 @@ Fault readAvatar(std::string_view text, std::vector<Link>& links) {
                      ": expected a name without escapes, and such a parent or null"};
     }
     link.name = name->text;
+    const Json* const rotation = item.find("rotation");
+    link.hasRest = readPoint(item.find("offset"), link.offset) &&
+                   (std::count(item.keys.begin(), item.keys.end(), "rotation") == 0 ||
+                    readPoint(rotation, link.rotation));
     if (!isRoot) {
       const auto found = places.find(parent->text);
       if (found == places.end())

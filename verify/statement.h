@@ -36,6 +36,10 @@ struct Link {
   std::string name;
   int parent = -1;  ///< Before it; -1: a root.
   std::vector<Capsule> capsules;
+  /// At rest, in its parent's frame: of edges alone. Nothing: the file does not say it.
+  bool hasRest = false;
+  Point offset{};
+  std::array<double, 4> rotation{1.0, 0.0, 0.0, 0.0};
 };
 
 /// Of one joint, in its parent's frame.
@@ -54,7 +58,8 @@ struct Step {
 /// ways: a fourth coordinate, something behind a line, lines that begin with blanks, coordinates
 /// above it that are not there, bytes that are no printable ASCII.
 [[nodiscard]] Fault readScene(std::string_view text, std::vector<Triangle>& scene);
-/// An avatar file (JSON): names, parents and LSS of its links; what else it says is skipped. Names
+/// An avatar file (JSON): names, parents, LSS and rest frames of its links; what else it says is
+/// skipped. Names
 /// without escapes, each once, at most kMostLinks.
 [[nodiscard]] Fault readAvatar(std::string_view text, std::vector<Link>& links);
 /// "foretouch-steps 1": for each step its number, and for each joint both poses.

@@ -36,10 +36,6 @@ double inFewDigits(double number) {
   return number;
 }
 
-void addNumbers(std::string& text, const Eigen::Vector3d& v) {
-  for (int axis = 0; axis < 3; ++axis) text += " " + numberText(v[axis]);
-}
-
 }  // namespace
 
 /// Of one LSS on one motion.
@@ -59,6 +55,9 @@ struct CertificateWriter::Hull {
     for (const Eigen::Vector3d& corner : corners) least = std::min(least, normal.dot(corner));
     return least - reach * normal.norm();
   }
+  /// The middle of where its axis is: the segment that planes are made for.
+  [[nodiscard]] Eigen::Vector3d begin() const { return 0.5 * (corners[0] + corners[2]); }
+  [[nodiscard]] Eigen::Vector3d end() const { return 0.5 * (corners[1] + corners[3]); }
 };
 
 struct CertificateWriter::Plane {
@@ -69,10 +68,31 @@ struct CertificateWriter::Plane {
     return std::all_of(triangle.vertices.begin(), triangle.vertices.end(),
                        [&](const auto& v) { return normal.dot(v) <= offset - kSlackM; });
   }
+  [[nodiscard]] bool isBetween(const Hull& one, const Hull& other) const {
+    return one.leastAlong(normal) >= offset + kSlackM &&
+           other.leastAlong(-normal) >= kSlackM - offset;
+  }
+
+  /// From the axis towards what is nearest to it, in few digits; its length is not 1. False: none.
+  static bool towards(const ClosestPoints& nearest, Plane& plane) {
+    if (!(nearest.distance > 0.0)) return false;
+    plane.normal = nearest.difference / nearest.distance;
+    for (double& part : plane.normal) part = inFewDigits(part);
+    return true;
+  }
+  /// The offset beyond `most` and below `least`, nearer to the latter. False: there is no room.
+  bool place(double least, double most, double share) {
+    if (!(most + 4.0 * kSlackM < least)) return false;
+    offset = inFewDigits(least - share * (least - most));
+    if (offset > least - kSlackM) offset = least - kSlackM;
+    if (offset < most + kSlackM) offset = 0.5 * (least + most);
+    return true;
+  }
 };
 
-CertificateWriter::CertificateWriter(const Avatar& avatar, const Scene& scene)
-    : avatar_(avatar), scene_(scene) {
+CertificateWriter::CertificateWriter(const Avatar& avatar, const Scene& scene,
+                                     CertificateAsked asked)
+    : avatar_(avatar), scene_(scene), asked_(std::move(asked)) {
   const auto count = static_cast<TriangleId>(scene.numTriangles());
   for (TriangleId id = 0; id < count; ++id) {
     Eigen::AlignedBox3d box;
@@ -82,22 +102,34 @@ CertificateWriter::CertificateWriter(const Avatar& avatar, const Scene& scene)
   }
 }
 
-CertificateWriter::Hull CertificateWriter::hullOf(LinkId link, const Bound& bound, int level,
-                                                  std::int64_t index) const {
+/// Of the part that is looked at, `level` and `index` within it.
+CertificateWriter::Hull CertificateWriter::hullOf(LinkId carrier, LinkId link, const Bound& bound,
+                                                  int level, std::int64_t index, double more) {
   Hull hull;
   const double width = std::ldexp(1.0, -level);
   for (std::size_t i = 0; i < 2; ++i) {
     const double t = static_cast<double>(index + static_cast<std::int64_t>(i)) * width;
-    const LinkState state = evaluator_.motion().stateAt(link, t);
+    const LinkState state = carrier == kNoParent ? parts_[part_].stateAt(link, t)
+                                                 : parts_[part_].stateIn(carrier, link, t);
     hull.corners[2 * i] = state.pointAt(bound.lss.a);
     hull.corners[2 * i + 1] = state.pointAt(bound.lss.b);
   }
   hull.stray = bound.acceleration * width * width / 8.0;
-  hull.reach = bound.lss.radius + hull.stray + kSlackM;
+  hull.reach = bound.lss.radius + hull.stray + more + kSlackM;
   for (const Eigen::Vector3d& corner : hull.corners) hull.box.extend(corner);
   hull.box.min().array() -= hull.reach;
   hull.box.max().array() += hull.reach;
   return hull;
+}
+
+std::vector<CertificateWriter::Hull> CertificateWriter::hullsOf(LinkId carrier, LinkId link,
+                                                                int level, std::int64_t index,
+                                                                double more) {
+  std::vector<Hull> hulls;
+  for (const Lss& lss : avatar_.lss(link)) {
+    hulls.push_back(hullOf(carrier, link, boundOf(carrier, link, lss), level, index, more));
+  }
+  return hulls;
 }
 
 CertificateWriter::Triangles CertificateWriter::nearOf(const Hull& hull, double more,
@@ -116,8 +148,7 @@ CertificateWriter::Triangles CertificateWriter::nearOf(const Hull& hull, double 
 /// triangle has none, or there would be too many.
 bool CertificateWriter::planesFor(const Hull& hull, const Triangles& near,
                                   std::vector<Plane>& planes) const {
-  const Eigen::Vector3d a = 0.5 * (hull.corners[0] + hull.corners[2]);
-  const Eigen::Vector3d b = 0.5 * (hull.corners[1] + hull.corners[3]);
+  const Eigen::Vector3d a = hull.begin(), b = hull.end();
   Triangles open = near;
   while (!open.empty()) {
     if (planes.size() == kMostPlanes) return false;
@@ -131,20 +162,14 @@ bool CertificateWriter::planesFor(const Hull& hull, const Triangles& near,
         of = id;
       }
     }
-    if (!(nearest.distance > 0.0)) return false;
     Plane plane;
-    plane.normal = nearest.difference / nearest.distance;
-    for (double& part : plane.normal) part = inFewDigits(part);
-    const double least = hull.leastAlong(plane.normal);
+    if (!Plane::towards(nearest, plane)) return false;
     double most = -std::numeric_limits<double>::infinity();
     for (const Eigen::Vector3d& v : scene_.triangle(of).vertices) {
       most = std::max(most, plane.normal.dot(v));
     }
-    if (!(most + 4.0 * kSlackM < least)) return false;
     // Near to the LSS, so that it holds as many others as it can.
-    plane.offset = inFewDigits(least - 0.05 * (least - most));
-    if (plane.offset > least - kSlackM) plane.offset = least - kSlackM;
-    if (plane.offset < most + kSlackM) plane.offset = 0.5 * (least + most);
+    if (!plane.place(hull.leastAlong(plane.normal), most, 0.05)) return false;
     open.erase(std::remove_if(open.begin(), open.end(),
                               [&](TriangleId id) { return plane.holds(scene_.triangle(id)); }),
                open.end());
@@ -164,21 +189,30 @@ bool CertificateWriter::planesFor(const Hull& hull, const Triangles& near,
   return true;
 }
 
+/// `level` and `index` are of the part.
+void CertificateWriter::addSpan(int level, std::int64_t index, const std::vector<Plane>& planes,
+                                std::string& text) {
+  int deeper = 0;
+  while ((std::size_t{1} << deeper) < numParts_) ++deeper;
+  const std::int64_t before = static_cast<std::int64_t>(part_) << level;
+  text += "span " + std::to_string(level + deeper) + " " + std::to_string(before + index) + "\n";
+  for (const Plane& plane : planes) {
+    text += "plane";
+    for (const double part : plane.normal) text += " " + numberText(part);
+    text += " " + numberText(plane.offset) + "\n";
+  }
+  ++counts_.spans;
+  counts_.planes += static_cast<std::int64_t>(planes.size());
+}
+
 bool CertificateWriter::spans(LinkId link, const Bound& bound, int level, std::int64_t index,
                               const Triangles& among, std::string& text) {
-  const Hull hull = hullOf(link, bound, level, index);
+  const Hull hull = hullOf(kNoParent, link, bound, level, index, asked_.clearance);
   // Half of this span strays as far from this hull as this span from its own, and so on.
   const Triangles near = nearOf(hull, 0.0, among);
   std::vector<Plane> planes;
   if (planesFor(hull, near, planes)) {
-    text += "span " + std::to_string(level) + " " + std::to_string(index) + "\n";
-    for (const Plane& plane : planes) {
-      text += "plane";
-      addNumbers(text, plane.normal);
-      text += " " + numberText(plane.offset) + "\n";
-    }
-    ++counts_.spans;
-    counts_.planes += static_cast<std::int64_t>(planes.size());
+    addSpan(level, index, planes, text);
     return true;
   }
   if (level == kDeepestSpan) return false;
@@ -187,37 +221,121 @@ bool CertificateWriter::spans(LinkId link, const Bound& bound, int level, std::i
          spans(link, bound, level + 1, 2 * index + 1, below, text);
 }
 
-std::optional<std::string> CertificateWriter::link(LinkId link, const ChainMotion& motion) {
-  // As the verifier bounds it: (sum of turns)^2 |arm| + 2 (sum of turns) |drift|, down the chain.
+/// As the verifier bounds it: (sum of turns)^2 |arm| + 2 (sum of turns) |drift|, down the chain.
+/// Its arms are the longest ones of all parts.
+CertificateWriter::Bound CertificateWriter::boundOf(LinkId carrier, LinkId link,
+                                                    const Lss& lss) const {
+  const ChainMotion& motion = parts_.front().motion();
   std::vector<LinkId> chain;
-  for (LinkId up = link; up != kNoParent; up = motion.parent(up)) chain.push_back(up);
+  for (LinkId up = link; up != carrier; up = motion.parent(up)) chain.push_back(up);
   double turns = 0.0, origin = 0.0;
   for (auto joint = chain.rbegin(); joint != chain.rend(); ++joint) {
-    const ChainMotion::JointBounds own = motion.jointBounds(*joint);
+    const ChainMotion::JointBounds& own = joints_[slotOf(*joint)];
     origin += turns * turns * own.length + 2.0 * turns * own.driftLength;
     turns += own.turn * (1.0 + 2e-2);  // the verifier's sine stands for the angle
   }
+  const double far = std::max(lss.a.norm(), lss.b.norm());
+  return {lss, kInflation * (origin + turns * turns * far) + 1e-12};
+}
+
+std::optional<std::string> CertificateWriter::link(LinkId link) {
   const std::vector<Lss>& all = avatar_.lss(link);
+  const Triangles triangles = trianglesFor(link);
   std::string text = "link " + std::to_string(link) + "\n";
   for (std::size_t i = 0; i < all.size(); ++i) {
-    Bound bound;
-    bound.lss = all[i];
-    const double far = std::max(all[i].a.norm(), all[i].b.norm());
-    bound.acceleration = kInflation * (origin + turns * turns * far) + 1e-12;
     text += "lss " + std::to_string(i) + "\n";
-    if (!spans(link, bound, 0, 0, all_, text)) return std::nullopt;
+    for (part_ = 0; part_ < numParts_; ++part_) {
+      const Bound bound = boundOf(kNoParent, link, all[i]);
+      if (!spans(link, bound, 0, 0, triangles, text)) return std::nullopt;
+    }
     ++counts_.capsules;
   }
   return text;
 }
 
+/// Those that it may not touch.
+CertificateWriter::Triangles CertificateWriter::trianglesFor(LinkId link) const {
+  Triangles triangles = all_;
+  for (const IgnoredPair& pair : asked_.ignored) {
+    if (pair.link != link) continue;
+    const auto isIgnored = [&](TriangleId id) {
+      return pair.object == IgnoredPair::kEveryObject || scene_.object(id) == pair.object;
+    };
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), isIgnored), triangles.end());
+  }
+  return triangles;
+}
+
+/// One for each two hulls whose boxes meet, unless an earlier one stands between them, too.
+bool CertificateWriter::planesBetween(const std::vector<Hull>& ones,
+                                      const std::vector<Hull>& others, std::vector<Plane>& planes) {
+  for (const Hull& one : ones) {
+    for (const Hull& other : others) {
+      if (!one.box.intersects(other.box)) continue;
+      const auto isBetween = [&](const Plane& plane) { return plane.isBetween(one, other); };
+      if (std::any_of(planes.begin(), planes.end(), isBetween)) continue;
+      if (planes.size() == kMostPlanes) return false;
+      Plane plane;
+      const Triangle axis{other.begin(), other.end(), other.end()};
+      if (!Plane::towards(closestPoints(one.begin(), one.end(), axis), plane)) return false;
+      const double least = one.leastAlong(plane.normal), most = -other.leastAlong(-plane.normal);
+      if (!plane.place(least, most, 0.5)) return false;
+      planes.push_back(plane);
+    }
+  }
+  return true;
+}
+
+bool CertificateWriter::pairSpans(const LinkPair& pair, LinkId carrier, int level,
+                                  std::int64_t index, std::string& text) {
+  const auto ones = hullsOf(carrier, pair.a, level, index, asked_.clearance);
+  const auto others = hullsOf(carrier, pair.b, level, index, 0.0);
+  std::vector<Plane> planes;
+  if (planesBetween(ones, others, planes)) {
+    addSpan(level, index, planes, text);
+    return true;
+  }
+  return level < kDeepestSpan && pairSpans(pair, carrier, level + 1, 2 * index, text) &&
+         pairSpans(pair, carrier, level + 1, 2 * index + 1, text);
+}
+
+std::optional<std::string> CertificateWriter::pair(const LinkPair& pair) {
+  const ChainMotion& motion = parts_.front().motion();
+  LinkId carrier = pair.a;  // parents stand before their children
+  for (LinkId other = pair.b; carrier != other;) {
+    LinkId& later = carrier > other ? carrier : other;
+    later = motion.parent(later);
+  }
+  std::string text = "pair " + std::to_string(pair.a) + " " + std::to_string(pair.b) + "\n";
+  for (part_ = 0; part_ < numParts_; ++part_) {
+    if (!pairSpans(pair, carrier, 0, 0, text)) return std::nullopt;
+  }
+  ++counts_.pairs;
+  return text;
+}
+
+void CertificateWriter::setParts(const ChainMotion* first, std::size_t count) {
+  if (parts_.size() < count) parts_.resize(count);
+  numParts_ = count;
+  joints_.assign(countOf(avatar_.numLinks()), {0.0, 0.0, 0.0});
+  for (std::size_t i = 0; i < count; ++i) {
+    parts_[i].reset(first[i]);
+    for (JointId joint = 0; joint < avatar_.numLinks(); ++joint) {
+      const ChainMotion::JointBounds own = first[i].jointBounds(joint);
+      ChainMotion::JointBounds& most = joints_[slotOf(joint)];
+      most = {std::max(most.turn, own.turn), std::max(most.length, own.length),
+              std::max(most.driftLength, own.driftLength)};
+    }
+  }
+}
+
 std::string CertificateWriter::step(std::int64_t number, const ChainMotion& motion,
                                     const std::vector<LinkId>& links) {
-  evaluator_.reset(motion);
+  setParts(&motion, 1);
   std::string text;
   for (const LinkId one : links) {
     const CertificateCounts before = counts_;
-    auto claim = link(one, motion);
+    auto claim = link(one);
     if (!claim) {
       counts_ = before;
       ++counts_.unproven;
@@ -229,34 +347,27 @@ std::string CertificateWriter::step(std::int64_t number, const ChainMotion& moti
   return text.empty() ? text : "step " + std::to_string(number) + "\n" + text;
 }
 
-std::string sceneAsObj(const Scene& scene) {
-  std::string vertices, faces;
-  const auto count = static_cast<TriangleId>(scene.numTriangles());
-  std::int64_t last = 0;
-  for (TriangleId id = 0; id < count; ++id) {
-    if (!isFinite(scene.triangle(id))) continue;
-    faces += "f";
-    for (const Eigen::Vector3d& vertex : scene.triangle(id).vertices) {
-      vertices += "v";
-      addNumbers(vertices, vertex);
-      vertices += "\n";
-      faces += " " + std::to_string(++last);
+std::optional<std::string> CertificateWriter::edge(std::int64_t number,
+                                                   const std::vector<ChainMotion>& parts) {
+  setParts(parts.data(), parts.size());
+  const CertificateCounts before = counts_;
+  std::string text = "edge " + std::to_string(number) + "\n";
+  const auto add = [&](const std::optional<std::string>& claim) {
+    if (claim) {
+      text += *claim;
+    } else {
+      counts_ = before;
+      ++counts_.unproven;
     }
-    faces += "\n";
+    return claim.has_value();
+  };
+  for (LinkId one = 0; one < avatar_.numLinks(); ++one) {
+    if (avatar_.lss(one).empty()) continue;
+    if (!add(link(one))) return std::nullopt;
+    ++counts_.links;
   }
-  return vertices + faces;
-}
-
-std::string stepText(std::int64_t number, const Pose& from, const Pose& to) {
-  std::string text = "step " + std::to_string(number) + "\n";
-  for (const Pose* const pose : {&from, &to}) {
-    for (std::size_t joint = 0; joint < pose->rotations.size(); ++joint) {
-      const auto& q = pose->rotations[joint];
-      const Eigen::Vector3d& p = pose->translations[joint];
-      text += numberText(p.x()) + " " + numberText(p.y()) + " " + numberText(p.z());
-      for (const double part : {q.w(), q.x(), q.y(), q.z()}) text += " " + numberText(part);
-      text += "\n";
-    }
+  for (const LinkPair& own : asked_.pairs) {
+    if (!add(pair(own))) return std::nullopt;
   }
   return text;
 }

@@ -12,26 +12,42 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
+#include "articulated/pair_rules.h"
 #include "articulated/pose.h"
+#include "middleware/query_options.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch {
 
 struct CertificateCounts {
   std::int64_t links = 0, capsules = 0, spans = 0, planes = 0;
-  std::int64_t unproven = 0;  ///< Links for which no spans were found.
+  std::int64_t unproven = 0;  ///< Links, or edges, for which no spans were found.
+  std::int64_t pairs = 0;     ///< Of own links.
+};
+
+/// Beyond that each link touches nothing.
+struct CertificateAsked {
+  double clearance = 0.0;  ///< Metres: from the scene, and between own links.
+  std::vector<IgnoredPair> ignored;
+  std::vector<LinkPair> pairs;  ///< Own links.
 };
 
 /// Looks for spans and planes, LSS by LSS. For one thread.
 class CertificateWriter {
  public:
   /// Both outlive it. O(triangles).
-  CertificateWriter(const Avatar& avatar, const Scene& scene);
+  CertificateWriter(const Avatar& avatar, const Scene& scene, CertificateAsked asked = {});
 
   /// The lines about these links on the motion, "step K" first; empty: about none of them. A link
   /// for which no proof is found is left out and counted.
   [[nodiscard]] std::string step(std::int64_t number, const ChainMotion& motion,
                                  const std::vector<LinkId>& links);
+
+  /// The lines about an edge, "edge K" first, on which the avatar makes these motions one after the
+  /// other, each as long: a power of two of them. All that is asked of all links. Nothing: no proof
+  /// is found of some of it.
+  [[nodiscard]] std::optional<std::string> edge(std::int64_t number,
+                                                const std::vector<ChainMotion>& parts);
 
   [[nodiscard]] const CertificateCounts& counts() const { return counts_; }
 
@@ -41,25 +57,37 @@ class CertificateWriter {
   struct Plane;
   using Triangles = std::vector<TriangleId>;
 
-  [[nodiscard]] std::optional<std::string> link(LinkId link, const ChainMotion& motion);
+  /// Of a link in the frame of one that carries it; kNoParent: the world.
+  [[nodiscard]] Bound boundOf(LinkId carrier, LinkId link, const Lss& lss) const;
+  [[nodiscard]] std::optional<std::string> link(LinkId link);
   bool spans(LinkId link, const Bound& bound, int level, std::int64_t index, const Triangles& near,
              std::string& text);
-  [[nodiscard]] Hull hullOf(LinkId link, const Bound& bound, int level, std::int64_t index) const;
+  [[nodiscard]] std::optional<std::string> pair(const LinkPair& pair);
+  bool pairSpans(const LinkPair& pair, LinkId carrier, int level, std::int64_t index,
+                 std::string& text);
+  [[nodiscard]] std::vector<Hull> hullsOf(LinkId carrier, LinkId link, int level,
+                                          std::int64_t index, double more);
+  [[nodiscard]] Hull hullOf(LinkId carrier, LinkId link, const Bound& bound, int level,
+                            std::int64_t index, double more);
   [[nodiscard]] Triangles nearOf(const Hull& hull, double more, const Triangles& among) const;
   [[nodiscard]] bool planesFor(const Hull& hull, const Triangles& near,
                                std::vector<Plane>& planes) const;
+  [[nodiscard]] static bool planesBetween(const std::vector<Hull>& ones,
+                                          const std::vector<Hull>& others,
+                                          std::vector<Plane>& planes);
+  void addSpan(int level, std::int64_t index, const std::vector<Plane>& planes, std::string& text);
+  [[nodiscard]] Triangles trianglesFor(LinkId link) const;
+  void setParts(const ChainMotion* first, std::size_t count);
 
   const Avatar& avatar_;
   const Scene& scene_;
   std::vector<Eigen::AlignedBox3d> boxes_;
   Triangles all_;
-  MotionEvaluator evaluator_;
+  CertificateAsked asked_;
+  std::vector<MotionEvaluator> parts_;  // of the step or the edge
+  std::size_t numParts_ = 0, part_ = 0;
+  std::vector<ChainMotion::JointBounds> joints_;  // the most of all parts
   CertificateCounts counts_;
 };
-
-/// The scene as an OBJ of triangles, with all digits.
-[[nodiscard]] std::string sceneAsObj(const Scene& scene);
-/// A step's two poses as foretouch-steps has them.
-[[nodiscard]] std::string stepText(std::int64_t number, const Pose& from, const Pose& to);
 
 }  // namespace foretouch

@@ -71,15 +71,17 @@ class Lines {
   std::int64_t number_ = 0;
 };
 
-std::optional<Error> readHeader(std::string_view line, std::int64_t number, JointTable& table) {
+std::optional<Error> readHeader(std::string_view line, std::int64_t number,
+                                const std::string& first, JointTable& table) {
   const auto names = cellsOf(line);
-  if (!isKeyword(names.front(), "time")) {
-    return bvhError(ErrorCode::Syntax, number,
-                    "expected a header that begins with time, found " + inQuotes(names.front()));
+  if (!isKeyword(names.front(), first.c_str())) {
+    return bvhError(
+        ErrorCode::Syntax, number,
+        "expected a header that begins with " + first + ", found " + inQuotes(names.front()));
   }
   if (names.size() < 2 || names.size() > kMaxCells) {
     return bvhError(ErrorCode::OutOfRange, number,
-                    "expected 1 to " + std::to_string(kMaxJoints) + " joints after time");
+                    "expected 1 to " + std::to_string(kMaxJoints) + " joints after " + first);
   }
   std::unordered_set<std::string_view> seen;
   for (std::size_t i = 1; i < names.size(); ++i) {
@@ -144,12 +146,14 @@ std::optional<Error> findSpacing(JointTable& table) {
 
 }  // namespace
 
-Result<JointTable> parseTimedTable(std::string_view csv) {
+Result<JointTable> parseTimedTable(std::string_view csv, const char* first) {
   Lines lines(csv);
   JointTable table;
   const auto header = lines.next();
-  if (!header) return bvhError(ErrorCode::Empty, -1, "expected a header: time and joint names");
-  if (auto error = readHeader(*header, lines.number(), table)) return *std::move(error);
+  if (!header)
+    return bvhError(ErrorCode::Empty, -1,
+                    "expected a header: " + std::string(first) + " and joint names");
+  if (auto error = readHeader(*header, lines.number(), first, table)) return *std::move(error);
   while (const auto line = lines.next()) {
     if (auto error = readRow(*line, lines.number(), table)) return *std::move(error);
   }

@@ -22,10 +22,10 @@ struct JointTable {
 /// Limit on rows x columns.
 inline constexpr std::size_t kMaxTableValues = std::size_t{1} << 24;
 
-/// Lines of cells between commas: `time` and names, then numbers. Accepts blanks around cells,
-/// double quotes around whole cells, CR LF, a byte order mark, blank lines and lines that begin
-/// with #. Times are as they stand, in any order. Errors name the line.
-[[nodiscard]] Result<JointTable> parseTimedTable(std::string_view csv);
+/// Lines of cells between commas: `time` (or another `first`) and names, then numbers. Accepts
+/// blanks around cells, double quotes around whole cells, CR LF, a byte order mark, blank lines and
+/// lines that begin with #. Times are as they stand, in any order. Errors name the line.
+[[nodiscard]] Result<JointTable> parseTimedTable(std::string_view csv, const char* first = "time");
 
 /// The same with at least two rows, spaced equally to within a hundredth.
 [[nodiscard]] Result<JointTable> parseJointTable(std::string_view csv);

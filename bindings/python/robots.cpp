@@ -5,11 +5,13 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <pybind11/stl.h>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "articulated/robot.h"
+#include "assets/certificate/edge_certificate.h"
 #include "assets/import/robot_import.h"
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
@@ -206,12 +208,7 @@ class PythonEdgeQuery {
   }
 
   py::object answer(const Shown<shown::Array>& q0, const Shown<shown::Array>& q1) {
-    const Numbers from = configurations(q0, "q0"), to = configurations(q1, "q1");
-    if (from.shape(0) != to.shape(0)) {
-      refuse(ErrorCode::Mismatch, "q1",
-             "expected " + std::to_string(from.shape(0)) + " configurations, as in q0, found " +
-                 std::to_string(to.shape(0)));
-    }
+    const auto [from, to] = ends(q0, q1);
     std::vector<EdgeAnswer> answers;
     {
       const py::gil_scoped_release free;
@@ -220,6 +217,25 @@ class PythonEdgeQuery {
                            static_cast<std::size_t>(from.shape(0)), answers));
     }
     return edgesOf(answers, robot_, scenes_);
+  }
+
+  py::object certify(const Shown<shown::Array>& q0, const Shown<shown::Array>& q1,
+                     const Shown<shown::Path>& folder) {
+    const auto [from, to] = ends(q0, q1);
+    const std::string into = path(folder, "folder");
+    std::optional<EdgeCertificate> made;
+    {
+      const py::gil_scoped_release free;
+      const std::lock_guard<std::mutex> lock(mutex_);
+      made = valueOf(
+          certifyEdges(question_, from.data(), to.data(), static_cast<std::size_t>(from.shape(0))));
+      valueOf(writeEdgeCertificate(*made, into));
+    }
+    py::array_t<bool> proven(static_cast<py::ssize_t>(made->isProven.size()));
+    std::copy(made->isProven.begin(), made->isProven.end(), proven.mutable_data());
+    return pythonType("CertifiedEdges")(edgesOf(made->answers, robot_, scenes_), proven,
+                                        made->counts.spans, made->counts.planes,
+                                        made->proof.size());
   }
 
   py::tuple answerPath(const Shown<shown::Array>& q) {
@@ -237,6 +253,16 @@ class PythonEdgeQuery {
  private:
   [[nodiscard]] Numbers configurations(const Shown<shown::Array>& q, const char* what) const {
     return numbers(q, what, {kAny, static_cast<py::ssize_t>(robot_.robot->numCoordinates())});
+  }
+  [[nodiscard]] std::pair<Numbers, Numbers> ends(const Shown<shown::Array>& q0,
+                                                 const Shown<shown::Array>& q1) const {
+    Numbers from = configurations(q0, "q0"), to = configurations(q1, "q1");
+    if (from.shape(0) != to.shape(0)) {
+      refuse(ErrorCode::Mismatch, "q1",
+             "expected " + std::to_string(from.shape(0)) + " configurations, as in q0, found " +
+                 std::to_string(to.shape(0)));
+    }
+    return {std::move(from), std::move(to)};
   }
 
   SharedRobot robot_;
@@ -345,6 +371,9 @@ void bindRobots(py::module_& module) {
       .def("answer", &PythonEdgeQuery::answer, py::arg("q0"), py::arg("q1"),
            "q0 and q1 (n, coordinates): n edges; an Edges, whose describe() says what they meet.\n"
            "An edge from q to q asks about q.")
+      .def("certify", &PythonEdgeQuery::certify, py::arg("q0"), py::arg("q1"), py::arg("folder"),
+           "As answer(), and writes why the clear edges are clear into the folder: scene.obj,\n"
+           "avatar.json, edges.txt and certificate.txt, for foretouch-verify. A CertifiedEdges.")
       .def(
           "answer_path", &PythonEdgeQuery::answerPath, py::arg("q"),
           "q (n, coordinates): a path. (free_until, edge): it is free on [0, free_until), counted\n"

@@ -12,16 +12,6 @@
 namespace foretouch {
 namespace {
 
-/// Rounded up, so that a grown LSS holds all within `growth` of the true one.
-Result<Avatar> grown(const Avatar& avatar, double growth) {
-  std::vector<std::vector<Lss>> perLink;
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    perLink.push_back(avatar.lss(link));
-    for (Lss& lss : perLink.back()) lss.radius = (lss.radius + growth) * internal::kInflation;
-  }
-  return Avatar::build(avatar.skeleton(), std::move(perLink));
-}
-
 /// The same pairs of the grown avatar.
 Result<PairRules> grownRules(const Avatar& avatar, const PairRules& rules, double growth) {
   std::vector<PairRadius> radii = rules.radii();
@@ -76,11 +66,12 @@ Result<EdgeQuery> EdgeQuery::build(const Robot& robot, const Scene& scene,
   }
   EdgeQuery edges;
   edges.robot_ = std::make_shared<const Robot>(robot);
+  edges.options_ = std::make_shared<const EdgeOptions>(options);
   QueryOptions asked;
   asked.tolerance = options.tolerance;
   asked.ignored = options.ignored;
   asked.scope = Scope::FirstOfAvatar;
-  FORETOUCH_TRY(const auto whole, grown(robot.avatar(), options.clearance + robot.poseRounding()));
+  FORETOUCH_TRY(const auto whole, robot.avatar().grownBy(options.clearance + robot.poseRounding()));
   FORETOUCH_TRY(edges.scene_, Query::build(whole, scene, asked));
   FORETOUCH_CHECK(edges.addProps(options));
   if (!options.self) return edges;
@@ -89,7 +80,7 @@ Result<EdgeQuery> EdgeQuery::build(const Robot& robot, const Scene& scene,
   }
   // Each of two links takes half of the clearance. The scene has been asked.
   const double half = 0.5 * options.clearance + robot.poseRounding();
-  FORETOUCH_TRY(const auto own, grown(robot.avatar(), half));
+  FORETOUCH_TRY(const auto own, robot.avatar().grownBy(half));
   FORETOUCH_TRY(asked.self, grownRules(own, *options.self, half));
   asked.ignored.clear();
   asked.scope = Scope::EveryLink;
@@ -103,7 +94,7 @@ Result<Done> EdgeQuery::addProps(const EdgeOptions& options) {
   if (options.props.empty()) return Done{};
   const double apart = robot_->reach() + 2.0 * kMostPropDistance;  // along all three axes
   const double growth = options.clearance + robot_->poseRounding() + kPropRounding * apart;
-  FORETOUCH_TRY(const auto whole, grown(robot_->avatar(), growth));
+  FORETOUCH_TRY(const auto whole, robot_->avatar().grownBy(growth));
   QueryOptions asked;
   asked.tolerance = options.tolerance;
   asked.scope = Scope::FirstOfAvatar;

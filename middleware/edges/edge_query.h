@@ -89,6 +89,9 @@ class EdgeQuery {
   [[nodiscard]] std::size_t numProps() const { return props_.size(); }
 
   [[nodiscard]] const Robot& robot() const { return *robot_; }
+  [[nodiscard]] const Scene& scene() const { return scene_->scene(); }
+  /// As given to build().
+  [[nodiscard]] const EdgeOptions& options() const { return *options_; }
   /// Errors: as Robot::checked(). `count`: of numbers in each of q0 and q1. An edge from q to q
   /// asks whether q is free.
   [[nodiscard]] Result<EdgeAnswer> answer(const double* q0, const double* q1, std::size_t count,
@@ -111,6 +114,7 @@ class EdgeQuery {
   void answerProps(EdgeScratch& scratch, EdgeAnswer& answer) const;
 
   std::shared_ptr<const Robot> robot_;
+  std::shared_ptr<const EdgeOptions> options_;
   std::vector<Prop> props_;
   std::optional<Query> scene_, self_;  // own links have other radii with a clearance
 };

@@ -26,16 +26,6 @@ Error ofBody(BodyId body, ErrorCode code, const std::string& what) {
   return error;
 }
 
-/// An avatar that reaches as far as its skin does.
-Result<Avatar> grownBy(const Avatar& avatar, double skin) {
-  std::vector<std::vector<Lss>> grown;
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    grown.push_back(avatar.lss(link));
-    for (Lss& lss : grown.back()) lss.radius += skin;
-  }
-  return Avatar::build(avatar.skeleton(), std::move(grown));
-}
-
 /// Of a target that was refused: whose it is.
 Error ofTarget(BodyId body, Error error) {
   error.message = "body " + std::to_string(body) + ": " + error.message;
@@ -64,7 +54,7 @@ class SolidWorld::Parts {
                                                          options, numbers_));
     Avatar met = avatar;
     if (reach_ == SolidReach::Skin && !body.self && !body.surface) {
-      FORETOUCH_TRY(met, grownBy(avatar, options.skin));
+      FORETOUCH_TRY(met, avatar.grownBy(options.skin));
     }
     // Memory runs out before the world has the body, or not at all.
     auto made = std::make_unique<internal::SolidBody>(std::move(solid));

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/random_geometry.h"
+
 namespace foretouch {
 namespace {
 
@@ -89,6 +91,31 @@ TEST(AvatarBuild, RefusesMeshReferencesThatAreNone) {
   expectRefusal(lss, {{"body\n.glb", "Arm"}, {}}, ErrorCode::Syntax, 0);
   expectRefusal(lss, {{"body.glb", "\xff"}, {}}, ErrorCode::Syntax, 0);
   EXPECT_TRUE(Avatar::build(twoJoints(), lss, {{"body.glb", ""}, {}}).ok());
+}
+
+TEST(AvatarGrownBy, NeverRoundsARadiusBelowTheExactSum) {
+  int inexact = 0;
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    test::Random random(seed);
+    Lss lss = unitLss();
+    lss.radius = seed % 10 == 0 ? 0.0 : random.magnitude(1e-12, 10.0);
+    const double growth = seed % 7 == 0 ? 0.0 : random.magnitude(1e-16, 1.0);
+    const Avatar thin = Avatar::build(twoJoints(), {{}, {lss}}, {{}, {"body.glb", "Arm"}}).value();
+    const Avatar grown = thin.grownBy(growth).value();
+    const double radius = grown.lss(1)[0].radius;
+    // Knuth's sum: nearest + error is the exact sum.
+    const double nearest = lss.radius + growth, part = nearest - lss.radius;
+    const double error = (lss.radius - (nearest - part)) + (growth - part);
+    EXPECT_TRUE(radius > nearest || (radius == nearest && error <= 0.0)) << seed;
+    EXPECT_LE(radius, nearest * (1.0 + 2e-12)) << seed;
+    inexact += error > 0.0;
+    EXPECT_EQ(grown.lss(1)[0].b, lss.b);
+    EXPECT_TRUE(grown.mesh(1).file.empty());
+    EXPECT_NE(grown.identity(), thin.identity());
+  }
+  EXPECT_GT(inexact, 500) << "the nearest double would be too small";
+  const Avatar avatar = Avatar::build(twoJoints(), {{}, {unitLss()}}).value();
+  EXPECT_EQ(avatar.grownBy(2 * kMaxCoordinate).error().index, 1);
 }
 
 }  // namespace

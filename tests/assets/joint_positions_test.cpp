@@ -5,9 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "assets/model/edge_table.h"
 #include "assets/model/model_avatar.h"
 #include "assets/model/model_clip.h"
+#include "assets/model/model_robot.h"
 #include "tests/assets/model_samples.h"
+#include "tests/support/holds.h"
 
 namespace foretouch {
 namespace {
@@ -15,6 +18,7 @@ namespace {
 using test::addMesh;
 using test::addNode;
 using test::at;
+using test::holds;
 using test::Vector3d;
 
 /// Upper arm and forearm of 1 m each turn about z, a finger slides along the forearm.
@@ -247,6 +251,37 @@ TEST(ClipFromJointPositions, SpacingMayBeOffByAHundredthAndNoMore) {
   const std::string head = "time,elbow\n0,0\n1,0\n2,0\n";
   EXPECT_TRUE(clipFromJointPositions(robot(), head + "3.009,0\n4,0\n", "a").ok());
   EXPECT_FALSE(clipFromJointPositions(robot(), head + "3.011,0\n4,0\n", "a").ok());
+}
+
+TEST(ReadEdgeTable, TakesTwoRowsOfEachEdgeInTheRobotsOrder) {
+  const Robot made = robotFromModel(robot()).value().robot;
+  const std::string head = "edge,slide,shoulder,elbow\n";
+  const auto edges =
+      readEdgeTable(made, head + "0,0.1,1,2\n0,0.2,3,4\n# far\n1,0,-1,9\n1,0,-1,-9\n", "edges.csv");
+  ASSERT_TRUE(edges.ok()) << describe(edges.error());
+  EXPECT_EQ(edges.value().count, 2u);
+  EXPECT_EQ(edges.value().q0, (std::vector<double>{1, 2, 0.1, -1, 9, 0}));
+  EXPECT_EQ(edges.value().q1, (std::vector<double>{3, 4, 0.2, -1, -9, 0}));
+  const std::string row = "0,0,0,0\n";
+  for (const Refusal& refusal : std::vector<Refusal>{
+           {"", ErrorCode::Empty, -1},
+           {head, ErrorCode::Empty, -1},
+           {head + row, ErrorCode::Empty, -1},
+           {"time,slide,shoulder,elbow\n" + row + row, ErrorCode::Syntax, 1},
+           {"edge,slide,shoulder\n0,0,0\n0,0,0\n", ErrorCode::UnknownName, -1},
+           {"edge,slide,shoulder,elbow,knee\n0,0,0,0,0\n0,0,0,0,0\n", ErrorCode::UnknownName, -1},
+           {head + row + "1,0,0,0\n", ErrorCode::OutOfRange, 3},
+           {head + row + row + row, ErrorCode::OutOfRange, 4},
+           {head + row + row + "2,0,0,0\n2,0,0,0\n", ErrorCode::OutOfRange, 4},
+           {head + row + "0,0,0,1001\n", ErrorCode::OutOfRange, 3},
+           {head + row + "0,0,0,nan\n", ErrorCode::NonFinite, 3}}) {
+    SCOPED_TRACE(refusal.csv);
+    const auto refused = readEdgeTable(made, refusal.csv, "edges.csv");
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, refusal.code) << describe(refused.error());
+    EXPECT_EQ(refused.error().line, refusal.line) << describe(refused.error());
+    EXPECT_TRUE(holds(describe(refused.error()), "edges.csv")) << describe(refused.error());
+  }
 }
 
 }  // namespace

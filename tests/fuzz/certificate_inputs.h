@@ -6,8 +6,8 @@
 
 namespace foretouch::fuzz {
 
-/// A text that is read says nothing beyond the format; and of a step on which a sphere passes
-/// through a triangle, nothing that names it is proven.
+/// A certificate, or edges: a text that is read says nothing beyond the format; and of a step or an
+/// edge on which a sphere passes through a triangle, nothing that names it is proven.
 bool feedCertificate(const std::uint8_t* data, std::size_t size);
 
 }  // namespace foretouch::fuzz

@@ -64,7 +64,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"model", {"bvh", ""}},
       {"import", {"model", ""}},
       {"mesh", {"import", "model", ""}},
-      {"certificate", {""}},
+      {"certificate", {"avatar", ""}},
       {"clip", {"bvh", "import", "model", ""}}}},
     {"network",
      {{"wire", {}},

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "assets/avatar/avatar_file.h"
+#include "assets/certificate/certificate_texts.h"
 #include "assets/certificate/certificate_writer.h"
 #include "middleware/query/query.h"
 #include "tests/support/random_geometry.h"

@@ -6,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "assets/certificate/certificate_writer.h"
+#include "articulated/motion.h"
+#include "assets/certificate/certificate_texts.h"
 #include "tests/support/holds.h"
 #include "tests/support/random_motion.h"
 #include "tests/verify/certificate_trial.h"

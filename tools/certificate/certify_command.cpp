@@ -1,7 +1,6 @@
 #include "tools/certificate/certify_command.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,10 +9,11 @@
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
+#include "assets/certificate/certificate_texts.h"
 #include "assets/certificate/certificate_writer.h"
 #include "assets/json_writer.h"
-#include "assets/text_file.h"
 #include "middleware/query/query.h"
+#include "tools/certificate/certify_edges.h"
 #include "tools/console.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/interrupt.h"
@@ -26,6 +26,7 @@ namespace {
 
 struct AskedCertificate {
   ReplayRequest request;
+  AskedEdges edges;
   std::string folder;
   bool asJson = false;
 };
@@ -47,13 +48,14 @@ Settings certifySettings(AskedCertificate& asked) {
       .required();
   addRateSetting(settings, asked.request);
   addClipSettings(settings, asked.request);
+  addEdgeSettings(settings, asked.edges, asked.request);
   settings
       .number("--tolerance", "M", asked.request.query.tolerance, kToleranceRange,
               "Largest separation (m) of a contact: links that come nearer have no proof")
       .in(kTouchGroup);
   settings
       .path("-o,--output", "DIR", asked.folder,
-            "The folder for scene.obj, avatar.json, steps.txt and certificate.txt")
+            "The folder for scene.obj, avatar.json, steps.txt (or edges.txt) and certificate.txt")
       .in(kOutputGroup)
       .required();
   settings.asJson(asked.asJson);
@@ -101,17 +103,10 @@ Result<CertifiedClip> certify(const ReplayInputs& inputs, const InterruptGuard& 
 
 Result<Done> writeCertified(const std::string& folder, const Avatar& avatar,
                             const CertifiedClip& found) {
-  std::error_code unmade;
-  std::filesystem::create_directories(folder, unmade);
-  FORETOUCH_CHECK(writeAvatarFile(avatar, folder + "/avatar.json"));
-  const std::pair<const char*, const std::string&> texts[] = {
-      {"/scene.obj", found.scene}, {"/steps.txt", found.steps}, {"/certificate.txt", found.proof}};
-  for (const auto& [name, text] : texts) {
-    FORETOUCH_TRY(auto file, PendingFile::create(folder + name));
-    file.write(text);
-    FORETOUCH_CHECK(file.commit());
-  }
-  return Done{};
+  return writeTexts(folder, {{"scene.obj", found.scene},
+                             {"avatar.json", formatAvatar(avatar)},
+                             {"steps.txt", found.steps},
+                             {"certificate.txt", found.proof}});
 }
 
 std::string certifiedLine(const CertifiedClip& found) {
@@ -130,7 +125,10 @@ std::string certifiedLine(const CertifiedClip& found) {
   return text + "\n";
 }
 
-ExitCode run(const AskedCertificate& asked) {
+ExitCode run(const Settings& settings, const AskedCertificate& asked) {
+  if (!asked.edges.path.empty()) {
+    return certifyEdgesOf(settings, asked.edges, asked.request, asked.folder, asked.asJson);
+  }
   FORETOUCH_TRY_OR(failed, const auto inputs, loadReplayInputs(asked.request));
   for (const std::string& remark : remarksOn(inputs)) printNote(remark);
   {
@@ -156,6 +154,9 @@ constexpr char kCertifyExamples[] = R"(Example:
   foretouch certify --scene room.obj --avatar dancer.avatar.json --motion dancer.bvh --rate 30 \
       --output proof
   foretouch-verify proof/scene.obj proof/avatar.json proof/steps.txt proof/certificate.txt
+  foretouch certify --scene cell.obj --scene-up z --robot arm.urdf --edges roadmap.csv \
+      --clearance 0.005 --self --ignore base:table --output proof
+  foretouch-verify proof/scene.obj proof/avatar.json proof/edges.txt proof/certificate.txt
 
 Only links that touch nothing have something to prove, at link fidelity. Exit code 1: a link is clear,
 and no proof of it was found: it comes too near.)";
@@ -167,7 +168,7 @@ Command certifyCommand() {
   Command command{"certify",
                   "Write down why links touch nothing, for anybody to check without this program",
                   kCertifyExamples, certifySettings(*asked)};
-  command.run = [asked](const Settings&) { return run(*asked); };
+  command.run = [asked](const Settings& settings) { return run(settings, *asked); };
   return command;
 }
 

@@ -40,6 +40,7 @@ from foretouch._foretouch import (
 from foretouch._examples import example_folder
 from foretouch._queries import first_contacts, first_contacts_many, touches_at
 from foretouch._types import (
+    CertifiedEdges,
     ContactDetails,
     ContactPoint,
     ContactSide,
@@ -74,6 +75,7 @@ from foretouch._types import (
 
 __all__ = [
     "Avatar",
+    "CertifiedEdges",
     "Clip",
     "Contact",
     "ContactDetails",

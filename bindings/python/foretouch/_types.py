@@ -214,6 +214,19 @@ def _advice(edge: Edge) -> list[str]:
     ]
 
 
+class CertifiedEdges(NamedTuple):
+    """What EdgeQuery.certify() found, and wrote."""
+
+    answers: Edges
+    proven: npt.NDArray[np.bool_]
+    """(n,): the certificate proves that the edge is clear. Not where it is clear, but comes so near
+    to something that no proof was found."""
+    num_spans: int
+    num_planes: int
+    num_bytes: int
+    """Of certificate.txt."""
+
+
 class NearFeatures(NamedTuple):
     """The k places where links are near the scene, by link, LSS, gap and triangle. Metres, world."""
 

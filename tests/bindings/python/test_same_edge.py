@@ -4,6 +4,7 @@ Robots are random chains with continuous joints, limits beyond a whole turn, joi
 joints that follow others. What is right comes from kinematics in numpy, sampled finely: they share
 nothing with the library but the robot's text."""
 
+import ctypes as c
 import json
 import subprocess
 import tempfile
@@ -13,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import foretouch
+from solid_in_c import LIBRARY
 from support import BUILD, PROGRAM
 
 ROBOTS, EDGES = 8, 12
@@ -144,10 +146,82 @@ class Ways:
                           self.folder / "r.urdf"]
 
     def edges(self):
+        answer = self.edge_query().answer(self.robot.q[:-1], self.robot.q[1:])
+        return [edge.verdict != foretouch.Verdict.CLEAR for edge in answer]
+
+    def edges_in_c(self):
+        """Verdict and free_until, besides, are Python's to the bit."""
+
+        class Edge(c.Structure):
+            _fields_ = [("size", c.c_uint32), ("verdict", c.c_int32), ("reason", c.c_int32),
+                        ("is_usable", c.c_int32), ("free_until", c.c_double),
+                        ("breach_at_0", c.c_int32), ("breach_at_1", c.c_int32)]
+
+        lib = c.CDLL(str(LIBRARY))
+        lib.ft_last_error.restype = c.c_char_p
+
+        def must(status):
+            assert status == 0, lib.ft_last_error().decode()
+
+        scene, robot, edges = c.c_void_p(), c.c_void_p(), c.c_void_p()
+        must(lib.ft_scene_create_from_file(str(self.folder / "s.obj").encode(), None, c.byref(scene)))
+        must(lib.ft_robot_create_from_urdf(str(self.folder / "r.urdf").encode(), None,
+                                           c.byref(robot)))
+        must(lib.ft_edges_create(robot, scene, None, c.byref(edges)))
+        q0, q1 = (np.ascontiguousarray(q) for q in (self.robot.q[:-1], self.robot.q[1:]))
+        answers = (Edge * EDGES)()
+        answers[0].size = c.sizeof(Edge)
+        must(lib.ft_edges_answer(edges, c.c_void_p(q0.ctypes.data), c.c_void_p(q1.ctypes.data),
+                                 c.c_size_t(EDGES), c.c_size_t(q0.shape[1]), answers))
+        asked = self.edge_query().answer(q0, q1)
+        assert [a.verdict for a in answers] == asked.verdicts.tolist()
+        assert [a.free_until for a in answers] == asked.free_until.tolist()
+        lib.ft_edges_destroy(edges)
+        lib.ft_robot_destroy(robot)
+        lib.ft_scene_destroy(scene)
+        return [a.verdict != foretouch.Verdict.CLEAR for a in answers]
+
+    def edge_query(self, **options):
         scene = foretouch.Scene.load(self.folder / "s.obj")
         robot = foretouch.Robot.load_urdf(self.folder / "r.urdf")
-        answer = foretouch.EdgeQuery(robot, scene).answer(self.robot.q[:-1], self.robot.q[1:])
-        return [edge.verdict != foretouch.Verdict.CLEAR for edge in answer]
+        return foretouch.EdgeQuery(robot, scene, **options)
+
+    def edges_certified(self):
+        """By Python and by the program, which turns robot and scene to Y up, each as a stranger
+        proves it."""
+        for clearance in (0.0, 1e-4):
+            made = self.edge_query(clearance=clearance).certify(
+                self.robot.q[:-1], self.robot.q[1:], self.folder / "python")
+            told = self.proven_by_program(clearance)
+            assert told["not_proven"] == [] or told["not_proven"][0]["verdict"]
+            sure = np.abs(self.robot.gaps) > BAND
+            names = {edge["edge"] for edge in told["not_proven"]}
+            proven = np.array([i not in names for i in range(EDGES)])
+            np.testing.assert_array_equal(proven[sure], made.proven[sure])
+            for folder, count in ((self.folder / "python", made.proven.sum()),
+                                  (self.folder / "program", proven.sum())):
+                self.verify_edges(folder, int(count))
+        return [not proven for proven in made.proven.tolist()]
+
+    def proven_by_program(self, clearance):
+        names = self.robot.names
+        rows = [",".join([str(i), *map(repr, row.tolist())]) for i in range(EDGES)
+                for row in (self.robot.q[i], self.robot.q[i + 1])]
+        (self.folder / "edges.csv").write_text("\n".join([",".join(["edge", *names]), *rows, ""]))
+        ended = run(PROGRAM, "certify", "--scene", self.folder / "s.obj", "--scene-up", "z",
+                    "--robot", self.folder / "r.urdf", "--edges", self.folder / "edges.csv",
+                    "--clearance", clearance, "--json", "-o", self.folder / "program",
+                    codes=(0, 1))
+        return json.loads(ended.stdout)
+
+    @staticmethod
+    def verify_edges(folder, count):
+        ended = run(BUILD / "bin" / "foretouch-verify",
+                    *(folder / name for name in ("scene.obj", "avatar.json", "edges.txt",
+                                                 "certificate.txt")), codes=(0, 1))
+        assert (ended.returncode == 0) == (count > 0), ended.stdout
+        if count > 0:
+            assert ended.stdout.startswith(f"proven: {count} of {EDGES} edges"), ended.stdout
 
     def poses_along(self):
         scene = foretouch.Scene.load(self.folder / "s.obj")
@@ -163,6 +237,10 @@ class Ways:
         poses, k = clip.poses(avatar), clip.frames_per_row
         assert abs(clip.frame_time_s * k - 1) < 1e-12 and len(poses) == EDGES * k + 1
         return [self.meets(query, avatar, poses[i * k:(i + 1) * k + 1]) for i in range(EDGES)]
+
+    def all(self):
+        return (self.edges, self.edges_in_c, self.edges_certified, self.poses_along, self.clip,
+                self.replay)
 
     @staticmethod
     def meets(query, avatar, poses):
@@ -196,12 +274,12 @@ class SameEdge(unittest.TestCase):
         asked = touched = turned = 0
         for seed in range(ROBOTS):
             robot = RandomRobot(seed)
-            gaps = np.array([robot.gap(i) for i in range(EDGES)])
+            gaps = robot.gaps = np.array([robot.gap(i) for i in range(EDGES)])
             sure = np.flatnonzero(np.abs(gaps) > BAND)
             expected = gaps[sure] < 0
             with tempfile.TemporaryDirectory() as folder, self.subTest(seed=seed):
                 ways = Ways(robot, folder)
-                for way in (ways.edges, ways.poses_along, ways.clip, ways.replay):
+                for way in ways.all():
                     np.testing.assert_array_equal(np.array(way())[sure], expected, way.__name__)
                 if len(sure) == EDGES:
                     self.assertEqual(ways.certificate(), not expected.any())
@@ -222,14 +300,79 @@ class SameEdge(unittest.TestCase):
         global EDGES
         before, EDGES = EDGES, 1
         try:
-            self.assertLess(robot.gap(0), -BAND)
+            robot.gaps = np.array([robot.gap(0)])
+            self.assertLess(robot.gaps[0], -BAND)
             with tempfile.TemporaryDirectory() as folder:
                 ways = Ways(robot, folder)
-                for way in (ways.edges, ways.poses_along, ways.clip, ways.replay):
+                for way in ways.all():
                     self.assertEqual(way(), [True], way.__name__)
                 self.assertFalse(ways.certificate())
         finally:
             EDGES = before
+
+    def test_a_base_in_its_table_is_named_and_lies_in_files_are_refused(self):
+        def ball(name, x, radius):
+            return (f'<link name="{name}"><collision><origin xyz="{x} 0 0"/><geometry>'
+                    f'<sphere radius="{radius}"/></geometry></collision></link>')
+
+        def turn(parent, child, x, axis):
+            return (f'<joint name="to_{child}" type="revolute"><parent link="{parent}"/>'
+                    f'<child link="{child}"/><origin xyz="{x} 0 0"/><axis xyz="{axis}"/>'
+                    '<limit lower="-9" upper="9" effort="1" velocity="1"/></joint>')
+
+        urdf = ('<robot name="r">' + ball("base", 0, 0.1) + ball("arm", 0.4, 0.05)
+                + ball("tip", 0.4, 0.05) + turn("base", "arm", 0, "0 0 1")
+                + turn("arm", "tip", 0.4, "0 1 0") + "</robot>")
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for file, text in (("r.urdf", urdf), ("s.obj", (
+                    "o table\nv -1 -1 -0.08\nv 1 -1 -0.08\nv 1 1 -0.08\nf 1 2 3\nv -1 1 -0.08\n"
+                    "f 1 3 4\n")), ("e.csv", (
+                    "edge,to_tip,to_arm\n0,0,0\n0,-1,7\n1,0,0\n1,0.3,0\n"))):
+                (folder / file).write_text(text)
+            asked = [PROGRAM, "certify", "--scene", folder / "s.obj", "--scene-up", "z", "--robot",
+                     folder / "r.urdf", "--edges", folder / "e.csv", "-o", folder]
+            told = run(*asked)
+            self.assertIn('all 2 edges start with link "base" and object "table" in contact; if it '
+                          'stands there, as a base does, ignore the pair: --ignore "base:table"',
+                          " ".join(told.stderr.split()))
+            self.assertIn('edge 1: starts_in_contact: link "base" and object "table"', told.stdout)
+            refused = run(*asked, "--rate", "30", codes=(2,))
+            self.assertIn("--rate: not with --edges", refused.stderr)
+            told = run(*asked, "--ignore", "base:table", "--clearance", "0.02", "--self")
+            self.assertIn('edge 1: contact: link "tip" and object "table"', told.stdout)
+
+            def verified(*more):
+                return run(BUILD / "bin" / "foretouch-verify",
+                           *(folder / file for file in ("scene.obj", "avatar.json", "edges.txt",
+                                                        "certificate.txt")), *more,
+                           codes=(0, 1, 2))
+
+            honest = verified()
+            self.assertIn("proven: 1 of 2 edges keep more than 0.02", honest.stdout)
+            self.assertIn("not claimed: edge 1: contact", honest.stdout)
+            self.assertIn("is not claimed: contact", verified("--whole").stdout)
+            proof = (folder / "certificate.txt").read_text()
+            self.assertIn("pair 0 2\n", proof)
+            for file, old, new, why, code in (
+                    ("certificate.txt", "edge 0", "edge 1", "none of its planes", 1),
+                    ("certificate.txt", "edge 1 contact\n", "", "edge 1: is neither claimed nor", 1),
+                    ("certificate.txt", proof[proof.index("pair 0 2"):proof.index("edge 1")], "",
+                     "links 0 and 2 are not proven apart", 1),
+                    ("certificate.txt", proof[proof.index("link 2"):proof.index("pair 0")], "",
+                     "link 2 is not proven apart from the scene", 1),
+                    ("certificate.txt", "certificate 2", "certificate 1", "of edges", 2),
+                    ("edges.txt", "clearance 0.02", "clearance 0.2", "none of its planes", 1),
+                    ("edges.txt", "ignore 0 0 2\n", "", "none of its planes", 1),
+                    ("edges.txt", "7 -1", "7 1", "none of its planes", 1),
+                    ("edges.txt", "end\n", "", "cut", 2)):
+                text = (folder / file).read_text()
+                self.assertIn(old, text)
+                (folder / file).write_text(text.replace(old, new, 1))
+                ended = verified()
+                self.assertEqual(ended.returncode, code, (old, ended.stdout + ended.stderr))
+                self.assertIn(why, ended.stdout + ended.stderr)
+                (folder / file).write_text(text)
 
 
 if __name__ == "__main__":

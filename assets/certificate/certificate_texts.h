@@ -1,0 +1,28 @@
+// assets/certificate/certificate_texts.h: the files that say what a certificate is about
+// (docs/certificates.md).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "articulated/pose.h"
+#include "articulated/result.h"
+#include "middleware/scene/scene.h"
+
+namespace foretouch {
+
+/// The scene as an OBJ of triangles, with all digits; those that are not finite are left out.
+[[nodiscard]] std::string sceneAsObj(const Scene& scene);
+/// A step's two poses as foretouch-steps has them.
+[[nodiscard]] std::string stepText(std::int64_t number, const Pose& from, const Pose& to);
+
+/// Each text as a file of this folder, which is made. Never half a file.
+struct NamedText {
+  const char* name;
+  const std::string& text;
+};
+[[nodiscard]] Result<Done> writeTexts(const std::string& folder,
+                                      const std::vector<NamedText>& texts);
+
+}  // namespace foretouch
