@@ -15,6 +15,7 @@
 #include "assets/text_file.h"
 #include "middleware/query/query.h"
 #include "tools/console.h"
+#include "tools/inputs/file_roles.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
@@ -26,6 +27,7 @@ namespace {
 
 struct AskedCertificate {
   ReplayRequest request;
+  std::vector<std::string> files;
   std::string folder;
   bool asJson = false;
 };
@@ -57,6 +59,7 @@ Settings certifySettings(AskedCertificate& asked) {
       .in(kOutputGroup)
       .required();
   settings.asJson(asked.asJson);
+  addFilesSetting(settings, asked.files);
   return settings;
 }
 

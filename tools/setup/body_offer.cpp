@@ -35,6 +35,10 @@ constexpr double kUsualAdult = 1.7;
 /// Without legs: a hand, an animal, a robot.
 constexpr double kSmallestBody = 0.15, kLargestBody = 10.0;
 
+/// Of the box around all joints at rest, against the height by the legs: arms, wings, tails and
+/// what hands hold stay below.
+constexpr double kWidestReach = 2.5;
+
 /// Among how many frames of a clip to look.
 constexpr std::size_t kFramesLookedAt = 32;
 
@@ -98,6 +102,15 @@ Offer<double> bySize(double size, bool isInMetres) {
           fmt::format("its joints' names show no legs; this makes it {:.3g} m long", size * unit)};
 }
 
+/// Legs of a plausible length beside joints far off: two bodies, or something that is no body.
+void doubtReach(const Clip& clip, double stature, Offer<double>& offer) {
+  const double reach = sizeOf(clip.skeleton, restPose(clip.skeleton)).maxCoeff();
+  if (!(reach > kWidestReach * stature)) return;
+  offer.isSure = false;
+  offer.reason += fmt::format(", but its joints lie {:.3g} m apart: are all of them of one body?",
+                              reach * offer.value);
+}
+
 /// Feet to head, summed over the clip's frames, each as a direction.
 Vector3d meanUpright(const Clip& clip, std::size_t& found) {
   Vector3d sum = Vector3d::Zero();
@@ -131,7 +144,11 @@ std::string nameOfUnit(double metres) {
 
 Offer<double> unitOf(const Clip& clip, bool isInMetres) {
   const auto stature = statureOf(clip.skeleton);
-  if (stature) return byStature(*stature, isInMetres);
+  if (stature) {
+    Offer<double> offer = byStature(*stature, isInMetres);
+    doubtReach(clip, *stature, offer);
+    return offer;
+  }
   return bySize(sizeOf(clip.skeleton, restPose(clip.skeleton)).maxCoeff(), isInMetres);
 }
 
