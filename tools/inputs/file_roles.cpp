@@ -84,6 +84,7 @@ Places placesIn(Settings& settings) {
   for (Setting& setting : settings) {
     for (const Target& target : kTargets) {
       if (setting.table == target.table && setting.key == target.key) {
+        setting.isFilledByFiles = true;
         places[target.role] = {&setting, target.noun, {}};
       }
     }
@@ -170,7 +171,7 @@ Result<FileRole> roleOfFile(const std::string& path) {
 
 Setting& addFilesSetting(Settings& settings, std::vector<std::string>& files, const char* help) {
   const auto places = std::make_shared<Places>(placesIn(settings));
-  Setting& setting = settings.list("files", "FILE", files, help);
+  Setting& setting = settings.list("files", "FILE...", files, help);
   setting.files().fillsOthers = true;
   setting.take = [places, &files](const GivenValue& given) -> Result<Done> {
     files = given.texts;

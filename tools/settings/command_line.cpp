@@ -63,7 +63,7 @@ void addSetting(CLI::App& app, Typed& typed) {
   const Setting& setting = *typed.setting;
   addOption(app, typed);
   if (!setting.group.empty()) typed.option->group(setting.group);
-  if (setting.isRequired) typed.option->option_text(kRequired);
+  if (setting.isRequired && !setting.isFilledByFiles) typed.option->option_text(kRequired);
   if (!setting.needs.empty()) typed.option->needs(app.get_option(setting.needs));
   if (!setting.isGone.empty()) typed.option->group("");  // hidden from help
   if (!setting.valueIfNone.empty()) {

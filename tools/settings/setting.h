@@ -70,7 +70,8 @@ struct Setting {
   std::string noun;                ///< Of a required argument, for its error: "a scene file".
   bool standsForRequired = false;  ///< Where it is given, nothing else is required.
   std::string needs;               ///< Another option that this one requires.
-  bool fillsOthers = false;        ///< Its values become those of other settings.
+  bool fillsOthers = false;        ///< Its values become those of other settings, ...
+  bool isFilledByFiles = false;    ///< ... such as this one: then help demands no option.
   bool isPath = false;             ///< In a configuration, relative to that file's folder.
   bool takesFiles = false;         ///< Paths, for a shell that completes them.
   std::string endings;             ///< Of these files: "bvh glb"; empty: any.

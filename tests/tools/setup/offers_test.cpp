@@ -10,6 +10,7 @@ namespace {
 
 using test::clipOf;
 using test::room;
+using test::standingBones;
 using test::zUp;
 
 TEST(Offers, LegsTellEveryUnitThatExportersUse) {
@@ -35,6 +36,17 @@ TEST(Offers, AFileThatSaysMetresIsBelievedUnlessItsBodyIsAGiant) {
   const Offer<double> forgotten = unitOf(clipOf(0.01), true);
   EXPECT_EQ(forgotten.value, 0.01);
   EXPECT_FALSE(forgotten.isSure);
+}
+
+TEST(Offers, JointsFarFromAPlausibleBodyAreADoubt) {
+  Clip clip = clipOf(1.0);
+  RawSkeleton bones = standingBones(1.0);
+  bones.joints.push_back({"Prop", 0, {0, 14, 0}, Quaternion::Identity()});
+  clip.skeleton = Skeleton::build(bones).value();
+  const Offer<double> offer = unitOf(clip, true);
+  EXPECT_EQ(offer.value, 1.0);
+  EXPECT_FALSE(offer.isSure);
+  EXPECT_NE(offer.reason.find("joints lie"), std::string::npos) << offer.reason;
 }
 
 TEST(Offers, WithoutLegsNothingIsSure) {
