@@ -71,7 +71,7 @@ double forgottenUnit(double size) {
   return size > kLargestBody ? (size > 100.0 * kLargestBody ? 0.001 : 0.01) : 1.0;
 }
 
-Offer<double> byStature(double stature, bool isInMetres) {
+Offer<double> byStature(double stature, bool isInMetres, double readAs) {
   const auto isAdult = [](double tall) { return tall >= kShortestAdult && tall <= kTallestAdult; };
   if (isInMetres) {
     const double unit = forgottenUnit(stature);
@@ -81,8 +81,8 @@ Offer<double> byStature(double stature, bool isInMetres) {
   const Unit& unit = nearestUnit(stature, kUsualAdult);
   if (isAdult(stature * unit.metres)) {
     return {unit.metres, true,
-            fmt::format("{} make it {:.3g} m tall, by the length of its legs", unit.name,
-                        stature * unit.metres)};
+            fmt::format("{} make it {:.3g} m tall, by the length of its legs",
+                        unitInWords(readAs * unit.metres), stature * unit.metres)};
   }
   return {guessedUnit(stature), false,
           fmt::format("its legs make it {:.3g} units tall, and no unit that is known makes that an "
@@ -135,17 +135,17 @@ Offer<UpAxis> byShape(const Clip& clip) {
 
 }  // namespace
 
-std::string nameOfUnit(double metres) {
+std::string unitInWords(double metres) {
   for (const Unit& unit : kUnits) {
     if (unit.metres == metres) return unit.name;
   }
-  return "";
+  return fmt::format("{:g} m per unit", metres);
 }
 
-Offer<double> unitOf(const Clip& clip, bool isInMetres) {
+Offer<double> unitOf(const Clip& clip, bool isInMetres, double readAs) {
   const auto stature = statureOf(clip.skeleton);
   if (stature) {
-    Offer<double> offer = byStature(*stature, isInMetres);
+    Offer<double> offer = byStature(*stature, isInMetres, readAs);
     doubtReach(clip, *stature, offer);
     return offer;
   }

@@ -21,6 +21,12 @@ TEST(Offers, LegsTellEveryUnitThatExportersUse) {
   }
 }
 
+TEST(Offers, AClipThatWasReadInItsUnitIsNamedByIt) {
+  const Offer<double> offer = unitOf(clipOf(1.0), false, 0.01);
+  EXPECT_EQ(offer.value, 1.0);
+  EXPECT_EQ(offer.reason.rfind("centimetres make it ", 0), 0u) << offer.reason;
+}
+
 TEST(Offers, AUnitThatNoExporterUsesIsNotSure) {
   const Offer<double> offer = unitOf(clipOf(0.038), false);
   EXPECT_NEAR(offer.value, 0.038, 0.004);
