@@ -128,14 +128,15 @@ TEST_F(ImportFbx, CamerasAndLightsAreNoJointsHoweverTheyMove) {
   };
   FbxFile file;
   file.stopS = 1.0;
-  file.nodes = {
-      moving("hips", -1),          moving("head", 0),           moving("view", 1, "Camera"),
-      moving("crane", -1),         moving("boom", 3),           moving("shot", 4, "Camera"),
-      moving("lamp", -1, "Light"), moving("rig", -1, "Camera"), moving("carried", 7)};
+  file.nodes = {moving("hips", -1),          moving("head", 0),
+                moving("view", 1, "Camera"), moving("crane", -1),
+                moving("boom", 3),           moving("shot", 4, "Camera"),
+                moving("lamp", -1, "Light"), moving("rig", -1, "Camera"),
+                moving("carried", 7),        moving("hand", 0)};
   const Skeleton skeleton = clipOf(read(file)).skeleton;
   std::set<std::string> names;
   for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) names.insert(skeleton.name(joint));
-  for (const char* const joint : {"hips", "head", "rig", "carried"}) {
+  for (const char* const joint : {"hips", "head", "hand", "rig", "carried"}) {
     EXPECT_EQ(names.count(joint), 1u) << joint << ": a camera's parent or child may be a bone";
   }
   for (const char* const none : {"view", "crane", "boom", "shot", "lamp"}) {

@@ -335,7 +335,7 @@ TEST(Quiet, MeansTheSameToEveryCommand) {
       {"avatar", "mesh", wall, "-o", out + "json"},
       {"avatar", "urdf", robot, "-o", out + "json"},
       {"avatar", "check", man},
-      {"avatar", "pairs", man},
+      {"avatar", "pairs", FORETOUCH_EXAMPLE_FOLDER "/dancer.avatar.json"},
       {"scene", "check", wall},
       {"log", "info", log},
       {"log", "check", log},

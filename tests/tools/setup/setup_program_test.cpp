@@ -92,11 +92,11 @@ TEST(SetupProgram, AnAnimationWithoutABodyMakesNoCapsulesOfItsCameras) {
 }
 
 TEST(SetupProgram, TakesABodyAndASceneInAnyOrder) {
-  const TempFolder folder;
-  const std::string room = kExample + "/room.obj", dancer = kExample + "/dancer.bvh";
-  const json answer = setupIn(folder, dancer, room);
-  EXPECT_EQ(answer["scene"]["file"], room);
-  EXPECT_EQ(answer["body"]["file"], dancer);
+  const SmallWorld world;
+  const std::string wall = world.folder / "wall.obj", clip = world.folder / "clip.bvh";
+  const json answer = setupIn(world.folder, clip, wall, 1);  // as it stands behind the wall
+  EXPECT_EQ(answer["scene"]["file"], wall);
+  EXPECT_EQ(answer["body"]["file"], clip);
 }
 
 TEST(SetupProgram, WithoutYesNothingIsWritten) {
