@@ -39,6 +39,7 @@ class GltfModel {
       node.name = from.name;
       node.parent = from.parent;
       node.toParent = from.toParent;
+      node.isOnlooker = from.isOnlooker;
       ModelSize more;
       more.nodes = 1;
       more.nameBytes = node.name.size();

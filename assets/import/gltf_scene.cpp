@@ -74,6 +74,14 @@ std::optional<std::size_t> indexIn(const json& node, const char* key) {
   return found == nullptr ? std::nullopt : std::optional(found->get<std::size_t>());
 }
 
+/// Nothing else of a camera or a light is read, so they may be as they like.
+bool isOnlooker(const json& node) {
+  if (node.contains("camera")) return true;
+  const json* const extensions = memberOf(node, "extensions");
+  return extensions != nullptr && extensions->is_object() &&
+         extensions->contains("KHR_lights_punctual");
+}
+
 /// "meshes[0].primitives[1].attributes.'POSITION'"
 std::string attributeAt(const std::string& place, const std::string& name) {
   return place + ".attributes." + inQuotes(name);
@@ -181,6 +189,7 @@ GltfNode GltfScene::nodeAt(std::size_t index, std::int32_t parent) {
   }
   node.mesh = indexIn(described, "mesh");
   node.skin = indexIn(described, "skin");
+  node.isOnlooker = isOnlooker(described);
   return node;
 }
 

@@ -28,6 +28,7 @@ struct GltfNode {
   std::string name;
   Affine toParent;
   std::optional<std::size_t> mesh, skin;
+  bool isOnlooker = false;  ///< It holds a camera or a light.
 };
 
 /// A primitive of a mesh, its morph targets applied at their default weights.

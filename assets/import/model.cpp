@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -59,9 +60,11 @@ class AssimpModel {
 
   void addNodes() {
     visited_ = nodesOf(scene_, kMaxModelNodes);
+    const std::set<std::string> onlookers = onlookerNames();
     for (const VisitedNode& visited : visited_) {
       ModelNode node;
       node.name = textOf(visited.node->mName);
+      node.isOnlooker = onlookers.count(node.name) != 0;
       node.parent = visited.parent;
       node.toParent = inMetres(visited.node->mTransformation);
       if (!isFinite(node.toParent)) {
@@ -76,6 +79,18 @@ class AssimpModel {
       addName(node.name, index, visited.node->mNumMeshes > 0);
       builder_.model.nodes.push_back(std::move(node));
     }
+  }
+
+  /// assimp says of a camera or a light which node has its name.
+  [[nodiscard]] std::set<std::string> onlookerNames() const {
+    std::set<std::string> names;
+    for (unsigned i = 0; i < scene_.mNumCameras; ++i) {
+      names.insert(textOf(scene_.mCameras[i]->mName));
+    }
+    for (unsigned i = 0; i < scene_.mNumLights; ++i) {
+      names.insert(textOf(scene_.mLights[i]->mName));
+    }
+    return names;
   }
 
   void addName(const std::string& name, std::int32_t index, bool hasMesh) {

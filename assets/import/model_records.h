@@ -38,7 +38,8 @@ struct NodeHead {
   std::array<double, 3> axis;
   double lowerLimit, upperLimit;
   std::int32_t parent;
-  std::uint32_t joint, lss, nameBytes;  // LSS, the name and the joint's name follow
+  std::uint32_t joint, lss, nameBytes, isOnlooker;  // LSS, the name and the joint's name follow
+  std::uint32_t unused;
 };
 using LssRecord = std::array<double, 7>;
 struct MimicRecord {

@@ -58,7 +58,9 @@ void ModelWriter::writeNode(const ModelNode& node) {
                       node.parent,
                       static_cast<std::uint32_t>(node.joint),
                       static_cast<std::uint32_t>(node.lss.size()),
-                      static_cast<std::uint32_t>(name.size())};
+                      static_cast<std::uint32_t>(name.size()),
+                      node.isOnlooker ? 1u : 0u,
+                      0};
   std::string payload(bytesOf(head));
   for (const Lss& lss : node.lss) payload += bytesOf(recordOf(lss));
   payload += name;

@@ -40,7 +40,8 @@ struct ModelNode {
   std::vector<Lss>
       lss;  ///< Spheres and capsules that the file declares as such, in the node's frame.
   ModelJointType joint = ModelJointType::Free;
-  std::string jointName;  ///< URDF and MJCF name joints apart from links; else empty.
+  std::string jointName;    ///< URDF and MJCF name joints apart from links; else empty.
+  bool isOnlooker = false;  ///< A camera or a light: what it does is no motion of a body.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Of the joint, in the node's frame, unit.
   double lowerLimit = 0.0, upperLimit = 0.0;        ///< Radians or metres; equal: none stated.
 };

@@ -11,6 +11,7 @@
 #include "assets/model/model_frames.h"
 #include "assets/model/model_tracks.h"
 #include "assets/model/pose_frames.h"
+#include "assets/near_names.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
 
@@ -20,22 +21,61 @@ namespace {
 /// Of a frame: a duration that is a whole number of frames up to rounding gets no extra frame.
 constexpr double kWholeFrame = 1e-6;
 
-Result<const ModelAnimation*> findAnimation(const Model& model, const std::string& wanted) {
-  if (model.animations.empty()) {
-    return Error::of(ErrorCode::Empty, "the model holds no animation");
-  }
-  if (wanted.empty()) return &model.animations.front();
+std::vector<std::string> namesOf(const std::vector<ModelAnimation>& animations) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < model.animations.size(); ++i) {
-    if (model.animations[i].name == wanted) return &model.animations[i];
-    names.push_back(model.animations[i].name);
+  for (const ModelAnimation& animation : animations) names.push_back(animation.name);
+  return names;
+}
+
+/// "Walk" of "Armature|Walk": exporters put the rig before it.
+std::string nameWithoutRig(const std::string& name) {
+  return name.substr(name.rfind('|') + 1);
+}
+
+/// "; did you mean ...?": with the rig before the name, or without it.
+std::string nearestAnimations(const std::string& wanted, const std::vector<std::string>& names) {
+  std::vector<std::string> bare;
+  for (const std::string& name : names) bare.push_back(nameWithoutRig(name));
+  const std::string near = didYouMean(wanted, names);
+  return near.empty() ? didYouMean(wanted, bare) : near;
+}
+
+/// The only one that `is` so; null: there is none, or there are several.
+template <typename Is>
+const ModelAnimation* onlyOne(const std::vector<ModelAnimation>& animations, Is is) {
+  const auto first = std::find_if(animations.begin(), animations.end(), is);
+  if (first == animations.end()) return nullptr;
+  return std::any_of(first + 1, animations.end(), is) ? nullptr : &*first;
+}
+
+Result<const ModelAnimation*> findAnimation(const Model& model, const std::string& wanted) {
+  const std::vector<ModelAnimation>& animations = model.animations;
+  if (animations.empty()) return Error::of(ErrorCode::Empty, "the model holds no animation");
+  if (wanted.empty()) return &animations.front();
+  for (const ModelAnimation& animation : animations) {
+    if (animation.name == wanted) return &animation;
   }
-  for (std::size_t i = 0; i < model.animations.size(); ++i) {
-    if (std::to_string(i) == wanted) return &model.animations[i];
+  for (std::size_t i = 0; i < animations.size(); ++i) {
+    if (std::to_string(i) == wanted) return &animations[i];
   }
+  const auto* const ofRig = onlyOne(animations, [&](const ModelAnimation& animation) {
+    return nameWithoutRig(animation.name) == wanted;
+  });
+  if (ofRig != nullptr) return ofRig;
+  const std::vector<std::string> names = namesOf(animations);
   return Error::of(ErrorCode::UnknownName,
                    "no animation is called " + inQuotes(wanted) + "; expected a number from 0 to " +
-                       std::to_string(names.size() - 1) + ", or one of " + internal::listed(names));
+                       std::to_string(names.size() - 1) + ", or one of " + internal::listed(names) +
+                       nearestAnimations(wanted, names));
+}
+
+/// Which one is played is never a secret, where the user named none of several.
+void noteChoice(const Model& model, const std::string& wanted, std::vector<std::string>& notes) {
+  if (!wanted.empty() || model.animations.size() < 2) return;
+  const std::vector<std::string> names = namesOf(model.animations);
+  notes.push_back("holds " + std::to_string(names.size()) + " animations, and the first, " +
+                  inQuotes(names.front()) + ", is played; a name or a number chooses another of " +
+                  internal::listed(names));
 }
 
 std::vector<internal::SampledTrack> sampledTracks(const Model& model,
@@ -126,6 +166,7 @@ Result<Clip> clipFromModel(const Model& model, const ModelClipOptions& options) 
     FORETOUCH_CHECK(collector.add(frames));
   }
   std::vector<std::string> notes = notesOn(model, tracks);
+  noteChoice(model, options.animation, notes);
   noteChordError(internal::chordErrorOf(model, tracks, count, options.rateHz), options.rateHz,
                  notes);
   return collector.take(1.0 / options.rateHz, std::move(notes));

@@ -43,6 +43,7 @@ class LinkFinder {
   void findLoads();
   void findMoved();
   void findServed();
+  void leaveOutOnlookers();
   [[nodiscard]] bool isIdlePivot(std::size_t node) const {
     return !loaded_[node] && model_.nodes[node].name.find(kPivotMark) != std::string::npos;
   }
@@ -50,7 +51,7 @@ class LinkFinder {
   const Model& model_;
   std::size_t size_;
   const ModelOwnership& ownership_;
-  std::vector<bool> loaded_, moved_;
+  std::vector<bool> loaded_, moved_, hasChildren_;
   std::vector<std::int32_t> served_;
 };
 
@@ -92,10 +93,38 @@ void LinkFinder::findServed() {
   }
 }
 
+/// A camera or a light that nothing else makes a link is none, however it moves; nor is what moves
+/// only such (a camera's crane). A joint of the body that carries a camera stays one.
+void LinkFinder::leaveOutOnlookers() {
+  const auto isAlone = [&](std::size_t node) {
+    return !loaded_[node] && (model_.nodes[node].isOnlooker || hasChildren_[node]);
+  };
+  std::vector<bool> onlyCarries(size_, true), isBelowBody(size_, false);
+  hasChildren_.assign(size_, false);
+  for (std::size_t i = size_; i-- > 0;) {
+    onlyCarries[i] = onlyCarries[i] && isAlone(i);
+    const std::int32_t parent = model_.nodes[i].parent;
+    if (parent < 0) continue;
+    hasChildren_[slotOf(parent)] = true;
+    if (!onlyCarries[i]) onlyCarries[slotOf(parent)] = false;
+  }
+  for (std::size_t i = 0; i < size_; ++i) {
+    const std::int32_t parent = model_.nodes[i].parent;
+    isBelowBody[i] =
+        parent >= 0 &&
+        (isBelowBody[slotOf(parent)] ||
+         ((moved_[slotOf(parent)] || loaded_[slotOf(parent)]) && !onlyCarries[slotOf(parent)]));
+    const std::size_t served = slotOf(served_[i]);
+    const bool isOnlooker = model_.nodes[served].isOnlooker && !loaded_[served];
+    if (isOnlooker || (onlyCarries[i] && !isBelowBody[i])) moved_[i] = false;
+  }
+}
+
 std::vector<bool> LinkFinder::links() {
   findLoads();
   findMoved();
   findServed();
+  leaveOutOnlookers();
   std::vector<bool> isLink = loaded_;
   for (std::size_t i = 0; i < size_; ++i) {
     if (moved_[i]) isLink[slotOf(served_[i])] = true;
@@ -192,7 +221,7 @@ std::optional<Error> countError(std::size_t links) {
     return Error::of(
         ErrorCode::Empty,
         "the model has no node that carries or moves anything; expected bones, meshes, "
-        "joints or an animation");
+        "joints or an animation of them (cameras and lights are no bones)");
   }
   if (links > slotOf(kMaxJoints)) {
     return Error::of(ErrorCode::LimitExceeded, "expected at most " + std::to_string(kMaxJoints) +

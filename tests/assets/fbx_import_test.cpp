@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -112,6 +113,36 @@ class ImportFbx : public testing::Test {
 
   TempFolder folder_;
 };
+
+TEST_F(ImportFbx, CamerasAndLightsAreNoJointsHoweverTheyMove) {
+  const FbxCurve moves{{0.0, 0.0}, {1.0, 50.0}};
+  const auto moving = [&](const char* name, int parent, const char* onlooker = "") {
+    FbxNode node;
+    node.name = name;
+    node.parent = parent;
+    node.translation = {0, 10, 0};
+    node.translations[0] = moves;
+    node.preRotation = {0, 0, 20};  // makes a chain of pivots
+    node.onlooker = onlooker;
+    return node;
+  };
+  FbxFile file;
+  file.stopS = 1.0;
+  file.nodes = {moving("hips", -1),          moving("head", 0),
+                moving("view", 1, "Camera"), moving("crane", -1),
+                moving("boom", 3),           moving("shot", 4, "Camera"),
+                moving("lamp", -1, "Light"), moving("rig", -1, "Camera"),
+                moving("carried", 7),        moving("hand", 0)};
+  const Skeleton skeleton = clipOf(read(file)).skeleton;
+  std::set<std::string> names;
+  for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) names.insert(skeleton.name(joint));
+  for (const char* const joint : {"hips", "head", "hand", "rig", "carried"}) {
+    EXPECT_EQ(names.count(joint), 1u) << joint << ": a camera's parent or child may be a bone";
+  }
+  for (const char* const none : {"view", "crane", "boom", "shot", "lamp"}) {
+    EXPECT_EQ(names.count(none), 0u) << none;
+  }
+}
 
 TEST_F(ImportFbx, PlacesNodesAtRestAsTheFormulaSays) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {

@@ -24,7 +24,10 @@ std::string vectorProperty(const char* name, const char* type, const char* label
 std::string modelText(const FbxNode& node, int id) {
   std::string text = fmt::format(
       "\tModel: {}, \"Model::{}\", \"{}\" {{\n\t\tVersion: 232\n\t\tProperties70:  {{\n", id,
-      node.name, node.hasMesh ? "Mesh" : "LimbNode");
+      node.name,
+      node.hasMesh            ? "Mesh"
+      : node.onlooker.empty() ? "LimbNode"
+                              : node.onlooker);
   const auto pivot = [&text](const char* name, const Vector3d& v) {
     if (!v.isZero()) text += vectorProperty(name, "Vector3D", "Vector", "", v);
   };
@@ -84,6 +87,13 @@ class Objects {
     models_.push_back(id);
     objects_ += modelText(node, id);
     connect(id, node.parent < 0 ? 0 : models_[static_cast<std::size_t>(node.parent)]);
+    if (!node.onlooker.empty()) {
+      objects_ += fmt::format(
+          "\tNodeAttribute: {}, \"NodeAttribute::\", \"{}\" {{\n\t\tTypeFlags: \"{}\"\n"
+          "\t\tProperties70:  {{\n\t\t}}\n\t}}\n",
+          next_, node.onlooker, node.onlooker);
+      connect(next_++, id);
+    }
     if (!node.hasMesh) return;
     objects_ += geometryText(next_);
     connect(next_++, id);

@@ -29,6 +29,7 @@ struct FbxNode {
   int rotationOrder = 0;  ///< XYZ, XZY, YZX, YXZ, ZXY, ZYX: the first turns first.
   FbxCurves translations, rotations, scalings;
   bool hasMesh = false;  ///< One triangle, around the node.
+  std::string onlooker;  ///< "Camera" or "Light"; empty: it is none.
 };
 
 struct FbxFile {

@@ -54,6 +54,27 @@ class GltfAnimation : public testing::Test {
   std::vector<std::string> notes_;
 };
 
+TEST_F(GltfAnimation, CamerasAndLightsAreNoJoints) {
+  GltfWriter writer;
+  const std::size_t input = writer.accessor({0, 1}, 1);
+  const std::size_t output = writer.accessor({0, 0, 0, 1, 0, 0}, 3);
+  writer.node({{"name", "bone"}});
+  writer.node({{"name", "camera"}, {"camera", 0}});
+  writer.node({{"name", "lamp"}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  json channels = json::array();
+  for (int node = 0; node < 3; ++node) {
+    channels.push_back({{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}});
+  }
+  writer.root["animations"] = {
+      {{"samplers", {{{"input", input}, {"output", output}}}}, {"channels", channels}}};
+  const auto model = importModel(folder_.write("a.gltf", writer.gltf()), withModelImporter());
+  ASSERT_TRUE(model.ok()) << describe(model.error());
+  const auto clip = clipFromModel(model.value(), {});
+  ASSERT_TRUE(clip.ok()) << describe(clip.error());
+  ASSERT_EQ(clip.value().skeleton.numJoints(), 2);  // and the root above all
+  EXPECT_EQ(clip.value().skeleton.name(1), "bone");
+}
+
 /// A cubic by de Casteljau's construction: the Bezier points of a Hermite curve lie a third of its
 /// tangents away from its ends.
 Eigen::VectorXd casteljau(const Eigen::VectorXd& p, const Eigen::VectorXd& out,

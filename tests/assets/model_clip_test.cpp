@@ -293,6 +293,19 @@ TEST(ClipFromModel, FindsAnimationsByNameThenByNumber) {
   EXPECT_EQ(reach("walk"), 1.0);
   EXPECT_EQ(reach("0"), 5.0);
   EXPECT_EQ(reach("1"), 5.0);
+  model.animations[0].name = "Rig|walk";
+  EXPECT_EQ(reach("walk"), 1.0) << "exporters put the rig before it";
+  const auto misspelt = clipFromModel(model, {"wolk", 30.0});
+  ASSERT_FALSE(misspelt.ok());
+  EXPECT_NE(misspelt.error().message.find("did you mean 'walk'"), std::string::npos);
+  model.animations.push_back(model.animations[0]);
+  model.animations.back().name = "Other|walk";
+  EXPECT_FALSE(clipFromModel(model, {"walk", 30.0}).ok()) << "either may be meant";
+  const auto unnamed = clipFromModel(model, {"", 30.0}).value().notes;
+  EXPECT_TRUE(std::any_of(unnamed.begin(), unnamed.end(), [](const std::string& note) {
+    return note.find("holds 3 animations, and the first, 'Rig|walk', is played") == 0;
+  }));
+  model.animations[0].name = "walk";
   const auto unknown = clipFromModel(model, {"jump", 30.0});
   ASSERT_FALSE(unknown.ok());
   EXPECT_EQ(unknown.error().code, ErrorCode::UnknownName);

@@ -77,6 +77,7 @@ class ManifestReading {
 };
 
 void ManifestReading::addNames(Setting& setting) {
+  if (setting.fillsOthers) return;  // a line names what is chosen for each job
   const std::string name = setting.name();
   known_.push_back({&setting, known_.size(), setting.shown ? setting.shown() : ""});
   byName_[name] = known_.size() - 1;

@@ -15,6 +15,7 @@
 #include "middleware/query/query.h"
 #include "tools/certificate/certify_edges.h"
 #include "tools/console.h"
+#include "tools/inputs/file_roles.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
@@ -27,6 +28,7 @@ namespace {
 struct AskedCertificate {
   ReplayRequest request;
   AskedEdges edges;
+  std::vector<std::string> files;
   std::string folder;
   bool asJson = false;
 };
@@ -59,6 +61,7 @@ Settings certifySettings(AskedCertificate& asked) {
       .in(kOutputGroup)
       .required();
   settings.asJson(asked.asJson);
+  addFilesSetting(settings, asked.files);
   return settings;
 }
 

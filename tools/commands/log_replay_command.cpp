@@ -83,7 +83,12 @@ std::string jsonOf(const LogReplayReport& report, const ReplayedWorld& world) {
   out.field("messages", world.answers());
   out.field("messages_recorded", world.journal().recorded());
   out.field("messages_equal", world.journal().equal());
-  out.field("agrees", report.agrees() && world.agrees());
+  const bool agrees = report.agrees() && world.agrees();
+  if (agrees && !world.journal().hasRecord()) {
+    out.rawField("agrees", "null");  // no contradiction, but also nothing that could be one
+  } else {
+    out.field("agrees", agrees);
+  }
   out.endObject();
   return text + "\n";
 }

@@ -13,6 +13,7 @@
 #include "tools/arguments.h"
 #include "tools/commands/replay_log_command.h"
 #include "tools/commands/solid_replay.h"
+#include "tools/inputs/file_roles.h"
 #include "tools/inputs/policy_rules.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
@@ -30,6 +31,7 @@ namespace {
 /// The values of all options.
 struct AskedReplay {
   ReplayJob job;
+  std::vector<std::string> files;
   std::vector<std::string> avatars;  ///< For a log, numbered as parseNumberedAvatars() reads them.
   StreamPolicy stream;
   std::string suffix;
@@ -142,6 +144,7 @@ Settings replaySettings(AskedReplay& asked) {
       .in(kEffortGroup)
       .ofClips();
   addLogSettings(settings, asked);
+  addFilesSetting(settings, asked.files);
   return settings;
 }
 
@@ -294,6 +297,7 @@ ExitCode run(const Settings& settings, AskedReplay& asked) {
 }
 
 constexpr char kReplayExamples[] = R"(Examples:
+  foretouch replay room.obj dancer.avatar.json dancer.bvh --rate 10 -o contacts.jsonl
   foretouch replay --scene room.obj --avatar dancer.avatar.json --motion dancer.bvh \
       --rate 10 --output contacts.jsonl
   foretouch replay --scene kitchen.ply --scene-up z --avatar a.avatar.json --motion walk.bvh \

@@ -9,6 +9,7 @@
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "assets/text_file.h"
+#include "lss/index.h"
 #include "tools/console.h"
 #include "tools/inputs/joint_map.h"
 
@@ -42,9 +43,25 @@ std::vector<std::string> remarksOnClip(const Avatar& avatar, const Clip& clip,
     remarks.push_back(fmt::format("{}: {} joints drive nothing: {}", motionPath,
                                   match.unmatchedClip.size(), firstOf(match.unmatchedClip)));
   }
-  const auto unit = remarkOnUnit(avatar, clip, match, motionPath);
-  if (unit) remarks.push_back(*unit);
+  const bool isRobot = clipFormatOf(motionPath) == ClipFormat::JointTable;
+  for (const auto& remark : {remarkOnVolume(avatar, avatarPath, isRobot),
+                             remarkOnUnit(avatar, clip, match, motionPath)}) {
+    if (remark) remarks.push_back(*remark);
+  }
   return remarks;
+}
+
+std::optional<std::string> remarkOnVolume(const Avatar& avatar, const std::string& avatarPath,
+                                          bool isRobot) {
+  std::vector<std::string> bare;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    if (avatar.lss(link).empty()) bare.push_back(avatar.skeleton().name(link));
+  }
+  if (bare.empty() || (!isRobot && 2 * bare.size() < countOf(avatar.numLinks()))) {
+    return std::nullopt;
+  }
+  return fmt::format("{}: {} of {} links have no volume, so they touch nothing: {}", avatarPath,
+                     bare.size(), avatar.numLinks(), firstOf(bare));
 }
 
 std::optional<std::string> remarkOnUnit(const Avatar& avatar, const Clip& clip,

@@ -34,6 +34,12 @@ struct PlayedClip {
                                                      const std::string& avatarPath,
                                                      const std::string& motionPath);
 
+/// Links without any LSS: of a robot; of a body only if they are half of all, as its root and its
+/// tips have none anyway.
+[[nodiscard]] std::optional<std::string> remarkOnVolume(const Avatar& avatar,
+                                                        const std::string& avatarPath,
+                                                        bool isRobot);
+
 /// Only the last of these: the clip's bones are twice as long as the avatar's, or half.
 [[nodiscard]] std::optional<std::string> remarkOnUnit(const Avatar& avatar, const Clip& clip,
                                                       const JointMatch& match,

@@ -1,14 +1,8 @@
 #include "tools/log/replay_log.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <cstdio>
-#include <filesystem>
 #include <limits>
-#include <memory>
 #include <optional>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -228,22 +222,6 @@ class LogReplay {
 };
 
 }  // namespace
-
-bool isEventLog(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".lcmlog") return true;
-  std::error_code problem;
-  if (!std::filesystem::is_regular_file(path, problem))
-    return false;  // do not consume a pipe's first bytes
-  constexpr std::array<unsigned char, 4> kMagic{0xED, 0xA1, 0xDA, 0x01};
-  std::array<unsigned char, kMagic.size()> first{};
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             &std::fclose);
-  return file && std::fread(first.data(), 1, first.size(), file.get()) == first.size() &&
-         first == kMagic;
-}
 
 Result<LogReplayInputs> loadLogReplayInputs(const LogReplayRequest& request) {
   FORETOUCH_TRY(auto channels, channelNames(request.suffix));

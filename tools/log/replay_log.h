@@ -25,9 +25,6 @@
 
 namespace foretouch::tools {
 
-/// True for a path that ends in .lcmlog, and for a file that begins as event logs do.
-[[nodiscard]] bool isEventLog(const std::string& path);
-
 struct LogReplayRequest {
   std::string logPath;
   WorldRequest world;

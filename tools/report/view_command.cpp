@@ -1,21 +1,15 @@
 #include "tools/report/view_command.h"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <filesystem>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "articulated/try.h"
-#include "assets/import/model_import.h"
 #include "assets/json_writer.h"
 #include "assets/text_file.h"
 #include "tools/arguments.h"
+#include "tools/inputs/file_roles.h"
 #include "tools/interrupt.h"
-#include "tools/log/replay_log.h"
 #include "tools/report/inspection.h"
 #include "tools/report/report_file.h"
 #include "tools/results_output.h"
@@ -25,78 +19,13 @@ namespace {
 
 /// The values of all options.
 struct ViewJob {
-  std::vector<std::string> files;  ///< Their names tell their role.
+  std::vector<std::string> files;
   ReplayRequest request;
   ReportOptions report;
   bool json = false;
 };
 
-/// What a file can be, by its name alone.
-enum class FileRole : std::uint8_t { Scene, Avatar, Motion, Several, Unknown };
-
-FileRole roleOf(const std::string& path) {
-  using namespace std::string_view_literals;
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto isOneOf = [&](const auto& extensions) {
-    return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
-  };
-  if (isOneOf(std::array{".obj"sv, ".ply"sv, ".stl"sv, ".off"sv, ".3ds"sv})) return FileRole::Scene;
-  if (extension == ".json") return FileRole::Avatar;
-  if (isOneOf(std::array{".bvh"sv, ".csv"sv})) return FileRole::Motion;
-  if (isOneOf(std::array{".glb"sv, ".gltf"sv, ".fbx"sv, ".dae"sv, ".x"sv})) {
-    return FileRole::Several;
-  }
-  return FileRole::Unknown;
-}
-
-/// A model is a motion if it holds an animation, else a scene; one that holds neither animation nor
-/// triangles is left to the reader of scenes, which says so.
-Result<FileRole> roleOfModel(const std::string& file) {
-  FORETOUCH_TRY(const auto model, importModel(file));
-  const bool hasBones = std::any_of(model.meshes.begin(), model.meshes.end(),
-                                    [](const ModelMesh& mesh) { return !mesh.bones.empty(); });
-  if (model.animations.empty() && hasBones) {
-    return Error::in(file, ErrorCode::Mismatch,
-                     "is a body without an animation; expected --scene before it, or foretouch "
-                     "avatar mesh to make an avatar of it");
-  }
-  return model.animations.empty() ? FileRole::Scene : FileRole::Motion;
-}
-
-/// Assigns files without an option by their names, models by what is in them.
-Result<Done> assignFiles(const std::vector<std::string>& files, ReplayRequest& request) {
-  for (const std::string& file : files) {
-    FileRole role = roleOf(file);
-    if (role == FileRole::Several) {
-      FORETOUCH_TRY(role, roleOfModel(file));
-    }
-    std::string* place = nullptr;
-    switch (role) {
-      case FileRole::Scene: place = &request.scenePath; break;
-      case FileRole::Avatar: place = &request.avatarPath; break;
-      case FileRole::Motion: place = &request.motionPath; break;
-      case FileRole::Several:
-      case FileRole::Unknown:
-        return Error::in(file, ErrorCode::Mismatch,
-                         "its name does not say what it is; expected --scene, --avatar or --motion "
-                         "before it");
-    }
-    if (!place->empty()) {
-      return Error::in(file, ErrorCode::Mismatch,
-                       "is a second one of its kind; expected at most one, found " +
-                           inQuotes(*place) + " as well");
-    }
-    *place = file;
-  }
-  return Done{};
-}
-
-Result<Done> check(ViewJob& job) {
-  ReplayRequest& request = job.request;
-  const auto assigned = assignFiles(job.files, request);
-  if (!assigned.ok()) return assigned;
+Result<Done> check(const ReplayRequest& request) {
   if (request.scenePath.empty() && request.avatarPath.empty() && request.motionPath.empty()) {
     return Error::in("view", ErrorCode::Empty, "expected a scene, an avatar or a motion");
   }
@@ -143,8 +72,8 @@ std::string jsonOf(const Found& found, const std::string& report) {
   return text + "\n";
 }
 
-ExitCode run(ViewJob job) {
-  FORETOUCH_CHECK_OR(failed, check(job));
+ExitCode run(const ViewJob& job) {
+  FORETOUCH_CHECK_OR(failed, check(job.request));
   Found found;
   FORETOUCH_CHECK_OR(failed, view(job, found));
   const bool outIsTaken = isStandardOutput(job.report.path);
@@ -172,9 +101,6 @@ Command viewCommand() {
   const auto job = std::make_shared<ViewJob>();
   job->report.path = "foretouch-view.html";
   Settings settings;
-  settings.list(
-      "files", "FILE", job->files,
-      "Scene, avatar (json) and clip, any of them; their names or contents tell which is which");
   addSceneSettings(settings, job->request);
   addAvatarSetting(settings, job->request);
   addMotionSetting(settings, job->request, "--motion", "CLIP");
@@ -189,6 +115,9 @@ Command viewCommand() {
   addRateSetting(settings, job->request,
                  "Poses per second to show of the clip; animations: 30 if all");
   addClipSettings(settings, job->request);
+  addFilesSetting(
+      settings, job->files,
+      "Scene, avatar (json) and clip, any of them; their names or contents tell which is which");
   Command command{"view",
                   "Look at a scene, an avatar or a clip before a run: units, axes, placement",
                   kViewExamples, std::move(settings)};

@@ -63,7 +63,7 @@ void addSetting(CLI::App& app, Typed& typed) {
   const Setting& setting = *typed.setting;
   addOption(app, typed);
   if (!setting.group.empty()) typed.option->group(setting.group);
-  if (setting.isRequired) typed.option->option_text(kRequired);
+  if (setting.isRequired && !setting.isFilledByFiles) typed.option->option_text(kRequired);
   if (!setting.needs.empty()) typed.option->needs(app.get_option(setting.needs));
   if (!setting.isGone.empty()) typed.option->group("");  // hidden from help
   if (!setting.valueIfNone.empty()) {
@@ -99,12 +99,8 @@ Result<Done> takeProject(Subcommand& subcommand) {
   const std::string path = projectOf(subcommand);
   if (path.empty()) return Done{};
   FORETOUCH_TRY(const auto notes,
-                takeFromProject(path, subcommand.command.settings, [&](const Setting& setting) {
-                  return std::any_of(
-                      subcommand.typed.begin(), subcommand.typed.end(), [&](const Typed& typed) {
-                        return typed.setting == &setting && typed.option->count() > 0;
-                      });
-                }));
+                takeFromProject(path, subcommand.command.settings,
+                                [](const Setting& setting) { return setting.isGiven; }));
   printNote("settings from " + path);
   for (const std::string& note : notes) printNote(note);
   return Done{};
@@ -120,7 +116,7 @@ std::string missingIn(const Subcommand& subcommand) {
   for (const Typed& typed : subcommand.typed) {
     const Setting& setting = *typed.setting;
     if (!setting.isRequired || setting.isGiven || !setting.shown().empty()) continue;
-    if (setting.option.front() != '-') return "expected " + setting.noun;
+    if (!setting.noun.empty()) return "expected " + setting.noun;
     names.push_back(setting.name());
   }
   if (names.empty()) return "";
@@ -129,9 +125,16 @@ std::string missingIn(const Subcommand& subcommand) {
 
 ExitCode runSubcommand(Subcommand& subcommand) {
   if (subcommand.isQuiet) keepQuiet();
+  for (const Typed& typed : subcommand.typed) {
+    typed.setting->isGiven = typed.option->count() > 0;
+  }
+  // A project says nothing of what files without an option are.
+  for (const Typed& typed : subcommand.typed) {
+    if (typed.setting->fillsOthers) FORETOUCH_CHECK_OR(failed, take(typed));
+  }
   FORETOUCH_CHECK_OR(failed, takeProject(subcommand));
   for (const Typed& typed : subcommand.typed) {
-    FORETOUCH_CHECK_OR(failed, take(typed));
+    if (!typed.setting->fillsOthers) FORETOUCH_CHECK_OR(failed, take(typed));
   }
   if (const std::string missing = missingIn(subcommand); !missing.empty()) {
     printError(withHelpOf(*subcommand.app, leadOf(*subcommand.app) + missing));

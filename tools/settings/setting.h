@@ -67,13 +67,15 @@ struct Setting {
 
   std::string group;  ///< In help. Empty: "Options".
   bool isRequired = false;
-  std::string noun;         ///< Of a required argument, for its error: "a scene file".
+  std::string noun;                ///< Of a required argument, for its error: "a scene file".
   bool standsForRequired = false;  ///< Where it is given, nothing else is required.
-  std::string needs;        ///< Another option that this one requires.
-  bool isPath = false;      ///< In a configuration, relative to that file's folder.
-  bool takesFiles = false;  ///< Paths, for a shell that completes them.
-  std::string endings;      ///< Of these files: "bvh glb"; empty: any.
-  bool mayBeEmpty = true;   ///< For a text in a configuration.
+  std::string needs;               ///< Another option that this one requires.
+  bool fillsOthers = false;        ///< Its values become those of other settings, ...
+  bool isFilledByFiles = false;    ///< ... such as this one: then help demands no option.
+  bool isPath = false;             ///< In a configuration, relative to that file's folder.
+  bool takesFiles = false;         ///< Paths, for a shell that completes them.
+  std::string endings;             ///< Of these files: "bvh glb"; empty: any.
+  bool mayBeEmpty = true;          ///< For a text in a configuration.
   std::string valueIfNone;  ///< Not empty: the option's value is optional, and defaults to this.
   bool isOfClips = false, isOfLogs = false;  ///< In a replay: valid only for these.
   std::string isGone;  ///< Not empty: there is no such option; its error tells users why.

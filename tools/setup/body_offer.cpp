@@ -35,6 +35,10 @@ constexpr double kUsualAdult = 1.7;
 /// Without legs: a hand, an animal, a robot.
 constexpr double kSmallestBody = 0.15, kLargestBody = 10.0;
 
+/// Of the box around all joints at rest, against the height by the legs: arms, wings, tails and
+/// what hands hold stay below.
+constexpr double kWidestReach = 2.5;
+
 /// Among how many frames of a clip to look.
 constexpr std::size_t kFramesLookedAt = 32;
 
@@ -67,7 +71,7 @@ double forgottenUnit(double size) {
   return size > kLargestBody ? (size > 100.0 * kLargestBody ? 0.001 : 0.01) : 1.0;
 }
 
-Offer<double> byStature(double stature, bool isInMetres) {
+Offer<double> byStature(double stature, bool isInMetres, double readAs) {
   const auto isAdult = [](double tall) { return tall >= kShortestAdult && tall <= kTallestAdult; };
   if (isInMetres) {
     const double unit = forgottenUnit(stature);
@@ -77,8 +81,8 @@ Offer<double> byStature(double stature, bool isInMetres) {
   const Unit& unit = nearestUnit(stature, kUsualAdult);
   if (isAdult(stature * unit.metres)) {
     return {unit.metres, true,
-            fmt::format("{} make it {:.3g} m tall, by the length of its legs", unit.name,
-                        stature * unit.metres)};
+            fmt::format("{} make it {:.3g} m tall, by the length of its legs",
+                        unitInWords(readAs * unit.metres), stature * unit.metres)};
   }
   return {guessedUnit(stature), false,
           fmt::format("its legs make it {:.3g} units tall, and no unit that is known makes that an "
@@ -96,6 +100,15 @@ Offer<double> bySize(double size, bool isInMetres) {
   const double unit = size <= kLargestBody ? 1.0 : guessedUnit(size);
   return {unit, false,
           fmt::format("its joints' names show no legs; this makes it {:.3g} m long", size * unit)};
+}
+
+/// Legs of a plausible length beside joints far off: two bodies, or something that is no body.
+void doubtReach(const Clip& clip, double stature, Offer<double>& offer) {
+  const double reach = sizeOf(clip.skeleton, restPose(clip.skeleton)).maxCoeff();
+  if (!(reach > kWidestReach * stature)) return;
+  offer.isSure = false;
+  offer.reason += fmt::format(", but its joints lie {:.3g} m apart: are all of them of one body?",
+                              reach * offer.value);
 }
 
 /// Feet to head, summed over the clip's frames, each as a direction.
@@ -122,16 +135,20 @@ Offer<UpAxis> byShape(const Clip& clip) {
 
 }  // namespace
 
-std::string nameOfUnit(double metres) {
+std::string unitInWords(double metres) {
   for (const Unit& unit : kUnits) {
     if (unit.metres == metres) return unit.name;
   }
-  return "";
+  return fmt::format("{:g} m per unit", metres);
 }
 
-Offer<double> unitOf(const Clip& clip, bool isInMetres) {
+Offer<double> unitOf(const Clip& clip, bool isInMetres, double readAs) {
   const auto stature = statureOf(clip.skeleton);
-  if (stature) return byStature(*stature, isInMetres);
+  if (stature) {
+    Offer<double> offer = byStature(*stature, isInMetres, readAs);
+    doubtReach(clip, *stature, offer);
+    return offer;
+  }
   return bySize(sizeOf(clip.skeleton, restPose(clip.skeleton)).maxCoeff(), isInMetres);
 }
 

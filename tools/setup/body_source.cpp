@@ -41,7 +41,13 @@ Result<Done> readModelBody(const std::string& path, const BodyRequest& request,
   source.isUpright = true;
   const bool hasMesh = std::any_of(model.meshes.begin(), model.meshes.end(),
                                    [](const ModelMesh& mesh) { return !mesh.triangles.empty(); });
-  if (!hasMesh) return Done{};  // a motion without a body
+  if (!hasMesh) {  // a motion without a body
+    source.notes.push_back(path +
+                           ": holds no mesh, so the body is a guess: capsules as thick as a "
+                           "person's around its joints; --avatar MODEL takes the file with the "
+                           "mesh");
+    return Done{};
+  }
   ModelAvatarOptions making;
   making.meshFile = meshFile;
   FORETOUCH_TRY(source.ofModel, inFile(avatarFromModel(model, making), path));

@@ -46,7 +46,9 @@ std::vector<PlacementCheck> clipFrameChecks(const Clip& clip, const FileFrame& f
     axis.tryThis = std::string("--clip-up ") + wordOf(up.value);
   }
   const bool isInMetres = frame.declared.metresPerUnit.has_value();
-  return {unitCheck("body's unit", "--clip-scale", unitOf(clip, isInMetres), frame), axis};
+  return {unitCheck("body's unit", "--clip-scale", unitOf(clip, isInMetres, frame.metresPerUnit),
+                    frame),
+          axis};
 }
 
 }  // namespace foretouch::tools

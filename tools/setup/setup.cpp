@@ -134,11 +134,6 @@ PlacementCheck checkOf(const char* name, const Finding<Value>& finding, const st
           value + ": " + finding.offer.reason, ""};
 }
 
-std::string unitInWords(double metres) {
-  const std::string name = nameOfUnit(metres);
-  return name.empty() ? fmt::format("{:g} m per unit", metres) : name;
-}
-
 std::string axisInWords(UpAxis up) {
   return std::string(wordOf(up)) + " is up";
 }

@@ -1,5 +1,6 @@
 #include "tools/setup/setup_command.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -12,9 +13,12 @@
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
+#include "assets/clip/clip_file.h"
+#include "assets/import/model_import.h"
 #include "assets/text_file.h"
 #include "tools/arguments.h"
 #include "tools/audit/avatar_files.h"
+#include "tools/inputs/file_roles.h"
 #include "tools/settings/clip_settings.h"
 #include "tools/settings/frame_settings.h"
 #include "tools/settings/world_settings.h"
@@ -46,6 +50,27 @@ SetupRequest requestOf(const AskedSetup& asked) {
     request.place->motionUpZ = false;
   }
   return request;
+}
+
+/// A clip, an avatar or a model with bones: what stands in scenes and is none.
+Result<bool> isBody(const std::string& path) {
+  if (clipFormatOf(path) != ClipFormat::Model) {
+    FORETOUCH_TRY(const FileRole role, roleOfFile(path));
+    return role == FileRole::Motion || role == FileRole::Avatar;
+  }
+  FORETOUCH_TRY(const auto model, importModel(path));
+  return std::any_of(model.meshes.begin(), model.meshes.end(),
+                     [](const ModelMesh& mesh) { return !mesh.bones.empty(); });
+}
+
+/// The scene and the body may come in any order where only one of them can be the body. What cannot
+/// be read stays in its place, whose reader says why.
+void sortFiles(AskedSetup& asked) {
+  std::string &scene = asked.world.scenePath, &body = asked.clip.motionPath;
+  const auto second = isBody(body);  // first, as scenes are large
+  if (!second.ok() || second.value()) return;
+  const auto first = isBody(scene);
+  if (first.ok() && first.value()) std::swap(scene, body);
 }
 
 /// The avatar's file: as given, or a new one beside the project.
@@ -195,7 +220,8 @@ std::string closingText(const std::vector<std::string>& written,
   return text;
 }
 
-ExitCode run(const AskedSetup& asked) {
+ExitCode run(AskedSetup& asked) {
+  sortFiles(asked);
   const SetupRequest request = requestOf(asked);
   const std::string avatarPath = avatarPathOf(asked, request);
   const std::string meshFile = meshFileOf(avatarPath);

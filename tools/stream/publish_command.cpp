@@ -6,7 +6,9 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,6 +18,7 @@
 #include "network/service/clock.h"
 #include "network/wire/message_key.h"
 #include "network/wire/wire.h"
+#include "tools/inputs/file_roles.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/settings/numbered_avatars.h"
 #include "tools/settings/stream_settings.h"
@@ -30,6 +33,7 @@ namespace {
 /// The values of all options.
 struct PublishJob {
   ClipRequest request;
+  std::vector<std::string> files;
   PublishOptions options;
   std::string worldPath;  ///< Of a world whose bodies are sent in place of a clip.
   std::string url, suffix, outputPath, keyPath;
@@ -42,7 +46,7 @@ Result<Done> checkTogether(const Settings& settings, const PublishJob& job) {
     return Error::in(option, ErrorCode::Mismatch, why);
   };
   if (!job.worldPath.empty()) {
-    for (const char* option : {"CLIP", "--avatar", "--id", "--rate"}) {
+    for (const char* option : {"--motion", "--avatar", "--id", "--rate"}) {
       if (settings.isGiven(option)) {
         return refuse(option, "is of a clip; --world sends the bodies of its file");
       }
@@ -189,7 +193,7 @@ ExitCode run(const Settings& settings, PublishJob job) {
 }
 
 constexpr char kPublishExamples[] = R"(Examples:
-  foretouch publish dancer.bvh --avatar dancer.avatar.json --rate 30 --loop
+  foretouch publish dancer.bvh dancer.avatar.json --rate 30 --loop
   foretouch publish walk.bvh --avatar a.avatar.json --clip-scale 0.01 --place 1.5,0,-2,90 --id 2
   foretouch publish dancer.bvh --avatar dancer.avatar.json --output dancer.lcmlog
   foretouch publish --world stage.toml
@@ -242,10 +246,11 @@ Result<PublishReport> publishToLog(const ClipRequest& request, const PublishOpti
 Command publishCommand() {
   const auto job = std::make_shared<PublishJob>();
   Settings settings;
-  addMotionSetting(settings, job->request, "CLIP", "").required("a clip to send");
+  addMotionSetting(settings, job->request, "--motion", "CLIP").required("a clip to send");
   addAvatarSetting(settings, job->request).required();
   addSendingSettings(settings, *job);
   addClipSettings(settings, job->request);
+  addFilesSetting(settings, job->files, "The clip, and the avatar (json) if --avatar is not given");
   Command command{"publish", "Send a recorded clip as a live stream of poses", kPublishExamples,
                   std::move(settings)};
   command.takesProject = true;

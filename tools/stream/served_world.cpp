@@ -5,6 +5,7 @@
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "tools/console.h"
+#include "tools/inputs/played_clip.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/stream/stream_solid.h"
 
@@ -34,8 +35,10 @@ Result<ServedWorld> loadServedWorld(const ServeConfig& config) {
   }
   for (const NumberedAvatar& served : config.avatars) {
     FORETOUCH_TRY(auto solver, loadAvatar(config, served, scene));
-    const auto remark = remarkOnMeshes(solver.options(), served.path);
-    if (remark) world.remarks.push_back(*remark);
+    for (const auto& remark : {remarkOnMeshes(solver.options(), served.path),
+                               remarkOnVolume(solver.avatar(), served.path, false)}) {
+      if (remark) world.remarks.push_back(*remark);
+    }
     world.avatars.push_back(std::move(solver));
   }
   return world;

@@ -13,6 +13,7 @@
 #include "articulated/try.h"
 #include "assets/json_writer.h"
 #include "tools/arguments.h"
+#include "tools/inputs/file_roles.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
@@ -42,6 +43,7 @@ std::vector<std::string> namesIn(const std::vector<std::string>& texts) {
 /// The values of all options.
 struct SweepJob {
   SweepRequest request;
+  std::vector<std::string> files;
   std::vector<std::string> links;  ///< As given; none: all.
   std::string output;
   MeshFormat format = MeshFormat::Obj;  ///< Of the output.
@@ -202,6 +204,7 @@ Command sweepCommand() {
                  "Give up beyond this many");
   settings.asJson(job->asJson);
   addClipSettings(settings, request);
+  addFilesSetting(settings, job->files);
   Command command{
       "sweep", "Write what links of an avatar cover during a clip as a mesh with a certified error",
       kSweepExamples, std::move(settings)};

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/holds.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_inputs.h"
 #include "tests/tools/small_world.h"
@@ -74,6 +75,38 @@ TEST(ReplayProgram, WritesAHeaderAndALineAStep) {
   EXPECT_NEAR(contact["normal"][0].get<double>(), -1.0, 1e-9);
   EXPECT_NEAR(contact["on_link"][0].get<double>(), -contact["separation"].get<double>(), 1e-9);
   EXPECT_EQ(contact.count("penetration"), 0u);
+}
+
+TEST(ReplayProgram, TakesFilesWithoutTheirOptionsInAnyOrder) {
+  const SmallWorld world;
+  const TempFolder& folder = world.folder;
+  const std::string named = folder / "named.jsonl", bare = folder / "bare.jsonl";
+  ASSERT_EQ(runForetouch(world.replay({"-o", named})).exitCode, 0);
+  const Ended ended = runForetouch(
+      {"replay", folder / "clip.bvh", folder / "wall.obj", folder / "man.json", "-o", bare});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_EQ(resultsWithoutLatency(bare), resultsWithoutLatency(named));
+  // By content where a name says nothing; an option beside them still counts.
+  const std::string dance = folder.write("dance.txt", clipThroughWall());
+  const std::string body = folder.write("body.dat", kManAvatar);
+  EXPECT_EQ(
+      runForetouch({"replay", dance, body, "--scene", folder / "wall.obj", "-o", bare}).exitCode,
+      0);
+  const auto refused = [&](std::vector<std::string> files, const std::string& message) {
+    files.insert(files.begin(), "replay");
+    files.insert(files.end(), {"-o", bare});
+    const Ended no = runForetouch(files);
+    EXPECT_EQ(no.exitCode, 2) << message;
+    EXPECT_TRUE(holds(no.err, message)) << no.err;
+  };
+  refused({folder / "wall.obj", dance}, "--avatar is required");
+  refused({folder / "wall.obj", folder / "clip.bvh", dance, body},
+          "dance.txt: is a motion, and a second one of its kind");
+  refused({folder / "wall.obj", body, dance, "--motion", folder / "clip.bvh"},
+          "dance.txt: is a motion, and a second one of its kind; expected at most one, found "
+          "--motion as well");
+  refused({folder.write("odd.dat", "?"), body, dance}, "odd.dat: its name does not say what it is");
+  refused({folder / "none.dat", body, dance}, "none.dat: cannot be opened");
 }
 
 TEST(ReplayProgram, ReportsHowDeepAStepStarts) {

@@ -2,6 +2,7 @@
 // real shells take, manual pages that man reads, JSON, "-" and --quiet.
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -264,6 +265,106 @@ TEST(Quiet, LeavesOutNotesAndNothingElse) {
   quiet.back() = "--scene-scale=0";
   quiet.emplace_back("--quiet");
   EXPECT_TRUE(holds(runForetouch(quiet).err, "foretouch: --scene-scale: "));
+}
+
+std::string withoutDigits(std::string text) {
+  text.erase(std::remove_if(text.begin(), text.end(),
+                            [](char c) { return (c >= '0' && c <= '9') || c == ' ' || c == '.'; }),
+             text.end());
+  return text;
+}
+
+/// Every line that is no note.
+std::string withoutNotes(const std::string& text) {
+  std::istringstream lines(text);
+  std::string rest;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("note: ", 0) != 0) rest += line + "\n";
+  }
+  return rest;
+}
+
+/// "Usage: foretouch avatar check AVATAR": the words before the arguments of each.
+std::set<std::string> commandsOfHelp() {
+  std::set<std::string> commands;
+  std::istringstream lines(runForetouch({"--help-all"}).out);
+  for (std::string line, word; std::getline(lines, line);) {
+    if (line.rfind("Usage: foretouch ", 0) != 0 || holds(line, " COMMAND ")) continue;
+    std::string command;
+    for (std::istringstream words(line.substr(17)); words >> word;) {
+      if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyz") != std::string::npos) break;
+      command += (command.empty() ? "" : " ") + word;
+    }
+    commands.insert(command);
+  }
+  return commands;
+}
+
+/// One meaning in every command: no notes, no progress, and all else as it is.
+TEST(Quiet, MeansTheSameToEveryCommand) {
+  const SmallWorld world;
+  const TempFolder& folder = world.folder;
+  const std::string wall = folder / "wall.obj", man = folder / "man.json";
+  const std::string clip = folder / "clip.bvh", log = folder / "a.lcmlog";
+  const std::string out = folder / "out.", shown = folder / "shown.jsonl";
+  const std::string stage = folder.write(
+      "stage.toml",
+      "format = \"foretouch-world\"\nversion = 1\n[scene]\nfile = \"wall.obj\"\n[[body]]\n"
+      "name = \"man\"\navatar = \"man.json\"\nclip = { file = \"clip.bvh\" }\n");
+  const std::string robot = folder.write(
+      "arm.urdf",
+      "<robot name='a'><link name='base'><collision><geometry><sphere radius='0.1'/></geometry>"
+      "</collision></link></robot>");
+  const std::string fleet =
+      folder.write("b.batch",
+                   "foretouch-batch 1\njob --scene wall.obj --avatar man.json --motion "
+                   "clip.bvh\n");
+  ASSERT_EQ(runForetouch({"publish", clip, man, "-o", log}).exitCode, 0);
+  ASSERT_EQ(runForetouch(world.replay({"-o", shown, "--solid"})).exitCode, 0);
+  const std::vector<std::vector<std::string>> lines{
+      {"setup", wall, clip},
+      {"view", wall, man, clip, "--clip-scale", "0.01", "-o", out + "html"},
+      {"replay", wall, man, clip, "--clip-scale", "0.01", "-o", out + "jsonl"},
+      {"batch", fleet, "-o", folder / "fleet"},
+      {"world", "check", stage},
+      {"world", "replay", stage, "-o", out + "jsonl"},
+      {"world", "view", stage, "-o", out + "html"},
+      {"sweep", man, clip, "-o", out + "ply"},
+      {"certify", wall, man, clip, "-o", folder / "proof"},
+      {"avatar", "bvh", clip, "-o", out + "json"},
+      {"avatar", "mesh", wall, "-o", out + "json"},
+      {"avatar", "urdf", robot, "-o", out + "json"},
+      {"avatar", "check", man},
+      {"avatar", "pairs", FORETOUCH_EXAMPLE_FOLDER "/dancer.avatar.json"},
+      {"scene", "check", wall},
+      {"log", "info", log},
+      {"log", "check", log},
+      {"log", "recover", log, "-o", out + "lcmlog"},
+      {"log", "convert", log, "-o", out + "bvh"},
+      {"log", "replay", log, "--world", stage},
+      {"solid", "check", shown}};
+  // Until they are stopped, on a network, of the bundled example, or without an input.
+  std::set<std::string> seen{"serve",      "listen", "demo", "publish",
+                             "completion", "help",   "man",  "version"};
+  const std::set<std::string> all = commandsOfHelp();
+  for (std::vector<std::string> line : lines) {
+    std::string command = line[0];
+    if (all.count(command) == 0) command += " " + line[1];
+    seen.insert(command);
+    const auto run = [&] {
+      std::filesystem::remove(out + "lcmlog");
+      std::filesystem::remove_all(folder / "fleet");
+      return runForetouch(line);
+    };
+    const Ended loud = run();
+    line.emplace_back("-q");
+    const Ended quiet = run();
+    EXPECT_EQ(quiet.exitCode, loud.exitCode) << command << ": " << quiet.err;
+    EXPECT_EQ(quiet.err, withoutNotes(loud.err)) << command;
+    EXPECT_EQ(withoutDigits(quiet.out), withoutDigits(loud.out)) << command;
+    EXPECT_NE(loud.exitCode, 2) << command << ": " << loud.err;
+  }
+  EXPECT_EQ(seen, all);
 }
 
 /// The script `run` with a build that is there already, of a program that says where it is.

@@ -241,6 +241,9 @@ TEST(LogReplayProgram, RefusesByName) {
   const Ended ended = stage.replayed(without);
   EXPECT_EQ(ended.exitCode, 1) << ended.err;
   EXPECT_TRUE(holds(ended.out, "the log has no events of a moving world")) << ended.out;
+  const json found = json::parse(stage.replayed(without, {"--json"}).out);
+  EXPECT_TRUE(found["agrees"].is_null()) << found;
+  EXPECT_EQ(found["messages_recorded"], 0);
   // Who replays it without a world is told that there is more.
   const Ended plain = runForetouch({"replay", "--scene", stage.folder / "wall.obj", "--avatar",
                                     "1=" + (stage.folder / "man.json"), "--motion", log, "--output",

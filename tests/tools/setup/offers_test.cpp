@@ -10,6 +10,7 @@ namespace {
 
 using test::clipOf;
 using test::room;
+using test::standingBones;
 using test::zUp;
 
 TEST(Offers, LegsTellEveryUnitThatExportersUse) {
@@ -18,6 +19,12 @@ TEST(Offers, LegsTellEveryUnitThatExportersUse) {
     EXPECT_EQ(offer.value, unit) << offer.reason;
     EXPECT_TRUE(offer.isSure);
   }
+}
+
+TEST(Offers, AClipThatWasReadInItsUnitIsNamedByIt) {
+  const Offer<double> offer = unitOf(clipOf(1.0), false, 0.01);
+  EXPECT_EQ(offer.value, 1.0);
+  EXPECT_EQ(offer.reason.rfind("centimetres make it ", 0), 0u) << offer.reason;
 }
 
 TEST(Offers, AUnitThatNoExporterUsesIsNotSure) {
@@ -35,6 +42,17 @@ TEST(Offers, AFileThatSaysMetresIsBelievedUnlessItsBodyIsAGiant) {
   const Offer<double> forgotten = unitOf(clipOf(0.01), true);
   EXPECT_EQ(forgotten.value, 0.01);
   EXPECT_FALSE(forgotten.isSure);
+}
+
+TEST(Offers, JointsFarFromAPlausibleBodyAreADoubt) {
+  Clip clip = clipOf(1.0);
+  RawSkeleton bones = standingBones(1.0);
+  bones.joints.push_back({"Prop", 0, {0, 14, 0}, Quaternion::Identity()});
+  clip.skeleton = Skeleton::build(bones).value();
+  const Offer<double> offer = unitOf(clip, true);
+  EXPECT_EQ(offer.value, 1.0);
+  EXPECT_FALSE(offer.isSure);
+  EXPECT_NE(offer.reason.find("joints lie"), std::string::npos) << offer.reason;
 }
 
 TEST(Offers, WithoutLegsNothingIsSure) {

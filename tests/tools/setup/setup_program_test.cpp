@@ -14,6 +14,7 @@
 #include "assets/clip/clip_file.h"
 #include "assets/import/scene_import.h"
 #include "judge/distance.h"
+#include "tests/assets/fbx_writer.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tools/program_run.h"
@@ -59,6 +60,43 @@ TEST(SetupProgram, TheExampleNeedsThreeCommands) {
       {"replay", "--project", project, "--rate", "10", "--output", folder / "contacts.jsonl"});
   EXPECT_EQ(replay.exitCode, 0) << replay.err;
   EXPECT_NE(replay.err.find("settings from"), std::string::npos) << "never in silence";
+}
+
+TEST(SetupProgram, AnAnimationWithoutABodyMakesNoCapsulesOfItsCameras) {
+  const auto node = [](const char* name, int parent, const Eigen::Vector3d& at) {
+    FbxNode made;
+    made.name = name;
+    made.parent = parent;
+    made.translation = at;
+    made.rotations[1] = {{0.0, 0.0}, {1.0, 20.0}};
+    return made;
+  };
+  FbxFile file;  // in centimetres
+  file.stopS = 1.0;
+  file.nodes = {node("Hips", -1, {0, 95, 0}),      node("LeftUpLeg", 0, {9, 0, 0}),
+                node("LeftLeg", 1, {0, -45, 0}),   node("LeftFoot", 2, {0, -45, 0}),
+                node("RightUpLeg", 0, {-9, 0, 0}), node("RightLeg", 4, {0, -45, 0}),
+                node("RightFoot", 5, {0, -45, 0}), node("Spine", 0, {0, 25, 0}),
+                node("Head", 7, {0, 40, 0}),       node("Camera", -1, {0, 1400, 600})};
+  file.nodes.back().onlooker = "Camera";
+  const TempFolder folder;
+  const std::string clip = folder.write("walk.fbx", file.text());
+  const json answer = setupIn(folder, kExample + "/room.obj", clip);
+  EXPECT_NE(answer["notes"].dump().find("holds no mesh"), std::string::npos) << answer["notes"];
+  EXPECT_EQ(stateOf(answer, "body's unit"), "good") << answer;
+  const Avatar avatar = readAvatarFile(folder / "walk.avatar.json").value();
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    EXPECT_NE(avatar.skeleton().name(link), "Camera");
+    for (const Lss& lss : avatar.lss(link)) EXPECT_LT((lss.b - lss.a).norm(), 0.6);
+  }
+}
+
+TEST(SetupProgram, TakesABodyAndASceneInAnyOrder) {
+  const SmallWorld world;
+  const std::string wall = world.folder / "wall.obj", clip = world.folder / "clip.bvh";
+  const json answer = setupIn(world.folder, clip, wall, 1);  // as it stands behind the wall
+  EXPECT_EQ(answer["scene"]["file"], wall);
+  EXPECT_EQ(answer["body"]["file"], clip);
 }
 
 TEST(SetupProgram, WithoutYesNothingIsWritten) {

@@ -288,7 +288,7 @@ TEST(WorldPublisher, WritesALogOrSaysWhyNot) {
     EXPECT_TRUE(holds(ended.err, why)) << ended.err;
   };
   refused({"--rate", "10"}, "--rate: is of a clip");
-  refused({"clip.bvh"}, "CLIP: is of a clip");
+  refused({"clip.bvh"}, "--motion: is of a clip");
   refused({"--speed", "0"}, "--speed: expected above 0");
   const Ended nothing = runForetouch({"publish", "--avatar", stage.folder / "man.json"});
   EXPECT_EQ(nothing.exitCode, 2);

@@ -1,0 +1,38 @@
+// tools/inputs/file_roles.h: files that a command line names without an option: what each of them
+// is, by its name and by what is in it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+#include "tools/settings/settings.h"
+
+namespace foretouch::tools {
+
+enum class FileRole : std::uint8_t {
+  Scene,
+  Avatar,
+  Motion,   ///< A clip, an animated model, a table of joint positions, an event log.
+  Body,     ///< A model with bones and without an animation.
+  Robot,    ///< A URDF or an MJCF.
+  Unknown,  ///< Also what cannot be read; whoever opens it says why.
+};
+
+/// By the name, and where that leaves it open by the content: of a model, whether bones and
+/// animations are in it. Errors: a model that cannot be read.
+[[nodiscard]] Result<FileRole> roleOfFile(const std::string& path);
+
+/// Is a log of LCM events, by its first bytes or its ending.
+[[nodiscard]] bool isEventLog(const std::string& path);
+
+/// Files without an option, in any order: each becomes the value of --scene, --avatar, --motion or
+/// --robot, of those that `settings` has by now. What nothing tells is a clip if no scene is among
+/// them: so pipes are.
+Setting& addFilesSetting(Settings& settings, std::vector<std::string>& files,
+                         const char* help =
+                             "The input files without their options, in any order; their names or "
+                             "contents tell which is which");
+
+}  // namespace foretouch::tools
