@@ -104,10 +104,7 @@ void InC::pushSegment(int body, int segment) {
   bool isFirst = true;
   for (const tools::BodyStretch& stretch : loaded_.bodies[slotOf(body)].stretches) {
     const bool wasFirst = std::exchange(isFirst, false);
-    // Where nobody moves at all, time begins elsewhere.
-    const bool isOut =
-        stretch.beginUs < drawn_.cuts.front() || stretch.beginUs >= drawn_.cuts.back();
-    const bool isHere = isOut ? segment == 0 : stretch.beginUs >= fromUs && stretch.beginUs < toUs;
+    const bool isHere = stretch.beginUs >= fromUs && stretch.beginUs < toUs;
     if (!isHere) continue;
     std::int64_t us = stretch.track.knownFromUs();
     const PoseArrays first(*stretch.track.pieceAt(us).from);

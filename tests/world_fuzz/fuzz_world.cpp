@@ -97,7 +97,7 @@ void Drawing::drawBody(int number, bool isTrigger) {
   FuzzBody body;
   body.name = std::string(1, static_cast<char>('a' + (number * 5 + 3) % 8));
   body.isTrigger = isTrigger;
-  body.stands = random_.chance(0.3);
+  body.stands = number > 0 && random_.chance(0.3);  // somebody has poses: they begin time
   body.isBox = random_.chance(0.25);
   body.group = random_.chance(0.5) ? "one" : "other";
   if (isTrigger) body.whenSilent = "hold-still";
