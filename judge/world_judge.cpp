@@ -120,6 +120,11 @@ std::vector<OraclePart> OracleWorld::partsAt(int id, int link, std::int64_t from
   return parts;
 }
 
+MovingFrame<Real> OracleWorld::frameAt(int id, int link, std::int64_t fromUs, Real us,
+                                       bool isFromLeft) const {
+  return movingAt(id, fromUs, us, isFromLeft).frames[static_cast<std::size_t>(link)];
+}
+
 /// No corner of the link's parts is farther from its origin; below zero if it has none.
 Real OracleWorld::reachOf(int id, int link) const {
   Real rho = -1;

@@ -72,6 +72,9 @@ class OracleWorld {
   /// carrier: after it.
   [[nodiscard]] std::vector<OraclePart> partsAt(int body, int link, std::int64_t fromUs,
                                                 Real us) const;
+  /// A link's frame in W; `isFromLeft`: as above.
+  [[nodiscard]] MovingFrame<Real> frameAt(int body, int link, std::int64_t fromUs, Real us,
+                                          bool isFromLeft) const;
   /// Of a point in W and the surface of a link.
   [[nodiscard]] Real distanceToSurface(int body, int link, const Vec3d& p_W, std::int64_t fromUs,
                                        Real us) const;
