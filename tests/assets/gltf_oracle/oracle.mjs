@@ -44,25 +44,28 @@ function sizeOf(points) {
   return points.length === 0 ? 0 : distance(low, high);
 }
 
-// How far points of `a` are from the nearest of `b`, at most: by a scan along x.
+// How far points of `a` are from the nearest of `b`, at most: by a scan along a line that no wall of a
+// room is square to.
+const along = (p) => 0.5377 * p[0] + 0.6119 * p[1] + 0.58 * p[2];
 function farthest(a, b) {
   if (a.length === 0) return 0;
   if (b.length === 0) return Infinity;
-  const sorted = [...b].sort((p, q) => p[0] - q[0]);
+  const sorted = b.map((p) => [along(p), p]).sort((p, q) => p[0] - q[0]);
   let worst = 0;
   for (const p of a) {
+    const at = along(p);
     let low = 0, high = sorted.length;
     while (low < high) {
       const middle = (low + high) >> 1;
-      if (sorted[middle][0] < p[0]) low = middle + 1;
+      if (sorted[middle][0] < at) low = middle + 1;
       else high = middle;
     }
     let best = Infinity;
-    for (let i = low; i < sorted.length && sorted[i][0] - p[0] < best; ++i) {
-      best = Math.min(best, distance(sorted[i], p));
+    for (let i = low; i < sorted.length && sorted[i][0] - at < best; ++i) {
+      best = Math.min(best, distance(sorted[i][1], p));
     }
-    for (let i = low - 1; i >= 0 && p[0] - sorted[i][0] < best; --i) {
-      best = Math.min(best, distance(sorted[i], p));
+    for (let i = low - 1; i >= 0 && at - sorted[i][0] < best; --i) {
+      best = Math.min(best, distance(sorted[i][1], p));
     }
     worst = Math.max(worst, best);
   }
