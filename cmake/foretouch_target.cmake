@@ -42,13 +42,16 @@ function(foretouch_compile_quickly target)
 endfunction()
 
 # What Debian hardens its own programs by, and the marks of Intel's control-flow protection, for what is
-# packaged (tests/packaging/hardening.sh holds the packages to it). The kernel reads nothing of a
+# packaged and, in every release build, for what reads strangers' bytes (tests/packaging/hardening.sh
+# holds both to it). The kernel reads nothing of a
 # stranger's and gets the cheaper protection of the stack: of arrays of characters, not of every
 # matrix that lives there.
 #   foretouch_harden(<target>)
 # (The reference, which is not packaged, takes the kernel's precompiled headers, and so its flags.)
 set(foretouch_kernel foretouch_lss foretouch_articulated foretouch_tessellation foretouch_middleware
   foretouch_reference)
+set(foretouch_readers foretouch_assets foretouch_gltf foretouch-import foretouch_network
+  foretouch_tools foretouch foretouch_verification foretouch-verify)
 if(FORETOUCH_HARDENED AND FORETOUCH_SANITIZE)
   message(FATAL_ERROR "FORETOUCH_HARDENED and FORETOUCH_SANITIZE exclude one another")
 endif()
@@ -82,7 +85,8 @@ function(foretouch_compile_options target)
     # As GCC's -Wall, which has it for C alone: braces may be left out in C++.
     $<$<CXX_COMPILER_ID:Clang>:-Wno-missing-braces>
     $<$<BOOL:${FORETOUCH_WERROR}>:-Werror>)
-  if(FORETOUCH_HARDENED)
+  if(FORETOUCH_HARDENED OR (target IN_LIST foretouch_readers AND CMAKE_BUILD_TYPE STREQUAL Release
+                            AND NOT FORETOUCH_SANITIZE AND NOT CMAKE_CROSSCOMPILING))
     foretouch_harden(${target})
   endif()
   target_compile_definitions(${target} PRIVATE

@@ -43,10 +43,10 @@ std::string beginningOf(const std::string& path) {
 /// Of files whose readers do not go by the name.
 FileRole roleByContent(const std::string& path) {
   const std::string text = beginningOf(path);
-  if (text.rfind(kLogMagic, 0) == 0) return FileRole::Motion;
+  if (text.rfind(kLogMagic, 0) == 0) return FileRole::Clip;
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == std::string::npos) return FileRole::Unknown;
-  if (text.compare(first, 9, "HIERARCHY") == 0) return FileRole::Motion;
+  if (text.compare(first, 9, "HIERARCHY") == 0) return FileRole::Clip;
   if (text[first] == '{') return FileRole::Avatar;
   const bool isRobot = text[first] == '<' && (text.find("<robot") != std::string::npos ||
                                               text.find("<mujoco") != std::string::npos);
@@ -56,7 +56,7 @@ FileRole roleByContent(const std::string& path) {
 /// One that holds neither animation nor triangles is left to the reader of scenes, which says so.
 Result<FileRole> roleOfModel(const std::string& path) {
   FORETOUCH_TRY(const auto model, importModel(path));
-  if (!model.animations.empty()) return FileRole::Motion;
+  if (!model.animations.empty()) return FileRole::Clip;
   const bool hasBones = std::any_of(model.meshes.begin(), model.meshes.end(),
                                     [](const ModelMesh& mesh) { return !mesh.bones.empty(); });
   return hasBones ? FileRole::Body : FileRole::Scene;
@@ -69,7 +69,7 @@ struct Target {
 };
 constexpr std::array<Target, 4> kTargets{{{FileRole::Scene, "scene", "file", "a scene"},
                                           {FileRole::Avatar, "avatar", "file", "an avatar"},
-                                          {FileRole::Motion, "clip", "file", "a motion"},
+                                          {FileRole::Clip, "clip", "file", "a motion"},
                                           {FileRole::Robot, "clip", "robot", "a robot"}}};
 
 struct Place {
@@ -111,7 +111,7 @@ Error notOneOf(const std::string& file, const Places& places) {
 
 Result<Done> assign(const std::string& file, Places& places) {
   FORETOUCH_TRY(FileRole role, roleOfFile(file));
-  if (role == FileRole::Unknown && places.count(FileRole::Scene) == 0) role = FileRole::Motion;
+  if (role == FileRole::Unknown && places.count(FileRole::Scene) == 0) role = FileRole::Clip;
   if (role == FileRole::Body) {
     return Error::in(file, ErrorCode::Mismatch,
                      "is a body without an animation; expected " + optionsOf(places) +
@@ -164,7 +164,7 @@ Result<FileRole> roleOfFile(const std::string& path) {
   };
   if (isOneOf(kScenes)) return FileRole::Scene;
   if (isOneOf(kModels)) return roleOfModel(path);
-  if (isOneOf(kMotions)) return FileRole::Motion;
+  if (isOneOf(kMotions)) return FileRole::Clip;
   if (extension == ".json") return FileRole::Avatar;
   return extension == ".urdf" ? FileRole::Robot : roleByContent(path);
 }

@@ -14,7 +14,7 @@ namespace foretouch::tools {
 enum class FileRole : std::uint8_t {
   Scene,
   Avatar,
-  Motion,   ///< A clip, an animated model, a table of joint positions, an event log.
+  Clip,     ///< A clip, an animated model, a table of joint positions, an event log.
   Body,     ///< A model with bones and without an animation.
   Robot,    ///< A URDF or an MJCF.
   Unknown,  ///< Also what cannot be read; whoever opens it says why.

@@ -56,7 +56,7 @@ SetupRequest requestOf(const AskedSetup& asked) {
 Result<bool> isBody(const std::string& path) {
   if (clipFormatOf(path) != ClipFormat::Model) {
     FORETOUCH_TRY(const FileRole role, roleOfFile(path));
-    return role == FileRole::Motion || role == FileRole::Avatar;
+    return role == FileRole::Clip || role == FileRole::Avatar;
   }
   FORETOUCH_TRY(const auto model, importModel(path));
   return std::any_of(model.meshes.begin(), model.meshes.end(),
