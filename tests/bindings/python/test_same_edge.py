@@ -6,6 +6,7 @@ nothing with the library but the robot's text."""
 
 import ctypes as c
 import json
+import os
 import subprocess
 import tempfile
 import unittest
@@ -157,6 +158,8 @@ class Ways:
                         ("is_usable", c.c_int32), ("free_until", c.c_double),
                         ("breach_at_0", c.c_int32), ("breach_at_1", c.c_int32)]
 
+        # Built, not installed, the C library does not find its importer.
+        os.environ["FORETOUCH_IMPORTER"] = str(Path(PROGRAM).with_name("foretouch-import"))
         lib = c.CDLL(str(LIBRARY))
         lib.ft_last_error.restype = c.c_char_p
 
