@@ -88,6 +88,12 @@ Result<Done> BodiesTracer::traceSpans(const Asked& asked, SpanSides& span) {
   while (spans.next()) {
     part_ = {spans.beginUs(), spans.endUs(), isFresh(asked, spans), spans.isAssumed(),
              isChanged(spans)};
+    // Their motion may tell more than the part of it that was asked; but what is told of the two
+    // altogether holds for these links as well.
+    if (part_.beginUs >= asked.bodies.lostUs) {
+      loseAll(asked, part_.beginUs, UndecidedReason::Resolution);
+      return Done{};
+    }
     static_cast<void>(spans.widenToPieces(kMostMotionUs));
     enterMotion(asked, spans);
     FORETOUCH_TRY(const bool isResolved, traceSpan(asked, span));

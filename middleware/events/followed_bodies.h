@@ -81,6 +81,8 @@ struct TracedBodies {
   FollowedBodies* followed = nullptr;
   std::size_t first = 0, count = 0;  ///< Of TraceWindow::listed.
   std::uint64_t work = 0;            ///< That they may cost; with too little nobody looks.
+  /// Doubles do not tell where they are, says the question, from there to the window's end.
+  std::int64_t lostUs = std::numeric_limits<std::int64_t>::max();
 
   [[nodiscard]] bool isGivenUp() const { return work < kSpanWork; }
 };

@@ -247,11 +247,23 @@ struct WorldFollower::Impl {
     }
   }
 
+  /// A body's line about the scene is about its own links as well.
+  void lose(const PairKey& key, std::int64_t fromUs) {
+    for (TracedBodies& task : tasks) {
+      const internal::BodyPair& both = task.followed->bodies;
+      const BodyId with = both.b == both.a ? kStillScene : both.b;
+      if (both.a != key.bodyOfA || with != key.bodyOfB) continue;
+      task.lostUs = std::min(task.lostUs, fromUs);
+    }
+  }
+
   void listGivenUp() {
     givenUp.clear();
     for (const WorldContact& contact : contacts.contacts) {
       const PairKey key = keyOf(contact);
-      if (isOfEveryLink(key)) givenUp.push_back({key, contact.time, contact.reason});
+      if (!isOfEveryLink(key)) continue;
+      givenUp.push_back({key, contact.time, contact.reason});
+      if (contact.reason == UndecidedReason::Resolution) lose(key, contact.time.us);
     }
     for (const TracedBodies& task : tasks) {
       if (!task.isGivenUp() || areCrowded(task)) continue;

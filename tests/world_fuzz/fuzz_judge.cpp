@@ -25,6 +25,7 @@ struct Span {
 };
 struct Spans {
   std::vector<Span> contact, unresolved;
+  std::vector<Span> whole;  // unresolved: the two bodies altogether
 };
 using Pair = std::pair<BodyId, BodyId>;  // in this order; of a trigger: it and who is in it
 
@@ -146,6 +147,7 @@ void Judging::gatherEvent(const WorldEvent& event) {
     return;
   }
   Spans& spans = pairs_[pair];
+  const bool isWhole = event.a.link == kEveryLink;
   if (isUnresolved) {
     tally_.unresolved += begins ? 1 : 0;
     // What is unresolved ends a contact, without a leave.
@@ -153,10 +155,15 @@ void Judging::gatherEvent(const WorldEvent& event) {
       spans.contact.back().to = std::min(spans.contact.back().to, us);
     }
   }
-  if (!tell(isUnresolved ? spans.unresolved : spans.contact, begins, us, since)) {
+  std::vector<Span>& ofLinks = isUnresolved ? spans.unresolved : spans.contact;
+  if (!tell(isWhole ? spans.whole : ofLinks, begins, us, since)) {
     say(FuzzFault::Loose, pair, us, toString(event.kind));
   }
   if (isUnresolved) return;
+  if (!spans.whole.empty() && spans.whole.back().from < us && spans.whole.back().to == kEver) {
+    say(FuzzFault::Loose, pair, us,
+        std::string("inside what is unresolved: ") + toString(event.kind));
+  }
   if (begins) {
     ++tally_.contacts;
     return judgeBegin(pair, us);
@@ -315,7 +322,7 @@ void Judging::judgePair(BodyId a, BodyId b) {
 
 void Judging::judgeInstant(const Pair& pair, const Spans& spans, const Instant& at, double gap,
                            const char* what) {
-  if (isIn(spans.unresolved, at.us, kSlackUs)) return;
+  if (isIn(spans.unresolved, at.us, kSlackUs) || isIn(spans.whole, at.us, kSlackUs)) return;
   if (gap < -guard_ && !isIn(spans.contact, at.us, kSlackUs)) {
     const auto next = std::find_if(instants_.begin(), instants_.end(), [&](const Instant& other) {
       return other.us > at.us && other.isFromLeft;

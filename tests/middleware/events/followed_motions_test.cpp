@@ -249,6 +249,37 @@ TEST(FollowedMotions, EndWhereSomebodyIsTaken) {
   }
 }
 
+// They part between two poses, far from the origin. A clock cuts that motion, and doubles do not
+// tell its parts: no part of it says that they leave.
+TEST(FollowedMotions, SayNothingInsideWhatIsUnresolved) {
+  constexpr double kFar = 9e6;
+  WorldOptions options;
+  options.tolerance = 1e-7;
+  World world = World::build(std::nullopt, options).value();
+  const BodyId wall = world.add(ball(0.1)).value(), carried = world.add(ball(0.1)).value();
+  const BodyId hand = world.add(ball(0.1)).value(), clock = world.add(ball(0.1)).value();
+  for (const int i : {0, 10, 40}) {
+    ASSERT_TRUE(world.push(wall, i * kMs, at(kFar)).ok());
+    ASSERT_TRUE(world.push(hand, i * kMs, at(kFar + (i < 40 ? 1.0 : 1.6))).ok());
+  }
+  stand(world, clock, at(kFar + 50.0), 40 * kMs, 10 * kMs);
+  ASSERT_TRUE(world.attach(carried, {hand, 0}, 0, at(0.15 - 1.0)).ok());
+  WorldFollower follower = WorldFollower::start(0).value();
+  WorldEvents answer;
+  ASSERT_TRUE(follower.follow(world, 40 * kMs, answer).ok());
+  // The two bodies altogether, and what was in contact; boxes tell that they are apart later.
+  ASSERT_EQ(answer.events.size(), 5u);
+  EXPECT_EQ(answer.events[0].kind, EventKind::StartsInside);
+  for (const int i : {1, 2, 3, 4}) {
+    const WorldEvent& event = answer.events[i];
+    EXPECT_EQ(event.kind, i < 3 ? EventKind::UnresolvedFrom : EventKind::UnresolvedTo);
+    EXPECT_EQ(event.reason, UndecidedReason::Resolution);
+    EXPECT_EQ(event.time.us, (i < 3 ? 10 : 20) * kMs);
+    EXPECT_EQ(event.a.link, i % 2 == 1 ? kEveryLink : 0);
+  }
+  EXPECT_TRUE(follower.open().empty());
+}
+
 // Carried past somebody and let go of within a motion that was looked at to its end: it comes back,
 // as nobody knew.
 TEST(FollowedMotions, SayNothingOfThoseThatBeginLater) {
