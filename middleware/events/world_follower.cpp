@@ -247,45 +247,45 @@ struct WorldFollower::Impl {
     }
   }
 
-  /// A body's line about the scene is about its own links as well.
-  void lose(const PairKey& key, std::int64_t fromUs) {
-    for (TracedBodies& task : tasks) {
-      const internal::BodyPair& both = task.followed->bodies;
-      const BodyId with = both.b == both.a ? kStillScene : both.b;
-      if (both.a != key.bodyOfA || with != key.bodyOfB) continue;
-      task.lostUs = std::min(task.lostUs, fromUs);
-    }
+  /// Of the two altogether; a body's line about the scene is about its own links as well.
+  [[nodiscard]] static PairKey wholeKeyOf(const TracedBodies& task) {
+    const internal::BodyPair& both = task.followed->bodies;
+    const BodyId with = both.b == both.a ? kStillScene : both.b;
+    return {both.a, kEveryLink, with, kEveryLink, internal::kNoObject};
   }
 
   void listGivenUp() {
     givenUp.clear();
     for (const WorldContact& contact : contacts.contacts) {
       const PairKey key = keyOf(contact);
-      if (!isOfEveryLink(key)) continue;
-      givenUp.push_back({key, contact.time, contact.reason});
-      if (contact.reason == UndecidedReason::Resolution) lose(key, contact.time.us);
+      if (isOfEveryLink(key)) givenUp.push_back({key, contact.time, contact.reason});
     }
     for (const TracedBodies& task : tasks) {
       if (!task.isGivenUp() || areCrowded(task)) continue;
-      const internal::BodyPair& both = task.followed->bodies;
-      const BodyId with = both.b == both.a ? kStillScene : both.b;
-      const PairKey key{both.a, kEveryLink, with, kEveryLink, internal::kNoObject};
-      givenUp.push_back({key, {window.fromUs, 0.0}, UndecidedReason::WorkBudget});
+      givenUp.push_back({wholeKeyOf(task), {window.fromUs, 0.0}, UndecidedReason::WorkBudget});
     }
     std::sort(givenUp.begin(), givenUp.end(), [](const GivenUp& x, const GivenUp& y) {
       return x.key == y.key ? x.time < y.time : x.key < y.key;
     });
     const auto isSame = [](const GivenUp& x, const GivenUp& y) { return x.key == y.key; };
     givenUp.erase(std::unique(givenUp.begin(), givenUp.end(), isSame), givenUp.end());
+    for (TracedBodies& task : tasks) {
+      const GivenUp* const whole = findGivenUp(wholeKeyOf(task));
+      if (whole && whole->reason == UndecidedReason::Resolution) task.lostUs = whole->time.us;
+    }
   }
 
   /// The window begins with what is unknown of the two.
   [[nodiscard]] bool isGivenUp(const PairKey& key) const {
+    const GivenUp* const found = findGivenUp(key);
+    return found && found->time == WorldTime{window.fromUs, 0.0};
+  }
+
+  [[nodiscard]] const GivenUp* findGivenUp(const PairKey& key) const {
     const auto found = std::lower_bound(
         givenUp.begin(), givenUp.end(), key,
         [](const GivenUp& pair, const PairKey& wanted) { return pair.key < wanted; });
-    return found != givenUp.end() && found->key == key &&
-           found->time == WorldTime{window.fromUs, 0.0};
+    return found != givenUp.end() && found->key == key ? &*found : nullptr;
   }
 
   void tellNew(const PairKey& key, const WorldTime& time, UndecidedReason reason) {
