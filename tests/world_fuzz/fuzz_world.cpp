@@ -288,9 +288,11 @@ void Drawing::drawPoses(int number, int i, FuzzSegment& now) {
         fromUs + 1 + random_.below(static_cast<int>(std::max<std::int64_t>(1, toUs - fromUs - 1)));
     if (us < toUs) times.push_back(us);
   }
-  if (isLast && random_.chance(0.1) && times.size() > 1) times.erase(times.begin());  // ends it
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
+  // Ends the world, but not before it has begun: of that nobody could be told.
+  const bool mayEnd = isLast && random_.chance(0.1) && times.size() > 1;
+  if (mayEnd && (now.times.empty() || times[times.size() - 2] > now.times.back())) times.pop_back();
   OraclePlace last = now.place;
   if (wasThere && now.begin == FuzzBegin::GoesOn)
     last = truthOf(number).episodes.back().poses.back()[0];
