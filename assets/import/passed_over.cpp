@@ -58,10 +58,34 @@ constexpr std::array<Word, 10> kOfObj{{{"curv", kFreeForm},
                                        {"call", kOtherFile},
                                        {"csh", kOtherFile}}};
 
+/// assimp reads a statement where a line begins, drops a vertex of which a number begins with its
+/// point, and takes 0x1 for 0: each moves or loses surfaces without a word.
+void refuseLostGeometry(std::string_view line, std::string_view word, std::size_t number) {
+  const auto refused = [&](const std::string& expected) {
+    refuseAt("line " + std::to_string(number), expected);
+  };
+  if (word.data() != line.data()) {
+    refused("expected " + inQuotes(word) + " where the line begins: behind blanks it is lost");
+  }
+  if (word != "v") return;
+  const std::string_view numbers = line.substr(0, line.find('#'));
+  for (std::size_t i = word.size(); i < numbers.size(); ++i) {
+    const bool isFirst = numbers[i - 1] == ' ' || numbers[i - 1] == '\t';
+    if (numbers[i] == '.' && isFirst) refused("expected a digit in front of the point of a number");
+    if (numbers[i] == 'x' || numbers[i] == 'X') refused("expected decimal numbers");
+  }
+}
+
 std::vector<std::string> passedOverInObj(std::string_view text) {
   std::array<std::size_t, kOfObj.size()> counts{};
+  std::size_t number = 0;
+  if (constexpr std::string_view kMark = "\xEF\xBB\xBF"; text.substr(0, kMark.size()) == kMark) {
+    refuseAt("line 1", "expected no byte order mark: the line behind it is lost");
+  }
   forEachLine(text, [&](std::string_view line) {
     const std::string_view word = firstWordOf(line);
+    ++number;
+    if (word == "v" || word == "f") refuseLostGeometry(line, word, number);
     if (word.empty() || word == "v" || word == "f") return true;  // nearly all of them
     for (std::size_t i = 0; i < kOfObj.size(); ++i) counts[i] += word == kOfObj[i].word;
     return true;
@@ -73,10 +97,12 @@ std::vector<std::string> passedOverInObj(std::string_view text) {
   return notes;
 }
 
-/// A header names its elements: "element vertex 8".
+/// A header names its elements: "element vertex 8". assimp takes rows of others for vertices and
+/// faces unless they come behind both.
 std::vector<std::string> passedOverInPly(std::string_view text) {
   std::vector<std::string> notes;
   std::size_t line = 0;
+  bool hasFaces = false;
   forEachLine(text, [&](std::string_view header) {
     ++line;
     const std::string_view word = firstWordOf(header);
@@ -88,6 +114,12 @@ std::vector<std::string> passedOverInPly(std::string_view text) {
       refuseAt("line " + std::to_string(line),
                "expected faces one by one (element face), found strips of triangles, of which the "
                "reader would lose some");
+    }
+    hasFaces = hasFaces || name == "face";
+    if (name != "vertex" && name != "face" && !hasFaces) {
+      refuseAt("line " + std::to_string(line),
+               "expected the elements vertex and face first, found " + inQuotes(name) +
+                   ", whose rows the reader would take for theirs");
     }
     if (name != "vertex" && name != "face" && name != "material") {
       notes.push_back("elements " + inQuotes(name) + " are left out");

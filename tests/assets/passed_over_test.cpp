@@ -64,6 +64,35 @@ TEST_F(PassedOver, OfPlyAreElementsThatAreNoFaces) {
       << strips.error().message;
 }
 
+// What assimp would read as another surface, or lose.
+TEST_F(PassedOver, WhatWouldMoveOrLoseSurfacesIsRefusedByItsLine) {
+  const std::string head = "v 0 0 0\nv 1 0 0\n", faces = "v 1 2 0\nv 0 2 3\nf 1 2 3\n";
+  const std::string behind = "property float x\nproperty float y\nproperty float z\n";
+  const std::string camera = "element camera 1\nproperty float f\n";
+  const std::string ply = "ply\nformat ascii 1.0\n", vertex = "element vertex 3\n" + behind;
+  const std::string face = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string rows = "0 0 0\n1 0 0\n0 1 0\n";
+  struct Lost {
+    std::string name, text, line;
+  };
+  for (const Lost& lost :
+       {Lost{"a.obj", head + faces + "  f 1 3 4\n", "line 6: expected 'f' where"},
+        Lost{"b.obj", head + "\tv 1 2 0\nv 0 2 3\nf 1 2 3\n", "line 3: expected 'v' where"},
+        Lost{"c.obj", head + "v 1 .5 0\n" + faces, "line 3: expected a digit"},
+        Lost{"d.obj", head + "v 0x1 0 0\n" + faces, "line 3: expected decimal numbers"},
+        Lost{"e.obj", "\xEF\xBB\xBF" + head + faces, "line 1: expected no byte order mark"},
+        Lost{"a.ply", ply + camera + vertex + face + "1.5\n" + rows + "3 0 1 2\n",
+             "line 3: expected the elements vertex and face first, found 'camera'"},
+        Lost{"b.ply", ply + vertex + camera + face + rows + "1.5\n3 0 1 2\n",
+             "line 7: expected the elements vertex and face first, found 'camera'"}}) {
+    const auto scene = importScene(folder_.write(lost.name, lost.text), withImporter());
+    ASSERT_FALSE(scene.ok()) << lost.text;
+    EXPECT_NE(scene.error().message.find(lost.line), std::string::npos) << scene.error().message;
+  }
+  // These are read.
+  EXPECT_EQ(written("f.obj", head + "v 1 -.5 +0.5e1\n" + faces).scene.triangles.size(), 1U);
+}
+
 TEST_F(PassedOver, OfStlIsNothingWhateverTheCaseOfItsWords) {
   const std::string stl =
       "SOLID Big Room\nFACET NORMAL 0 0 1\n OUTER LOOP\n  VERTEX -2.0E+00 0 0\n  VERTEX 1 0 0\n"
