@@ -259,7 +259,13 @@ GltfNumbers GltfData::numbers(std::size_t accessor, std::string_view type,
   if (described.contains("bufferView")) {
     appendDense(accessor, layout, count, numbers.values);
   } else {
-    if (count > numbers.values.max_size() / numbers.width) throw std::bad_alloc();
+    // Zeros take no bytes of the file: nothing else bounds them.
+    constexpr std::uint64_t kMostZeros = std::uint64_t{1} << 27;
+    if (count > kMostZeros / numbers.width) {
+      refuseAt(placeIn("accessors", accessor, "count"),
+               "expected at most " + std::to_string(kMostZeros / numbers.width) +
+                   " elements without a bufferView, found " + std::to_string(count));
+    }
     numbers.values.assign(count * numbers.width, 0.0);
   }
   if (described.contains("sparse")) overwriteSparse(accessor, layout, numbers);

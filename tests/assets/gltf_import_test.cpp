@@ -192,6 +192,15 @@ TEST_F(GltfImport, ReadsSparseAccessors) {
             std::string::npos);
 }
 
+TEST_F(GltfImport, MakesNoMoreZerosThanItHasRoomFor) {
+  GltfWriter writer;
+  constexpr std::size_t kEndless = std::size_t{1} << 58;
+  writer.meshNode({{"attributes", {{"POSITION", writer.sparse(-1, kEndless, 3, {1}, {0, 0, 1})}}}});
+  EXPECT_NE(refusalOf(writer).find("accessors[0].count: expected at most 44739242 elements"),
+            std::string::npos)
+      << refusalOf(writer);
+}
+
 TEST_F(GltfImport, CountsFacesOfVerticesThatAreNotThere) {
   GltfWriter writer;
   const std::size_t position = writer.accessor(kThree, 3);
