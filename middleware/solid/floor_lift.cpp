@@ -18,7 +18,11 @@ constexpr double kFloorReach = 0.2;
 }  // namespace
 
 FloorLift::FloorLift(const Avatar& avatar, const SolidOptions& options)
-    : avatar_(avatar), up_(options.up), skin_(options.skin), most_(options.mostLift) {
+    : avatar_(avatar),
+      up_(options.up),
+      skin_(options.skin),
+      most_(options.mostLift),
+      speed_(std::min(kSpeed, options.catchUp)) {
   if (options.floor != FloorPolicy::Lift) return;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     if (options.feet[slotOf(link)] && !avatar.lss(link).empty()) feet_.push_back(link);
@@ -26,13 +30,21 @@ FloorLift::FloorLift(const Avatar& avatar, const SolidOptions& options)
   reset();
 }
 
-void FloorLift::reset() {
+void FloorLift::reset(double lift) {
+  forgetFloors();
+  lift_ = feet_.empty() ? 0.0 : lift;
+}
+
+void FloorLift::forgetFloors() {
   floors_.assign(feet_.size(), {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), -1.0});
   asks_.clear();
-  lift_ = 0.0;
 }
 
 bool FloorLift::isAny() const {
+  return lift_ > 0.0 || isFloorKnown();
+}
+
+bool FloorLift::isFloorKnown() const {
   return std::any_of(floors_.begin(), floors_.end(),
                      [](const Floor& floor) { return floor.ageS >= 0.0; });
 }
@@ -56,7 +68,12 @@ double FloorLift::asked(const std::vector<LinkState>& target) const {
   return most;
 }
 
-double FloorLift::update(const std::vector<LinkState>& target, double dtS) {
+bool FloorLift::isWorthLifting(double asked) const {
+  // Nobody begins to lift for the skin alone.
+  return asked > (lift_ > 0.0 ? 0.0 : skin_);
+}
+
+void FloorLift::grow(double dtS) {
   for (Floor& floor : floors_) {
     if (floor.ageS >= 0.0) floor.ageS += dtS;
     if (floor.ageS > kWindowS) floor.ageS = -1.0;
@@ -65,15 +82,29 @@ double FloorLift::update(const std::vector<LinkState>& target, double dtS) {
   asks_.erase(std::remove_if(asks_.begin(), asks_.end(),
                              [](const Ask& ask) { return ask.ageS > kWindowS; }),
               asks_.end());
-  const double now = asked(target);
-  // A foot in the air asks for nothing, and says nothing of the floor.
-  if (now > 0.0) asks_.push_back({0.0, now});
-  double least = asks_.empty() ? 0.0 : most_;
-  for (const Ask& ask : asks_) least = std::min(least, ask.lift);
-  lift_ = std::clamp(least, lift_ - kSpeed * dtS, lift_ + kSpeed * dtS);
-  if (!(now > 0.0)) return 0.0;
-  // As long as the lifted feet stand on a floor, it stays known.
-  for (Floor& floor : floors_) floor.ageS = std::min(floor.ageS, 0.0);
+}
+
+/// The median of the window: of a foot that lands, and of one that leaves, the depth says nothing.
+/// Feet in the air ask for nothing, and what is lifted stays so while their floor is known.
+double FloorLift::usualAsk() {
+  if (asks_.empty()) return isFloorKnown() ? lift_ : 0.0;
+  sorted_.clear();
+  for (const Ask& ask : asks_) sorted_.push_back(ask.lift);
+  const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
+  std::nth_element(sorted_.begin(), middle, sorted_.end());
+  return *middle;
+}
+
+double FloorLift::update(double asked, bool isFree, double dtS) {
+  grow(dtS);
+  if (isFree && asked > skin_) {
+    forgetFloors();  // they end before where the foot is
+  } else if (asked > 0.0) {
+    asks_.push_back({0.0, isFree ? 0.0 : asked});
+    // As long as the lifted feet stand on a floor, it stays known.
+    for (Floor& floor : floors_) floor.ageS = std::min(floor.ageS, 0.0);
+  }
+  lift_ = std::clamp(usualAsk(), lift_ - speed_ * dtS, lift_ + speed_ * dtS);
   return lift_;
 }
 

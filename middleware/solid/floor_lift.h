@@ -18,13 +18,21 @@ class FloorLift {
  public:
   FloorLift(const Avatar& avatar, const SolidOptions& options);
 
-  void reset();
-  /// Whether a floor is remembered: else the lift is 0, and nobody need ask.
+  /// The avatar appears somewhere, lifted by so much.
+  void reset(double lift = 0.0);
+  /// The floors that are remembered may be there no more. The lift goes on from what it is.
+  void forgetFloors();
+  [[nodiscard]] double lift() const { return lift_; }
+  /// Whether anything is lifted, or a floor is remembered: else nobody need ask.
   [[nodiscard]] bool isAny() const;
-  /// How far to lift a target that places the links so: the least that its feet asked for in the
-  /// last second, reached slowly; 0 where they ask for nothing now, so that a free target is shown
-  /// as it is.
-  [[nodiscard]] double update(const std::vector<LinkState>& target, double dtS);
+  /// How far a target that places the links so has to be lifted, for its feet to stand on the
+  /// floors that are remembered; 0: no foot is there.
+  [[nodiscard]] double asked(const std::vector<LinkState>& target) const;
+  /// Whether so much, asked, makes a difference, unless the target touches nothing.
+  [[nodiscard]] bool isWorthLifting(double asked) const;
+  /// How far to lift a target whose feet ask for so much: what they asked for most of the last
+  /// second, reached slowly. `isFree`: the target touches nothing as it is, whatever is remembered.
+  [[nodiscard]] double update(double asked, bool isFree, double dtS);
   /// The rows that held the avatar in this tick.
   void remember(const std::vector<ContactRow>& rows);
 
@@ -36,14 +44,17 @@ class FloorLift {
   struct Ask {
     double ageS, lift;
   };
-  [[nodiscard]] double asked(const std::vector<LinkState>& target) const;
+  [[nodiscard]] bool isFloorKnown() const;
+  void grow(double dtS);
+  [[nodiscard]] double usualAsk();
 
   Avatar avatar_;
   Eigen::Vector3d up_;
-  double skin_, most_;
+  double skin_, most_, speed_;
   std::vector<LinkId> feet_;
   std::vector<Floor> floors_;  // per foot
   std::vector<Ask> asks_;      // of the last second
+  std::vector<double> sorted_;
   double lift_ = 0.0;
 };
 

@@ -23,6 +23,8 @@ constexpr double kEnoughOfStep = 0.2, kMostEnough = 1.5e-3;
 /// joints so far away are off their tangents (m).
 constexpr double kLever = 0.3;
 constexpr std::uint8_t kHotTicks = 8;
+/// Of a step that the pace allows to first order: a little is left for what the path is longer.
+constexpr double kWithinPace = 0.99;
 constexpr int kDoublings = 3, kCorrections = 2;
 /// Two faces are of one plane: a cosine, and metres, as where near features are reduced.
 constexpr double kSamePlane = 1.0 - 1e-6, kInPlane = 1e-4;
@@ -77,9 +79,9 @@ bool Follower::goStraight(const Pose& target, Certifier& certifier, Pose& shown,
 
 void Follower::follow(const FollowRequest& request, Certifier& certifier, Pose& shown,
                       SolidTick& tick) {
-  trust_ = std::clamp(kTrustOfStep * request.trackedStep, kLeastTrust, kMostTrust);
-  enough_ = std::clamp(kEnoughOfStep * request.trackedStep, kSettled, kMostEnough);
-  left_ = request.budget;
+  const double trackedStep = request.pace.trackedStep();
+  trust_ = std::clamp(kTrustOfStep * trackedStep, kLeastTrust, kMostTrust);
+  enough_ = std::clamp(kEnoughOfStep * trackedStep, kSettled, kMostEnough);
   fruitless_ = 0;
   hasMoved_ = false;
   rows_.clear();
@@ -109,19 +111,18 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
     return false;
   }
   standHere(request, shown);
-  const double far = VisualBody::farthest(here_.places, request.wanted);
-  if (!isAnyHot()) return stepFreely(request, far, certifier, shown, tick);
+  if (!isAnyHot()) return stepFreely(request, certifier, shown, tick);
 
   step_.aim(request.target, request.wanted, here_, shown);
   gather(certifier, tick);
-  const double most = std::min(trust_, left_);
   tries_ = 0;
-  const bool hasStep = propose(request, certifier.plan(), shown, most, tick);
+  const bool hasStep = propose(request, certifier.plan(), shown, tick);
   certifier.spend(kTryWork * tries_);
   if (!hasPushes() && (!hasDirectFailed_ || size_ <= trust_)) {
-    return stepFreely(request, far, certifier, shown, tick);
+    return stepFreely(request, certifier, shown, tick);
   }
-  if (hasPushes() && !hasDirectFailed_ && far <= left_ && isTargetApart(request, certifier)) {
+  if (hasPushes() && !hasDirectFailed_ && request.pace.shareOf(shown, request.target, part_) == 1.0 &&
+      isTargetApart(request, certifier)) {
     // What pushes is the skin, or a surface that the direct motion passes by.
     const Certified direct = ask(shown, request.target, certifier, tick);
     if (direct.isClear) {
@@ -133,30 +134,28 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
     hasDirectFailed_ = true;
   }
   if (!hasStep || (hasMoved_ && size_ < enough_)) return false;
-  const bool isShort = size_ > most;
-  const double moved = std::min(size_, most);
+  const bool isShort = mostShare_ < 1.0;
+  const double moved = std::min(1.0, mostShare_) * size_;
   const Outcome outcome = show(request, tried_, certifier, shown, tick);
   if (outcome != Outcome::Clear) return ++fruitless_ < kMostFruitless;
   const bool isNearlyThere = moved * moved < 2.0 * kLever * enough_;
   if (isWhole_ && isNearlyThere && enough_ > kSettled) return false;
   if (isShort && trust_ < size_) trust_ = std::min(2.0 * trust_, kMostTrust);
-  if (left_ > kSettled) return moved >= enough_;
+  if (!request.pace.isSpent()) return moved >= enough_;
   if (isShort) tick.limit = SolidLimit::CatchUp;
   return false;
 }
 
 /// Nothing holds the avatar: straight to the target, or as far as the budget goes.
-bool Follower::stepFreely(const FollowRequest& request, double far, Certifier& certifier,
-                          Pose& shown, SolidTick& tick) {
-  const bool isWhole = far <= left_;
+bool Follower::stepFreely(const FollowRequest& request, Certifier& certifier, Pose& shown,
+                          SolidTick& tick) {
+  const double share = request.pace.shareOf(shown, request.target, part_);
+  const bool isWhole = share == 1.0;
   if (!isWhole) {
     tick.limit = SolidLimit::CatchUp;
-    if (!(left_ > kSettled)) return false;
-    part_.assign(skeleton_, shown, request.target);
-    part_.poseAt(left_ / far, tried_);
-    isOfTried_ = false;
+    if (!(share > 0.0) || request.pace.isSpent()) return false;
   }
-  const Outcome outcome = show(request, isWhole ? request.target : tried_, certifier, shown, tick);
+  const Outcome outcome = show(request, isWhole ? request.target : part_, certifier, shown, tick);
   if (outcome == Outcome::Clear) return false;
   hasDirectFailed_ = true;
   trust_ = std::max(0.5 * trust_, 0.5 * kLeastTrust);
@@ -181,7 +180,7 @@ Follower::Outcome Follower::show(const FollowRequest& request, const Pose& to, C
   if (answer.isClear) {
     const bool isPlaced = &to == &tried_ && isOfTried_;
     if (!isPlaced) step_.place(reached_, there_);
-    moveThere(answer.clearance, shown, tick);
+    moveThere(request, answer.clearance, shown, tick);
     isHere_ = isPlaced;
     return Outcome::Clear;
   }
@@ -196,13 +195,14 @@ bool Follower::showCut(const FollowRequest& request, double clearance, Pose& sho
   weigh(request, reached_, there_);
   isOfTried_ = false;
   if (!(there_.merit < kFalls * here_.merit)) return false;
-  moveThere(clearance, shown, tick);
+  moveThere(request, clearance, shown, tick);
   return true;
 }
 
 /// Shows what was reached, which there_ is of.
-void Follower::moveThere(double clearance, Pose& shown, SolidTick& tick) {
-  left_ -= VisualBody::farthest(here_.places, there_.places);
+void Follower::moveThere(const FollowRequest& request, double clearance, Pose& shown,
+                         SolidTick& tick) {
+  request.pace.spend(shown, reached_, here_.places, there_.places);
   appendPiece(reached_, clearance, tick);
   std::swap(shown, reached_);
   std::swap(here_, there_);
@@ -272,18 +272,18 @@ void Follower::setBounds(bool mayPush) {
 /// Finds a step that brings the avatar nearer to the target and keeps the gaps that push: `tried_`.
 /// False: there is none, or none worth a motion.
 bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
-                       double most, SolidTick& tick) {
+                       SolidTick& tick) {
   step_.begin();
   setBounds(true);
   isWhole_ = false;
   for (int attempt = 0; attempt <= kCorrections; ++attempt) {
     solve(tick);
     if (size_ < kSettled) return false;
-    double share = std::min(1.0, most / size_);
+    double share = shareToTry(request);
     const bool isLast = attempt == kCorrections;
     if (halve(request, plan, shown, share, isLast ? kHalvings : 0)) {
       isWhole_ = attempt == 0 && share == 1.0;
-      goFarther(request, plan, shown, share, most);
+      goFarther(request, plan, shown, share);
       return true;
     }
     if (!isLast) correctFor(plan, share);
@@ -291,15 +291,37 @@ bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, cons
   setBounds(false);
   solve(tick);
   if (size_ < kSettled) return false;
-  double share = std::min(1.0, most / size_);
+  double share = shareToTry(request);
   return halve(request, plan, shown, share, kHalvings);
+}
+
+/// How much of the step that was solved for the trust region and the pace allow.
+double Follower::shareToTry(const FollowRequest& request) {
+  mostShare_ = std::min(trust_ / size_, mostOf(request));
+  return std::min(1.0, mostShare_);
+}
+
+/// Of the step, as far as the pace allows: more than 1 where that is more.
+double Follower::mostOf(const FollowRequest& request) const {
+  const Moved step = step_.moveOf(here_, request.pace), &left = request.pace.left();
+  const auto share = [](double of, double asked) {
+    return asked > 0.0 ? std::max(0.0, of) / asked : std::numeric_limits<double>::infinity();
+  };
+  return kWithinPace * std::min({share(left.all, step.all), share(left.head, step.head),
+                                 share(left.turn, step.turn)});
 }
 
 /// Tries the share, and its halves, until one is nearer to the target and keeps the gaps.
 bool Follower::halve(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
                      double& share, int halvings) {
   for (int halving = 0;; ++halving) {
-    if (tryShare(request, shown, share) && keepsGaps(plan)) return true;
+    bool isNearer = tryShare(request, shown, share);
+    const double fits = fitOf(request, shown);
+    if (fits < 1.0) {
+      share *= kWithinPace * fits;
+      isNearer = tryShare(request, shown, share);
+    }
+    if (isNearer && keepsGaps(plan)) return true;
     if (halving == halvings) return false;
     share *= 0.5;
   }
@@ -308,20 +330,27 @@ bool Follower::halve(const FollowRequest& request, const QueryPlan& plan, const 
 /// Where the target rests, steps of this method become shorter by a constant share: twice the step
 /// is tried as long as that is nearer to the target.
 void Follower::goFarther(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
-                         double share, double most) {
+                         double share) {
   if (enough_ > kSettled) return;
   for (int doubling = 0; doubling < kDoublings; ++doubling) {
-    if (2.0 * share * size_ > most) return;
+    if (2.0 * share > mostShare_) return;
     nearer_ = tried_;
     const double merit = there_.merit;
     const bool isNearer = tryShare(request, shown, 2.0 * share);
-    if (!isNearer || there_.merit >= kFalls * merit || !keepsGaps(plan)) {
+    if (!isNearer || there_.merit >= kFalls * merit || fitOf(request, shown) < 1.0 ||
+        !keepsGaps(plan)) {
       tried_ = nearer_;
       isOfTried_ = false;
       return;
     }
     share *= 2.0;
   }
+}
+
+/// How much of the way to tried_ the pace allows.
+double Follower::fitOf(const FollowRequest& request, const Pose& shown) const {
+  return request.pace.shareOf(
+      request.pace.measure(shown, tried_, here_.places, there_.places));
 }
 
 void Follower::solve(SolidTick& tick) {

@@ -10,6 +10,7 @@
 #include "middleware/solid/certifier.h"
 #include "middleware/solid/contact_row.h"
 #include "middleware/solid/own_features.h"
+#include "middleware/solid/pace.h"
 #include "middleware/solid/pulled_step.h"
 #include "middleware/solid/solid_options.h"
 #include "middleware/solid/solid_tick.h"
@@ -21,8 +22,7 @@ struct FollowRequest {
   const Pose& target;
   const std::vector<LinkState>& states;        ///< The links at the target.
   const std::vector<Eigen::Vector3d>& wanted;  ///< The body's points there.
-  double trackedStep;  ///< How far the farthest point of the target moved since the last tick (m).
-  double budget;       ///< How far any shown point may move in this tick (m).
+  Pace& pace;  ///< How far the avatar may move in this tick.
 };
 
 /// For one thread; keeps its memory.
@@ -62,21 +62,24 @@ class Follower {
                              SolidTick& tick);
   [[nodiscard]] bool iterate(const FollowRequest& request, Certifier& certifier, Pose& shown,
                              SolidTick& tick);
-  [[nodiscard]] bool stepFreely(const FollowRequest& request, double far, Certifier& certifier,
-                                Pose& shown, SolidTick& tick);
+  [[nodiscard]] bool stepFreely(const FollowRequest& request, Certifier& certifier, Pose& shown,
+                                SolidTick& tick);
   void weigh(const FollowRequest& request, const Pose& pose, Stance& stance) const;
   void standHere(const FollowRequest& request, const Pose& shown);
-  void moveThere(double clearance, Pose& shown, SolidTick& tick);
+  void moveThere(const FollowRequest& request, double clearance, Pose& shown, SolidTick& tick);
   void moveRows(const QueryPlan& plan);
   void findReach();
   void gather(Certifier& certifier, SolidTick& tick);
   void setBounds(bool mayPush);
   [[nodiscard]] bool propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
-                             double most, SolidTick& tick);
+                             SolidTick& tick);
+  [[nodiscard]] double shareToTry(const FollowRequest& request);
+  [[nodiscard]] double mostOf(const FollowRequest& request) const;
+  [[nodiscard]] double fitOf(const FollowRequest& request, const Pose& shown) const;
   [[nodiscard]] bool halve(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
                            double& share, int halvings);
   void goFarther(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
-                 double share, double most);
+                 double share);
   void solve(SolidTick& tick);
   [[nodiscard]] bool tryShare(const FollowRequest& request, const Pose& shown, double share);
   [[nodiscard]] bool keepsGaps(const QueryPlan& plan) const;
@@ -105,15 +108,14 @@ class Follower {
   std::vector<double> reach_, hotReach_, touchReach_;
   std::vector<ContactRow> rows_;
   bool areRowsOld_ = false;  // here_ was there_ when they were gathered
-  Pose tried_, nearer_, reached_;
-  ChainMotion part_;
+  Pose tried_, nearer_, reached_, part_;
   double size_ = 0.0;        // of the whole step that was solved for
   std::uint64_t tries_ = 0;  // shares of it that were tried
   bool isWhole_ = false;     // all of it is tried, as it was solved for at first
 
   // Of the current tick.
-  double trust_ = 0.0, left_ = 0.0;
-  double enough_ = 0.0;
+  double trust_ = 0.0, enough_ = 0.0;
+  double mostShare_ = 0.0;  // of the step, that trust and pace allow
   bool hasDirectFailed_ = false, hasMoved_ = false, isOver_ = false;
   // Where goStraight() was cut: the clearance of the motion to reached_; < 0: it was not.
   double cutClearance_ = -1.0;

@@ -115,6 +115,19 @@ double PulledStep::sizeOf(const TreeStep& step, const Stance& here) const {
   return most;
 }
 
+Moved PulledStep::moveOf(const Stance& here, const Pace& pace) const {
+  Moved most;
+  const auto& points = body_.points();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto link = slotOf(points[k].link);
+    const double far = (step_.twists[link].at(here.places[k] - origin_) + pull_.drifts[link]).norm();
+    most.all = std::max(most.all, far);
+    if (pace.isOfHead(k)) most.head = std::max(most.head, far);
+  }
+  for (const Eigen::Vector3d& turn : step_.turns) most.turn = std::max(most.turn, turn.norm());
+  return most;
+}
+
 void PulledStep::move(const Stance& here, const Pose& shown, double share, Pose& moved) {
   for (std::size_t j = 0; j < step_.turns.size(); ++j) {
     change_.turn[j] = step_.turns[j];

@@ -14,6 +14,7 @@
 #include "middleware/mechanics/tree_inertia.h"
 #include "middleware/solid/contact_row.h"
 #include "middleware/solid/least_push.h"
+#include "middleware/solid/pace.h"
 #include "middleware/solid/tree_pose.h"
 #include "middleware/solid/visual_body.h"
 
@@ -56,6 +57,8 @@ class PulledStep {
   void farthestFree(const Stance& here, std::vector<double>& far) const;
   /// The farthest that the whole step moves any point, a joint's turn counted by its lever.
   [[nodiscard]] double size(const Stance& here) const { return sizeOf(step_, here); }
+  /// How far the whole step moves the body, to first order.
+  [[nodiscard]] Moved moveOf(const Stance& here, const Pace& pace) const;
   [[nodiscard]] double sizeOfFree(const Stance& here) const { return sizeOf(free_, here); }
   /// A share of the step on from `shown`, which `here` is of.
   void move(const Stance& here, const Pose& shown, double share, Pose& moved);

@@ -12,6 +12,7 @@
 #include "middleware/solid/certifier.h"
 #include "middleware/solid/floor_lift.h"
 #include "middleware/solid/follower.h"
+#include "middleware/solid/pace.h"
 #include "middleware/solid/placing.h"
 #include "middleware/solid/solid_way.h"
 #include "middleware/solid/target_pose.h"
@@ -28,10 +29,10 @@ constexpr double kFarEnough = 0.05, kProgress = 0.02, kStuckFor = 0.05;
 constexpr int kStuckTicks = 3;
 /// The target of the point that is farthest off stays within this, meanwhile (m).
 constexpr double kStaysWithin = 0.02;
+/// Two places of one root are the same (m).
+constexpr double kSamePlace = 1e-6;
 /// After the target was found inside something.
 constexpr int kTicksToLookAgain = 8;
-/// A walk shorter than this waits for the next tick (m).
-constexpr double kLeastWalk = 1e-4;
 
 Result<Done> inRange(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return Done{};
@@ -106,7 +107,8 @@ class SolidAvatar::Parts {
         target_(avatar),
         lift_(avatar, options_),
         placing_(avatar.skeleton(), options_),
-        around_(avatar, options_) {}
+        around_(avatar, options_),
+        pace_(avatar, follower_.body(), options_) {}
 
   Result<Done> follow(const SolidTarget& given, SolidTick& tick) {
     if (!(given.dtS > 0.0 && given.dtS <= kLongestTick)) {
@@ -126,6 +128,7 @@ class SolidAvatar::Parts {
   void reset() {
     isPlaced_ = wasEqual_ = isInside_ = false;
     forget();
+    lift_.reset();
     target_.reset();
   }
 
@@ -150,6 +153,7 @@ class SolidAvatar::Parts {
     certifier_ = std::move(certifier);
     follower_ = std::move(follower);
     forget();
+    lift_.forgetFloors();
     wasEqual_ = false;
     if (!isPlaced_) return Done{};
     certifier_.beginTick(options_.workBudget);
@@ -179,7 +183,7 @@ class SolidAvatar::Parts {
     follower_.reset();
     placing_.reset();
     around_.reset();
-    lift_.reset();
+    pace_.rest();
     stuckS_ = awayS_ = 0.0;
     mustSayPlace_ = false;
   }
@@ -194,9 +198,19 @@ class SolidAvatar::Parts {
       if (isInside_) tick.limit = SolidLimit::Inside;
       return;
     }
+    if (!std::exchange(isInside_, false)) beginLifted(asked, found, tick);
     shown_ = found;
-    isInside_ = false;
     appear(tick);
+  }
+
+  /// A place above the asked one is where its feet stand, as a rule: so it does not sink first.
+  void beginLifted(const Pose& asked, const Pose& found, SolidTick& tick) {
+    const Eigen::Vector3d by = found.translations[0] - asked.translations[0];
+    const double up = by.dot(options_.up);
+    const bool isLift = up > 0.0 && up <= options_.mostLift + kSamePlace &&
+                        (by - up * options_.up).norm() < kSamePlace;
+    if (isLift && options_.floor == FloorPolicy::Lift) lift_.reset(std::min(up, options_.mostLift));
+    tick.lift = lift_.lift();
   }
 
   void appear(SolidTick& tick) {
@@ -206,50 +220,54 @@ class SolidAvatar::Parts {
 
   void move(double dtS, SolidTick& tick) {
     if (std::exchange(mustSayPlace_, false)) appear(tick);
-    if (lift_.isAny() && goUnlifted(dtS, tick)) return;
-    if (wasEqual_ && !follower_.isAnyHot()) {
+    const double liftBefore = lift_.lift();
+    if (lift_.isAny()) liftTarget(dtS, tick);
+    const bool goesAlong = wasEqual_ && !target_.hasFound();
+    if (goesAlong && !follower_.isAnyHot()) {
+      pace_.rest();
       if (follower_.goStraight(target_.pose(), certifier_, shown_, tick)) return;
     }
     before_ = shown_;
     const internal::VisualBody& body = follower_.body();
     body.place(target_.states(), wanted_);
-    double step = 0.0;
-    if (target_.hasLast()) {
-      body.place(target_.lastStates(), lastWanted_);
-      step = internal::VisualBody::farthest(wanted_, lastWanted_);
-    }
-    const double budget = step + options_.catchUp * dtS;
+    lastWanted_.clear();
+    if (target_.hasLast()) body.place(target_.lastStates(), lastWanted_);
+    internal::placeLinks(skeleton(), shown_, states_);
+    body.place(states_, places_);
+    pace_.begin(target_, {places_, wanted_, lastWanted_, goesAlong},
+                std::abs(lift_.lift() - liftBefore), dtS);
+    // Before the tick's work is spent on other questions: what is announced has to come.
+    isTargetFree_ = maySnapIn(dtS) && certifier_.isClear(target_.pose(), target_.pose());
     if (around_.isStale(shown_, wanted_)) around_.reset();
-    if (around_.hasWay() && walkAround(budget, tick)) return;
-    follower_.follow({target_.pose(), target_.states(), wanted_, step, budget}, certifier_, shown_,
-                     tick);
-    if (!internal::isSamePose(shown_, target_.pose())) lookFurther(dtS, tick);
+    if (!(around_.hasWay() && walkAround(tick))) {
+      follower_.follow({target_.pose(), target_.states(), wanted_, pace_}, certifier_, shown_,
+                       tick);
+      if (!internal::isSamePose(shown_, target_.pose())) lookFurther(dtS, tick);
+    }
+    pace_.end();
   }
 
-  /// Lifts the target, unless the tracked pose itself is in reach: then it is shown.
-  bool goUnlifted(double dtS, SolidTick& tick) {
-    const double lift = lift_.update(target_.states(), dtS);
-    if (!(lift > 0.0)) return false;
-    const internal::VisualBody& body = follower_.body();
-    const double far =
-        body.farthestMove(skeleton(), shown_, target_.pose(), states_, statesBefore_);
-    if (far <= options_.catchUp * dtS &&
-        follower_.goStraight(target_.pose(), certifier_, shown_, tick)) {
-      return true;
-    }
-    tick.lift = lift;
-    target_.moveRoots(lift * options_.up);
-    return false;
+  [[nodiscard]] bool maySnapIn(double dtS) const {
+    return options_.maySnap && awayS_ + dtS > options_.patience;
+  }
+
+  void liftTarget(double dtS, SolidTick& tick) {
+    const double asked = lift_.asked(target_.states());
+    const Pose& target = target_.pose();
+    const bool isFree = lift_.isWorthLifting(asked) && certifier_.isClear(target, target);
+    tick.lift = lift_.update(lift_.isWorthLifting(asked) ? asked : 0.0, isFree, dtS);
+    target_.moveRoots(tick.lift * options_.up);
   }
 
   /// On along the way that was found; false if it is no longer free.
-  bool walkAround(double budget, SolidTick& tick) {
-    const internal::VisualBody& body = follower_.body();
+  bool walkAround(SolidTick& tick) {
     isAround_ = true;
-    around_.tighten(body, shown_, certifier_);
-    while (around_.hasWay() && budget > kLeastWalk) {
-      around_.next(body, shown_, budget, towards_);
-      const internal::Certified answer = certifier_.certify(shown_, towards_, reached_);
+    around_.tighten(follower_.body(), shown_, certifier_);
+    while (around_.hasWay() && !pace_.isSpent()) {
+      const double share = pace_.shareOf(shown_, around_.next(), towards_);
+      if (!(share > 0.0)) break;
+      const Pose& to = share < 1.0 ? towards_ : around_.next();
+      const internal::Certified answer = certifier_.certify(shown_, to, reached_);
       if (!answer.isClear) {
         if (answer.isOverBudget) {
           tick.limit = SolidLimit::Budget;
@@ -259,7 +277,7 @@ class SolidAvatar::Parts {
         isAround_ = tick.numWay != 0;
         return isAround_;
       }
-      budget -= body.farthestMove(skeleton(), shown_, reached_, states_, statesBefore_);
+      pace_.spend(shown_, reached_);
       shown_ = reached_;
       internal::appendPiece(shown_, answer.clearance, tick);
       around_.arrived(shown_);
@@ -304,9 +322,10 @@ class SolidAvatar::Parts {
     const bool wantsSnap = options_.maySnap && awayS_ > options_.patience;
     if (!wantsAround && !wantsSnap) return;
     const std::uint32_t before = certifier_.queries();
-    if (!certifier_.isClear(target_.pose(), target_.pose())) {
+    if (!(isTargetFree_ || certifier_.isClear(target_.pose(), target_.pose()))) {
       lookAt_ = stuckTicks_ + kTicksToLookAgain;
-      if (wantsSnap) awayS_ = std::min(awayS_, options_.patience);
+      // What was announced is withdrawn, and announced anew in full.
+      if (wantsSnap) awayS_ = options_.patience;
       return;
     }
     if (wantsAround) {
@@ -315,13 +334,11 @@ class SolidAvatar::Parts {
     }
     tick.counters.aroundQueries += certifier_.queries() - before;
     if (!wantsSnap || around_.hasWay()) return;
-    if (options_.aroundPerTick > 0 && !around_.hasFailed()) {
-      awayS_ = std::min(awayS_, options_.patience + 0.5 * options_.snapNotice);
-    }
     tick.snapInS = std::max(0.0, options_.patience + options_.snapNotice - awayS_);
     if (tick.snapInS > 0.0) return;
     shown_ = target_.pose();
     forget();
+    lift_.forgetFloors();
     tick.numWay = 0;
     tick.clearance = std::numeric_limits<double>::infinity();
     hasSnapped_ = true;
@@ -406,15 +423,17 @@ class SolidAvatar::Parts {
   internal::FloorLift lift_;
   internal::Placing placing_;
   internal::WayAround around_;
+  internal::Pace pace_;
   Pose shown_, before_, towards_, reached_;
   std::vector<LinkState> states_, statesBefore_;
-  std::vector<Eigen::Vector3d> wanted_, lastWanted_;
+  std::vector<Eigen::Vector3d> wanted_, lastWanted_, places_;
   double stuckS_ = 0.0, awayS_ = 0.0;
   Eigen::Vector3d stuckAt_ = Eigen::Vector3d::Zero();  // where that point's target was at first
   int stuckTicks_ = 0, lookAt_ = 0;
   bool isAround_ = false, hasSnapped_ = false;
   bool isInside_ = false;      // the scene that was changed has shown_ inside
   bool mustSayPlace_ = false;  // shown_ was given as a place, and no tick has said so yet
+  bool isTargetFree_ = false;  // in this tick, where a snap may come
   bool isPlaced_ = false;
   bool wasEqual_ = false;  // shown_ is the last target, bit for bit
 };

@@ -71,5 +71,7 @@ struct SolidOptions {
 [[nodiscard]] std::vector<double> visibilityByName(const Avatar& avatar);
 /// As SolidOptions::feet.
 [[nodiscard]] std::vector<bool> feetByName(const Avatar& avatar);
+/// Links with a name of a head: where the camera is.
+[[nodiscard]] std::vector<bool> headsByName(const Avatar& avatar);
 
 }  // namespace foretouch

@@ -19,6 +19,7 @@ constexpr std::array<std::string_view, 9> kHandWords = {
 constexpr std::array<std::string_view, 11> kTrunkWords = {
     "hip", "pelvis", "spine", "chest", "torso", "head", "neck", "abdomen", "waist", "back", "root"};
 constexpr std::array<std::string_view, 4> kFootWords = {"foot", "toe", "ankle", "heel"};
+constexpr std::array<std::string_view, 1> kHeadWords = {"head"};
 
 template <std::size_t N>
 bool hasAny(const std::string& name, const std::array<std::string_view, N>& words) {
@@ -27,6 +28,15 @@ bool hasAny(const std::string& name, const std::array<std::string_view, N>& word
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return std::any_of(words.begin(), words.end(),
                      [&](std::string_view word) { return lower.find(word) != std::string::npos; });
+}
+
+template <std::size_t N>
+std::vector<bool> linksNamed(const Avatar& avatar, const std::array<std::string_view, N>& words) {
+  std::vector<bool> links;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    links.push_back(hasAny(avatar.skeleton().name(link), words));
+  }
+  return links;
 }
 
 }  // namespace
@@ -66,11 +76,11 @@ std::vector<double> visibilityByName(const Avatar& avatar) {
 }
 
 std::vector<bool> feetByName(const Avatar& avatar) {
-  std::vector<bool> feet;
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    feet.push_back(hasAny(avatar.skeleton().name(link), kFootWords));
-  }
-  return feet;
+  return linksNamed(avatar, kFootWords);
+}
+
+std::vector<bool> headsByName(const Avatar& avatar) {
+  return linksNamed(avatar, kHeadWords);
 }
 
 }  // namespace foretouch

@@ -23,7 +23,9 @@ Result<Done> TargetPose::take(const SolidTarget& given, const Pose* shown) {
   areLastPlaced_ = std::exchange(arePlaced_, false);
   hasLast_ = std::exchange(isAny_, true);
   std::swap(pose_, candidate_);
+  std::swap(isLost_, wasLost_);
   isLost_.assign(n, 0);
+  hasFound_ = false;
   for (std::size_t j = 0; given.isTracked != nullptr && j < n; ++j) {
     if ((*given.isTracked)[j] != 0) continue;
     isLost_[j] = 1;
@@ -31,6 +33,9 @@ Result<Done> TargetPose::take(const SolidTarget& given, const Pose* shown) {
     const Pose* const kept = shown != nullptr ? shown : hasLast_ ? &last_ : nullptr;
     pose_.rotations[j] = kept != nullptr ? kept->rotations[j] : skeleton_.restRotation(joint);
     pose_.translations[j] = kept != nullptr ? kept->translations[j] : skeleton_.restOffset(joint);
+  }
+  for (std::size_t j = 0; hasLast_ && j < n; ++j) {
+    hasFound_ = hasFound_ || (wasLost_[j] != 0 && isLost_[j] == 0);
   }
   return Done{};
 }

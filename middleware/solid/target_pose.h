@@ -29,6 +29,12 @@ class TargetPose {
 
   [[nodiscard]] const Pose& pose() const { return pose_; }
   [[nodiscard]] bool isLost(JointId joint) const { return isLost_[slotOf(joint)] != 0; }
+  /// In the last tick. Precondition: hasLast().
+  [[nodiscard]] bool wasLost(JointId joint) const { return wasLost_[slotOf(joint)] != 0; }
+  /// A joint that was lost is tracked again: the target has not moved there.
+  [[nodiscard]] bool hasFound() const { return hasFound_; }
+  /// The last target. Precondition: hasLast().
+  [[nodiscard]] const Pose& last() const { return last_; }
   /// Where it places the links, and where the last target did (which there must be).
   [[nodiscard]] const std::vector<LinkState>& states();
   [[nodiscard]] const std::vector<LinkState>& lastStates();
@@ -37,9 +43,9 @@ class TargetPose {
  private:
   Skeleton skeleton_;
   Pose pose_, last_, candidate_;
-  std::vector<std::uint8_t> isLost_;
+  std::vector<std::uint8_t> isLost_, wasLost_;
   std::vector<LinkState> states_, lastStates_;
-  bool isAny_ = false, hasLast_ = false;
+  bool isAny_ = false, hasLast_ = false, hasFound_ = false;
   bool arePlaced_ = false, areLastPlaced_ = false;  // states, found when somebody asks
 };
 

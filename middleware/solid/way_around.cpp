@@ -268,17 +268,6 @@ double WayAround::length(const VisualBody& body, const Pose& from, const Pose& t
   return body.farthestMove(skeleton_, from, to, states_, statesThere_);
 }
 
-void WayAround::next(const VisualBody& body, const Pose& shown, double budget, Pose& towards) {
-  const Pose& to = way_[next_];
-  const double far = length(body, shown, to);
-  if (far <= budget) {
-    towards = to;
-    return;
-  }
-  part_.assign(skeleton_, shown, to);
-  part_.poseAt(budget / far, towards);
-}
-
 void WayAround::arrived(const Pose& shown) {
   if (isSamePose(shown, way_[next_])) ++next_;
 }

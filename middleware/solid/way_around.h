@@ -35,9 +35,9 @@ class WayAround {
   /// Makes what is left of the way shorter, from `shown` on, by a few queries. Precondition:
   /// hasWay().
   void tighten(const VisualBody& body, const Pose& shown, Certifier& certifier);
-  /// The next pose of the way, at most `budget` from `shown` for any point.
-  void next(const VisualBody& body, const Pose& shown, double budget, Pose& towards);
-  /// `shown` is where next() led to.
+  /// The next pose of the way. Precondition: hasWay().
+  [[nodiscard]] const Pose& next() const { return way_[next_]; }
+  /// `shown` is where the way to next() led to.
   void arrived(const Pose& shown);
 
  private:
