@@ -121,7 +121,8 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
   if (!hasPushes() && (!hasDirectFailed_ || size_ <= trust_)) {
     return stepFreely(request, certifier, shown, tick);
   }
-  if (hasPushes() && !hasDirectFailed_ && request.pace.shareOf(shown, request.target, part_) == 1.0 &&
+  if (hasPushes() && !hasDirectFailed_ &&
+      request.pace.shareOf(shown, request.target, part_) == 1.0 &&
       isTargetApart(request, certifier)) {
     // What pushes is the skin, or a surface that the direct motion passes by.
     const Certified direct = ask(shown, request.target, certifier, tick);
@@ -349,8 +350,7 @@ void Follower::goFarther(const FollowRequest& request, const QueryPlan& plan, co
 
 /// How much of the way to tried_ the pace allows.
 double Follower::fitOf(const FollowRequest& request, const Pose& shown) const {
-  return request.pace.shareOf(
-      request.pace.measure(shown, tried_, here_.places, there_.places));
+  return request.pace.shareOf(request.pace.measure(shown, tried_, here_.places, there_.places));
 }
 
 void Follower::solve(SolidTick& tick) {

@@ -22,7 +22,7 @@ struct FollowRequest {
   const Pose& target;
   const std::vector<LinkState>& states;        ///< The links at the target.
   const std::vector<Eigen::Vector3d>& wanted;  ///< The body's points there.
-  Pace& pace;  ///< How far the avatar may move in this tick.
+  Pace& pace;                                  ///< How far the avatar may move in this tick.
 };
 
 /// For one thread; keeps its memory.
@@ -41,8 +41,8 @@ class Follower {
   void reset();
 
   [[nodiscard]] const VisualBody& body() const { return step_.body(); }
-  /// The rows of the tick's last step, by link and LSS, with their pushes; places of those that push
-  /// are at the shown pose. Empty if nothing was near.
+  /// The rows of the tick's last step, by link and LSS, with their pushes; places of those that
+  /// push are at the shown pose. Empty if nothing was near.
   [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
   /// One of them pushes.
   [[nodiscard]] bool hasPushes() const;

@@ -1,5 +1,5 @@
-// middleware/solid/pace.h: how far a solid avatar may move in a tick: as far as the tracked one, and
-// so much farther as the catch-up speed allows. Metres, seconds, radians. Not installed.
+// middleware/solid/pace.h: how far a solid avatar may move in a tick: as far as the tracked one,
+// and so much farther as the catch-up speed allows. Metres, seconds, radians. Not installed.
 #pragma once
 
 #include <cstdint>

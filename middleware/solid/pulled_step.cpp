@@ -120,7 +120,8 @@ Moved PulledStep::moveOf(const Stance& here, const Pace& pace) const {
   const auto& points = body_.points();
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto link = slotOf(points[k].link);
-    const double far = (step_.twists[link].at(here.places[k] - origin_) + pull_.drifts[link]).norm();
+    const double far =
+        (step_.twists[link].at(here.places[k] - origin_) + pull_.drifts[link]).norm();
     most.all = std::max(most.all, far);
     if (pace.isOfHead(k)) most.head = std::max(most.head, far);
   }

@@ -109,6 +109,7 @@ const char* toString(SolidTargets targets) {
 
 void SolidCampaignTally::add(const SolidCampaignTally& other) {
   way.add(other.way);
+  motion.add(other.motion);
   places += other.places;
   refused += other.refused;
 }
@@ -153,16 +154,22 @@ SolidCampaignTally judgeSolid(const tools::SolidStage& stage, const tools::Solid
     audit.begin(fmt::format("{} in {}, {} targets, {:g} Hz, skin {:g}, self {}, seed {}, place {}",
                             actor.name, stage.name, toString(campaign.targets), campaign.rateHz,
                             campaign.skin, campaign.self, campaign.seed, tally.places));
+    const bool isPerson = campaign.targets != SolidTargets::Hostile;
+    MotionAudit motion(actor.avatar, options);
+    motion.begin(audit.name());
     SolidTick tick;
     for (std::size_t i = 0; i < targets.count(); ++i) {
-      const Pose target = targets.at(i);
+      Pose target = targets.at(i);
+      target.translations[0] -= campaign.sunk * options.up;
       if (solid.value().follow({target, 1.0 / campaign.rateHz, &targets.isTracked()}, tick).ok()) {
         audit.look(tick);
+        if (isPerson) motion.look(target, tick, 1.0 / campaign.rateHz);
       } else {
         ++tally.refused;
       }
     }
     tally.way.add(audit.tally());
+    tally.motion.add(motion.tally());
   }
   return tally;
 }

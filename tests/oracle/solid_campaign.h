@@ -7,6 +7,7 @@
 
 #include "bench/solid/stage.h"
 #include "bench/solid/way_audit.h"
+#include "tests/oracle/motion_audit.h"
 
 namespace foretouch::test {
 
@@ -23,6 +24,7 @@ inline constexpr std::uint8_t kNumSolidTargets = 3;
 struct SolidCampaign {
   SolidTargets targets = SolidTargets::Clip;
   double rateHz = 90.0, skin = 2e-3, seconds = 4.0;
+  double sunk = 0.0;  ///< How far the tracked body is below where it belongs (m).
   bool self = false;  ///< Whether own links stop each other, too.
   int places = 1;
   std::uint64_t seed = 1;
@@ -30,6 +32,7 @@ struct SolidCampaign {
 
 struct SolidCampaignTally {
   tools::WayTally way;
+  MotionTally motion;  ///< Of clips and random targets: hostile ones are no motion of a person.
   std::uint64_t places = 0, refused = 0;  ///< Ticks that were refused as no poses.
   void add(const SolidCampaignTally& other);
   /// One line of counts.

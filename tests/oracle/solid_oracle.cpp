@@ -20,7 +20,7 @@ struct Arguments {
       targets{"clip", "random", "hostile"};
   std::vector<double> rates{90, 30, 10}, skins{2e-3, 1e-3};
   std::string data, self = "both";
-  double seconds = 4.0;
+  double seconds = 4.0, sunk = 0.0;
   int places = 1;
   std::uint64_t seeds = 1, first = 1;
 };
@@ -43,7 +43,7 @@ std::vector<SolidCampaign> campaignsOf(const Arguments& a) {
           }
           for (const bool self : {false, true}) {
             if (a.self != "both" && (a.self == "on") != self) continue;
-            all.push_back({kind, rate, skin, a.seconds, self, a.places, seed});
+            all.push_back({kind, rate, skin, a.seconds, a.sunk, self, a.places, seed});
           }
         }
       }
@@ -76,8 +76,10 @@ int judgeAll(const Arguments& a) {
   }
   std::cout << "total: " << total.summary() << "\n";
   for (const std::string& finding : total.way.findings) std::cout << "  " << finding << "\n";
+  std::cout << total.motion.table();
+  for (const std::string& finding : total.motion.findings) std::cout << "  " << finding << "\n";
   if (total.way.ticks == 0) return 2;
-  return total.way.violations() > 0 ? 1 : 0;
+  return total.way.violations() + total.motion.violations() > 0 ? 1 : 0;
 }
 
 }  // namespace
@@ -96,6 +98,7 @@ int main(int argc, char** argv) {
   app.add_option("--skins", a.skins, "Metres")->delimiter(',')->check(CLI::PositiveNumber);
   app.add_option("--self", a.self, "on, off or both")->check(CLI::IsMember({"on", "off", "both"}));
   app.add_option("--seconds", a.seconds, "Of each clip at each place")->check(CLI::PositiveNumber);
+  app.add_option("--sunk", a.sunk, "How far the tracked body is too low, in metres");
   app.add_option("--places", a.places, "Per combination")->check(CLI::PositiveNumber);
   app.add_option("--seeds", a.seeds, "How often, each time at other places");
   app.add_option("--first", a.first, "The first seed");

@@ -1,0 +1,82 @@
+// tests/oracle/motion_audit.h: how a solid avatar moves beside the tracked one, judged by
+// kinematics that share no code with it: no point outruns the fastest tracked one by more than the
+// catch-up, the lift changes slowly; and what a person sees of the rest, in figures by link.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "judge/vector.h"
+#include "judge/way_judge.h"
+#include "middleware/solid/solid_options.h"
+#include "middleware/solid/solid_tick.h"
+
+namespace foretouch::test {
+
+/// Of one link, the worst of all ticks.
+struct LinkMotion {
+  double beyond = 0.0;        ///< Faster than the fastest tracked point (m/s).
+  double turn = 0.0;          ///< Of its joint from where that is tracked (rad).
+  double turnSpeed = 0.0;     ///< Of its joint (rad/s).
+  double ownDepth = 0.0;      ///< In other own links, deeper than tracked (m).
+  double acceleration = 0.0;  ///< Of its points (m/s^2), from tick to tick; of no appearance.
+  double tracked = 0.0;       ///< The tracked one's.
+};
+
+struct MotionTally {
+  std::uint64_t ticks = 0;
+  std::uint64_t outrun = 0;      ///< Ticks with a point that outran the tracked ones.
+  std::uint64_t liftJumped = 0;  ///< Ticks in which the lift changed faster than it may.
+  std::uint64_t deeper = 0;      ///< Ticks with a link 5 cm deeper in another than tracked.
+  std::map<std::string, LinkMotion> links;
+  std::vector<double> head, trackedHead;  ///< Accelerations of the head, shown and tracked.
+  std::vector<std::string> findings;      ///< The first twenty.
+
+  [[nodiscard]] std::uint64_t violations() const { return outrun + liftJumped; }
+  void add(const MotionTally& other);
+  /// A table by link, and the head's accelerations.
+  [[nodiscard]] std::string table() const;
+};
+
+class MotionAudit {
+ public:
+  MotionAudit(const Avatar& avatar, const SolidOptions& options);
+
+  /// `name`: of the run, for findings. The next tick is the first.
+  void begin(std::string name);
+  void look(const Pose& tracked, const SolidTick& tick, double dtS);
+  [[nodiscard]] const MotionTally& tally() const { return tally_; }
+
+ private:
+  using Vec = oracle::Vec3<double>;
+  /// Where a pose has the ends of all LSS, and its joints' turns.
+  struct Body {
+    std::vector<std::array<Vec, 2>> axes;
+    std::vector<std::array<double, 4>> turns;
+  };
+  [[nodiscard]] Body placed(const Pose& pose) const;
+  void lookAtSpeed(const Body& shown, const Body& tracked, double dtS);
+  void lookAtDepth(const Body& shown, const Body& tracked);
+  void lookAtHead(const Body& shown, const Body& tracked, double dtS);
+  void find(const std::string& what);
+  [[nodiscard]] double ownDepth(const Body& body, std::size_t i, std::size_t k) const;
+  [[nodiscard]] LinkMotion& of(std::size_t link) { return tally_.links[names_[link]]; }
+
+  oracle::WayBody body_;
+  double catchUp_;
+  std::vector<std::string> names_;
+  std::vector<std::size_t> linkOf_;                // of each LSS
+  std::vector<double> radii_;                      // of each LSS
+  std::vector<bool> isHead_;                       // of each link
+  std::vector<std::array<std::size_t, 2>> pairs_;  // of LSS that an avatar can keep apart
+  MotionTally tally_;
+  std::string name_;
+  std::uint64_t tickOfRun_ = 0;
+  double lift_ = 0.0;
+  std::vector<Body> shown_, tracked_;  // of the last two ticks since it appeared
+};
+
+}  // namespace foretouch::test
