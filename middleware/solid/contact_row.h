@@ -22,6 +22,10 @@ struct ContactRow {
   Eigen::Vector3d y = Eigen::Vector3d::Zero();  ///< On the surface that is touched, in W.
   Eigen::Vector3d n = Eigen::Vector3d::Zero();  ///< Unit, from y to x.
   double gap = 0.0;
+  /// Of own links that are not asked: how much nearer than the skin the target has them, which is
+  /// the person's own affair; and such a row is a wish, which no proof stands behind.
+  double slack = 0.0;
+  bool isSoft = false;
   bool isFace = false;  ///< A face of the scene holds it, with all that goes on flat around it.
   double along = 0.0;   ///< Then: where on the axis, from end a (0) to end b (1).
   double bound = 0.0;   ///< Of the step along n.

@@ -26,6 +26,8 @@ constexpr std::uint8_t kHotTicks = 8;
 /// Of a step that the pace allows to first order: a little is left for what the path is longer.
 constexpr double kWithinPace = 0.99;
 constexpr int kDoublings = 3, kCorrections = 2;
+/// What is not proven but wished for may be missed by so much in a step (m).
+constexpr double kSoft = 5e-3;
 /// Two faces are of one plane: a cosine, and metres, as where near features are reduced.
 constexpr double kSamePlane = 1.0 - 1e-6, kInPlane = 1e-4;
 
@@ -48,6 +50,8 @@ Follower::Follower(const Avatar& avatar, const SolidOptions& options, const Cert
 }
 
 void Follower::reset() {
+  isCaught_ = false;
+  heldTicks_ = 0;
   cutClearance_ = -1.0;
   std::fill(hotFor_.begin(), hotFor_.end(), std::uint8_t{0});
   rows_.clear();
@@ -93,12 +97,15 @@ void Follower::follow(const FollowRequest& request, Certifier& certifier, Pose& 
     (void)showCut(request, cutClearance_, shown, tick);
   }
   cutClearance_ = -1.0;
-  isOver_ = false;
+  isOver_ = isHeldBySelf_ = false;
   for (int i = 0; i < kMostIterations && !isOver_; ++i) {
     if (!iterate(request, certifier, shown, tick)) break;
   }
   if (areRowsOld_) moveRows(certifier.plan());
   keepHot();
+  // Nobody is caught by himself: wishes that hold him for long are dropped until he is free.
+  heldTicks_ = isHeldBySelf_ ? heldTicks_ + 1 : 0;
+  isCaught_ = (isCaught_ || heldTicks_ > kHotTicks) && !isSamePose(shown, request.target);
 }
 
 /// One step; false if the tick is over.
@@ -111,16 +118,19 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
     return false;
   }
   standHere(request, shown);
-  if (!isAnyHot()) return stepFreely(request, certifier, shown, tick);
+  if (!isAnyHot() && !warmOwn(request, certifier.plan(), shown)) {
+    return stepFreely(request, certifier, shown, tick);
+  }
 
   step_.aim(request.target, request.wanted, here_, shown);
-  gather(certifier, tick);
+  gather(request, certifier, tick);
   tries_ = 0;
   const bool hasStep = propose(request, certifier.plan(), shown, tick);
   certifier.spend(kTryWork * tries_);
   if (!hasPushes() && (!hasDirectFailed_ || size_ <= trust_)) {
     return stepFreely(request, certifier, shown, tick);
   }
+  isHeldBySelf_ = !hasStep && hasPushes() && areAllSoft();
   if (hasPushes() && !hasDirectFailed_ &&
       request.pace.shareOf(shown, request.target, part_) == 1.0 &&
       isTargetApart(request, certifier)) {
@@ -252,12 +262,15 @@ void Follower::findReach() {
   }
 }
 
-void Follower::gather(Certifier& certifier, SolidTick& tick) {
+void Follower::gather(const FollowRequest& request, Certifier& certifier, SolidTick& tick) {
   findReach();
   areRowsOld_ = false;
   near_.answer(here_.states, hotReach_, nearScratch_, features_);
   appendRows(features_, rows_);
-  if (options_.self) own_.append(certifier.plan(), here_.states, reach_, hotFor_, rows_);
+  if (options_.self || !isCaught_) {
+    own_.append(certifier.plan(), {here_.states, request.states}, options_.skin, reach_, hotFor_,
+                rows_);
+  }
   ++tick.counters.iterations;
   tick.counters.features += static_cast<std::uint32_t>(rows_.size());
   certifier.spend(kIterationWork + kRowWork * rows_.size() + WorkMeter::workOf(features_.counters));
@@ -266,7 +279,7 @@ void Follower::gather(Certifier& certifier, SolidTick& tick) {
 void Follower::setBounds(bool mayPush) {
   for (ContactRow& row : rows_) {
     row.bias = 0.0;
-    row.bound = boundOf(row.gap, options_.skin, mayPush);
+    row.bound = boundOf(row.gap + row.slack, options_.skin, mayPush);
   }
 }
 
@@ -371,7 +384,8 @@ bool Follower::tryShare(const FollowRequest& request, const Pose& shown, double 
 /// way. Of the surface, not of the triangle alone, lest its neighbours are asked in vain.
 bool Follower::isTargetApart(const FollowRequest& request, Certifier& certifier) {
   const bool areApart = std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
-    return !(row.push > 0.0) || pairGapAt(request.states, certifier.plan(), row) > 0.0;
+    return !(row.push > 0.0) || row.isSoft ||
+           pairGapAt(request.states, certifier.plan(), row) > 0.0;
   });
   if (!areApart) return false;
   touchReach_.assign(hotFor_.size(), -1.0);
@@ -415,6 +429,7 @@ double Follower::pairGapAt(const std::vector<LinkState>& states, const QueryPlan
 bool Follower::keepsGaps(const QueryPlan& plan) const {
   return std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
     if (!(row.push > 0.0)) return true;
+    if (row.isSoft) return gapAt(there_.states, plan, row) >= std::min(row.gap, -row.slack) - kSoft;
     return gapAt(there_.states, plan, row) >= std::min(kKeptGap * row.gap, kRest * options_.skin);
   });
 }
@@ -424,10 +439,29 @@ bool Follower::keepsGaps(const QueryPlan& plan) const {
 void Follower::correctFor(const QueryPlan& plan, double share) {
   for (ContactRow& row : rows_) {
     if (!(row.push > 0.0)) continue;
-    const double wanted = std::min(row.gap, kAimed * options_.skin);
+    const double wanted = std::min(row.gap, kAimed * options_.skin - row.slack);
     const double gap = gapAt(there_.states, plan, row);
     if (gap < wanted) row.bias += (wanted - gap) / share;
   }
+}
+
+bool Follower::areAllSoft() const {
+  return std::all_of(rows_.begin(), rows_.end(),
+                     [](const ContactRow& row) { return !(row.push > 0.0) || row.isSoft; });
+}
+
+/// Straight on, the body would dig into itself deeper than the target does: those links are in
+/// contact. O(pairs of LSS).
+bool Follower::warmOwn(const FollowRequest& request, const QueryPlan& plan, const Pose& shown) {
+  if (options_.self || isCaught_) return false;
+  const double share = request.pace.shareOf(shown, request.target, part_);
+  if (!(share > 0.0 && share < 1.0)) return false;  // the target is as it is
+  placeLinks(skeleton_, part_, partStates_);
+  const auto deeper =
+      own_.findDeeper(plan, partStates_, {here_.states, request.states}, options_.skin);
+  if (deeper.one == kNoParent) return false;
+  hotFor_[slotOf(deeper.one)] = hotFor_[slotOf(deeper.other)] = kHotTicks;
+  return true;
 }
 
 bool Follower::hasPushes() const {

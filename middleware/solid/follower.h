@@ -69,7 +69,10 @@ class Follower {
   void moveThere(const FollowRequest& request, double clearance, Pose& shown, SolidTick& tick);
   void moveRows(const QueryPlan& plan);
   void findReach();
-  void gather(Certifier& certifier, SolidTick& tick);
+  void gather(const FollowRequest& request, Certifier& certifier, SolidTick& tick);
+  [[nodiscard]] bool areAllSoft() const;
+  [[nodiscard]] bool warmOwn(const FollowRequest& request, const QueryPlan& plan,
+                             const Pose& shown);
   void setBounds(bool mayPush);
   [[nodiscard]] bool propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
                              SolidTick& tick);
@@ -107,6 +110,7 @@ class Follower {
   // Of the current iteration.
   std::vector<double> reach_, hotReach_, touchReach_;
   std::vector<ContactRow> rows_;
+  std::vector<LinkState> partStates_;
   bool areRowsOld_ = false;  // here_ was there_ when they were gathered
   Pose tried_, nearer_, reached_, part_;
   double size_ = 0.0;        // of the whole step that was solved for
@@ -122,6 +126,9 @@ class Follower {
   Pose cutFrom_;
   int fruitless_ = 0;
 
+  bool isHeldBySelf_ = false;  // by wishes alone
+  bool isCaught_ = false;      // has been so for long: no more wishes
+  int heldTicks_ = 0;
   std::vector<std::uint8_t> hotFor_;  // per link: ticks for which it counts as in contact
 };
 

@@ -26,20 +26,33 @@ struct LssInWorld {
 class OwnFeatures {
  public:
   OwnFeatures() = default;
-  /// `plan` outlives it. O(links^2).
+  /// Of the pairs that the plan asks about; where it asks about none, of those that no rule leaves
+  /// out: they are kept apart as far as the target has them. O(links^2 + LSS^2).
   explicit OwnFeatures(const QueryPlan& plan);
 
+  /// Where the links are, and where the target has them.
+  struct Places {
+    const std::vector<LinkState>&here, &target;
+  };
   /// Appends a row (without its bound) per pair of LSS that is nearer than the sum of its links'
   /// reaches, if one of the two is hot (not 0).
-  void append(const QueryPlan& plan, const std::vector<LinkState>& states,
+  void append(const QueryPlan& plan, const Places& places, double skin,
               const std::vector<double>& reach, const std::vector<std::uint8_t>& isHot,
               std::vector<ContactRow>& rows) const;
+  /// Two links that nobody asks about, of which one place has LSS deeper in each other by `by` (m)
+  /// than the target and another place have them; kNoParent: there are none.
+  struct Deeper {
+    LinkId one = kNoParent, other = kNoParent;
+  };
+  [[nodiscard]] Deeper findDeeper(const QueryPlan& plan, const std::vector<LinkState>& there,
+                                  const Places& places, double by) const;
 
  private:
   struct Asked {
     LinkId a, b;
   };
   std::vector<Asked> pairs_;  // of links, a < b
+  bool isSoft_ = false;       // nobody asks about them
 };
 
 }  // namespace foretouch::internal

@@ -22,6 +22,8 @@ constexpr double kTurnLever = 0.2;
 /// is shorter by the turn's square over 24, a hundredth.
 constexpr double kChordTurn = 0.5;
 constexpr int kMostPieces = 32;
+/// A chord's share is longer than the share of the chord, by less than the other hundredth.
+constexpr double kWithinChord = 0.99;
 /// Joints of a limb and a trunk: where none turns farther than a share of kChordTurn, no link does.
 constexpr double kDepth = 8.0;
 
@@ -152,7 +154,7 @@ double Pace::shareOf(const Pose& from, const Pose& to, Pose& part) {
     const double fits = std::min(shareWithin(left_.all - moved.all, step.all),
                                  shareWithin(left_.head - moved.head, step.head));
     if (fits < 1.0) {
-      share += fits * (next - share);
+      share += kWithinChord * fits * (next - share);
       break;
     }
     moved.all += step.all;

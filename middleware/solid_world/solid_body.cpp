@@ -247,8 +247,8 @@ void SolidBody::move(std::int64_t fromUs, std::int64_t toUs, Surroundings& aroun
       {target_, secondsOf(toUs - fromUs), flags_.empty() ? nullptr : &flags_}, tick.tick);
   FORETOUCH_ASSERT(followed.ok());  // the target was checked
   std::swap(wanted_, lastWanted_);
-  placeLinks(avatar_.skeleton(), outfit_->solid.target(), states_);
-  outfit_->yielding.body().place(states_, wanted_);
+  placeLinks(avatar_.skeleton(), outfit_->solid.target(), targetStates_);
+  outfit_->yielding.body().place(targetStates_, wanted_);
   const bool isElsewhere = !isPlaced_ && appear(fromUs, toUs, around, tick.tick);
   if (isPlaced_) around.refuge = shown_;  // whoever has just appeared may stay, too
   if (!isPlaced_) {
@@ -354,8 +354,8 @@ void SolidBody::yield(std::int64_t fromUs, std::int64_t toUs, Surroundings& arou
   const double step =
       lastWanted_.size() == wanted_.size() ? VisualBody::farthest(wanted_, lastWanted_) : 0.0;
   const double budget = step + options_.catchUp * secondsOf(toUs - fromUs);
-  yielding.run({outfit_->solid.target(), wanted_, step, budget, fromUs, toUs}, outfit_->prover,
-               around, shown_, own, endsUs_, crushers_);
+  yielding.run({outfit_->solid.target(), targetStates_, wanted_, step, budget, fromUs, toUs},
+               outfit_->prover, around, shown_, own, endsUs_, crushers_);
   finishYield(fromUs, toUs, tick);
   outfit_->solid.resume(shown_);
 }

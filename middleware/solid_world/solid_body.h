@@ -111,6 +111,7 @@ class SolidBody {
   Pose proposed_, target_;
   std::vector<std::uint8_t> proposedFlags_, flags_;
   bool hasTarget_ = false, isPlaced_ = false;
+  std::vector<LinkState> targetStates_;  // where the target has the links
   Pose shown_, before_;
   AroundBody trace_;
   std::vector<std::int64_t> endsUs_;

@@ -111,7 +111,8 @@ void Yielding::gather(Run& run) {
   near_.answer(here_.states, reach_, nearScratch_, features_);
   appendRows(features_, rows_);
   Certifier& certifier = run.prover.certifier();
-  if (options_.self) own_.append(certifier.plan(), here_.states, reach_, isAsked_, rows_);
+  own_.append(certifier.plan(), {here_.states, run.request.states}, options_.skin, reach_, isAsked_,
+              rows_);
   numStill_ = rows_.size();
   around_.append(run.prover, run.around, run.atUs, run.untilUs, here_.states, reach_, rows_);
   ++run.tick.counters.iterations;
@@ -124,7 +125,7 @@ void Yielding::setBounds(bool mayPushBack) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     ContactRow& row = rows_[i];
     row.bias = 0.0;
-    row.bound = boundOf(row.gap, options_.skin, mayPushBack);
+    row.bound = boundOf(row.gap + row.slack, options_.skin, mayPushBack);
     if (i >= numStill_) row.bound += around_.features()[i - numStill_].comes;
   }
 }
@@ -162,9 +163,9 @@ bool Yielding::correct(Run& run) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     ContactRow& row = rows_[i];
     if (!(row.push > 0.0)) continue;
-    const double wanted = std::min(row.gap, kAimed * options_.skin);
+    const double wanted = std::min(row.gap, kAimed * options_.skin - row.slack);
     const double gap = gapThere(run, i);
-    if (gap >= kKeptGap * wanted) continue;
+    if (gap >= (wanted > 0.0 ? kKeptGap * wanted : wanted)) continue;
     row.bias += wanted - gap;
     isKept = false;
   }

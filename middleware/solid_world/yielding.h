@@ -19,6 +19,7 @@ namespace foretouch::internal {
 
 struct YieldRequest {
   const Pose& target;
+  const std::vector<LinkState>& states;        ///< The links at the target.
   const std::vector<Eigen::Vector3d>& wanted;  ///< The body's points there.
   double trackedStep;                          ///< How far the target moved since the last tick.
   double budget;                               ///< How far the target may pull any point.
