@@ -1,6 +1,7 @@
 // bindings/wasm/foretouch_wasm.cpp: what the module foretouch.wasm has beside functions of the C
 // interface (bindings/c), which JavaScript calls by itself: files as texts in memory, for there are
-// no others, and what C does not have. As there a status tells, and ft_last_error() why. One thread.
+// no others, and what C does not have. As there a status tells, and ft_last_error() why. One
+// thread.
 #include <cstdint>
 #include <memory>
 #include <string>

@@ -35,8 +35,9 @@ for (let us = 0; us <= 4_000_000; us += 5_556) {
   for (const contact of world.contacts(answered, until).contacts) {
     if (contact.verdict !== "contact") continue; // it touched before
     const seconds = (1e-6 * (contact.timeUs + contact.timeFraction)).toFixed(4);
-    const [link, object] = [avatar.links[contact.a.link].name, panel.objectNames[contact.b.object]];
-    console.log(`${seconds} s: ${link} meets the ${object} at (${contact.a.point.map((x) => x.toFixed(3)).join(", ")})`);
+    const link = avatar.links[contact.a.link].name, object = panel.objectNames[contact.b.object];
+    const place = contact.a.point.map((x) => x.toFixed(3)).join(", ");
+    console.log(`${seconds} s: ${link} meets the ${object} at (${place})`);
     ++contacts;
   }
   world.forgetBefore(until);
