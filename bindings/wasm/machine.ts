@@ -25,6 +25,20 @@ export type Values<M> = { readonly [K in keyof M as K extends Hidden ? never : K
 export type Writes<M> = { readonly [K in keyof M as K extends Hidden ? never : K]?: (ValueOf<M[K]> extends Point ? ArrayLike<number> : number | boolean) | undefined };
 
 const widths: Readonly<Record<string, number>> = { i32: 4, u32: 4, pointer: 4, i64: 8, u64: 8, f64: 8, point: 24 };
+export function pointAt(memory: DataView, at: number): Point {
+  return [memory.getFloat64(at, true), memory.getFloat64(at + 8, true), memory.getFloat64(at + 16, true)];
+}
+
+type Reader = (memory: DataView, at: number) => unknown;
+const readers: Readonly<Record<Scalar | "point", Reader>> = {
+  i32: (memory, at) => memory.getInt32(at, true),
+  u32: (memory, at) => memory.getUint32(at, true),
+  pointer: (memory, at) => memory.getUint32(at, true),
+  i64: (memory, at) => Number(memory.getBigInt64(at, true)),
+  u64: (memory, at) => Number(memory.getBigUint64(at, true)),
+  f64: (memory, at) => memory.getFloat64(at, true),
+  point: pointAt,
+};
 const isHidden = (name: string): boolean => name === "size" || name.startsWith("reserved");
 
 /** A C struct as the module has it, where pointers have four bytes. Its names are C's in camelCase. */
@@ -32,6 +46,7 @@ export class Struct<M extends Fields> {
   readonly size: number;
   readonly align: number;
   readonly places = new Map<string, { readonly at: number; readonly field: Field }>();
+  private readonly shown: { readonly name: string; readonly at: number; readonly read: Reader }[];
 
   constructor(readonly fields: M) {
     let at = 0, widest = 4;
@@ -45,14 +60,20 @@ export class Struct<M extends Fields> {
     }
     this.align = widest;
     this.size = Math.ceil(at / widest) * widest;
+    this.shown = Array.from(this.places, ([name, { at, field }]) => ({ name, at, read: typeof field === "string" ? readers[field] : field.read.bind(field) })).filter(
+      ({ name }) => !isHidden(name),
+    );
   }
 
   read(memory: DataView, from: number): Values<M> {
     const values: Record<string, unknown> = {};
-    for (const [name, { at, field }] of this.places) {
-      if (!isHidden(name)) values[name] = readField(memory, from + at, field);
-    }
+    for (const { name, at, read } of this.shown) values[name] = read(memory, from + at);
     return values as Values<M>;
+  }
+
+  /** Where a field lies in it. */
+  placeOf(name: keyof M & string): number {
+    return this.places.get(name)?.at ?? 0;
   }
 
   /** `what`: the struct's name in messages. */
@@ -64,16 +85,6 @@ export class Struct<M extends Fields> {
       writeField(memory, to + place.at, place.field, value, name);
     }
   }
-}
-
-function readField(memory: DataView, at: number, field: Field): unknown {
-  if (field === "i32") return memory.getInt32(at, true);
-  if (field === "u32" || field === "pointer") return memory.getUint32(at, true);
-  if (field === "i64") return Number(memory.getBigInt64(at, true));
-  if (field === "u64") return Number(memory.getBigUint64(at, true));
-  if (field === "f64") return memory.getFloat64(at, true);
-  if (field === "point") return [memory.getFloat64(at, true), memory.getFloat64(at + 8, true), memory.getFloat64(at + 16, true)];
-  return field.read(memory, at);
 }
 
 function writeField(memory: DataView, at: number, field: Field, value: unknown, name: string): void {
@@ -246,12 +257,19 @@ export class Room {
 
   /** All that a call lists, of which the last three arguments are an array, its capacity and how many there are. */
   list<M extends Fields>(struct: Struct<M>, name: string, ...values: (number | bigint)[]): Values<M>[] {
+    return this.listed(struct, (memory, at) => struct.read(memory, at), name, ...values);
+  }
+
+  /** The same, each read by `read`. */
+  listed<M extends Fields, T>(struct: Struct<M>, read: (memory: DataView, at: number) => T, name: string, ...values: (number | bigint)[]): T[] {
     const count = this.answered(name, ...values, 0, 0);
     if (count === 0) return [];
     const array = this.take(count * struct.size);
     this.machine.view().setUint32(array, struct.size, true);
     this.machine.ask(name, ...values, array, count, 0);
-    return Array.from({ length: count }, (_, i) => this.read(struct, array + i * struct.size));
+    const memory = this.machine.view(), all: T[] = [];
+    for (let i = 0; i < count; ++i) all.push(read(memory, array + i * struct.size));
+    return all;
   }
 }
 

@@ -153,7 +153,7 @@ export function tickFrom(room: Room, at: number, prefix: string, links: number, 
     clearance,
     snapInS,
     wayCount,
-    joints: room.list(structs.ft_solid_joint, `${prefix}_joints`, ...of).map((joint) => ({ ...joint, state: solidJointStates[joint.state] })),
+    joints: room.list(structs.ft_solid_joint, `${prefix}_joints`, ...of).map(({ state, deviation }) => ({ state: solidJointStates[state], deviation })),
     contacts: room.list(structs.ft_solid_contact, `${prefix}_contacts`, ...of).map(({ other, ...contact }) => contact),
   };
 }
