@@ -127,7 +127,8 @@ TEST(MovingWorlds, PageShowsLinesOfTheProgramsThatAreRun) {
   };
   for (const Shown& shown : {Shown{"cpp", "  ", "/examples/cpp/swinging_door.cpp"},
                              Shown{"c", "  ", "/bindings/c/example/swinging_door.c"},
-                             Shown{"python", "", "/bindings/python/example/swinging_door.py"}}) {
+                             Shown{"python", "", "/bindings/python/example/swinging_door.py"},
+                             Shown{"js", "", "/bindings/wasm/example/swinging_door.mjs"}}) {
     const std::string block = blockOf(page, "The loop", shown.language, shown.indent);
     EXPECT_GT(std::count(block.begin(), block.end(), '\n'), 10);
     EXPECT_NE(house::contentOf(root + shown.program).find(block), std::string::npos) << block;

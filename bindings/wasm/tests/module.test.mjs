@@ -118,8 +118,12 @@ test("what cannot be used is refused in words", () => {
   refuses(() => ft.query(scene, avatar, { tolerance: 0 }), /tolerance/);
   refuses(() => query.step(at(0, 0, 0), at(Number.NaN, 0, 0)), /^to/);
   refuses(() => query.step(at(0, 0, 0), { rotations: Float64Array.of(1), translations: Float64Array.of() }), /to: expected 1 joints/);
-  refuses(() => ft.query(scene, avatar).certificate(0), /step before/);
-  refuses(() => query.swept(0, 7), /LSS/);
+  refuses(() => ft.query(scene, avatar).certificate(0), /step\(\) to be answered before/);
+  refuses(() => query.swept(0, 0), /step\(\) to be answered before/);
+  query.step(at(0, 0, 0), at(0, 1, 0));
+  refuses(() => query.swept(0, 7), /^lss: expected one of the 1 LSS/);
+  refuses(() => query.swept(1, 0), /^link/);
+  refuses(() => query.certificate(0.5), /^link/);
   refuses(() => ft.solid(scene, avatar, { skin: 1 }), /skin/);
   refuses(() => ft.solid(scene, avatar).follow(at(0, 0, 0), 0), /dt/);
   scene.dispose();

@@ -1,0 +1,164 @@
+// Solid avatars in a world in which other things move: doors push them, what they hold is solid with
+// them, two of them meet and neither passes; and what they press against is told from enter to leave.
+
+import { handleOf, instant, type Machine, numberOf, type Point } from "./machine.js";
+import { Avatar, type Pose, type PoseLike, Scene, writtenPose } from "./shapes.js";
+import { type SolidOptions, type SolidTick, tickFrom, wayFrom, writtenFlags, writtenSolidOptions } from "./solid.js";
+import * as structs from "./structs.js";
+import { type BodyOptions, Follower, World, type WorldEvents, type WorldOptions, writtenBodyOptions, writtenWorldOptions } from "./world.js";
+
+export const reaches = ["skin", "surface"] as const;
+
+export interface SolidWorldOptions extends WorldOptions {
+  /** Solid avatars are found in contact with what they press against ("skin", if left out), or with what crushes them alone ("surface"). */
+  readonly reach?: (typeof reaches)[number];
+}
+
+/** A moving body that holds or pushes a solid avatar. */
+export interface SolidBodyContact {
+  readonly body: number;
+  /** The avatar's. */
+  readonly link: number;
+  /** Of the link's LSS; those of tools in its hand come after its own. */
+  readonly lss: number;
+  /** Of a mesh; -1: none. */
+  readonly triangle: number;
+  readonly object: number;
+  /** On the body's surface. */
+  readonly point: Point;
+  /** Unit, from it to the avatar. */
+  readonly normal: Point;
+  readonly gap: number;
+  /** As of SolidContact; what the body's own motion adds is in it. */
+  readonly push: number;
+}
+
+/** A body that nobody holds back has left a solid avatar no proven way: between the two nothing is claimed from `sinceUs` on. Everything else stays proven. */
+export interface SolidCrush {
+  readonly body: number;
+  /** Where it was met; while they overlap, the link that is deepest. */
+  readonly link: number;
+  readonly sinceUs: number;
+  /** It ended at the tick's begin, where the two are proven apart; told once. */
+  readonly isOver: boolean;
+  /** Of a link's axis below the body's surface at the tick's end; 0: no overlap there. */
+  readonly depth: number;
+}
+
+/** What a solid avatar among moving bodies shows at one tick, and what they do to it. */
+export interface SolidBodyTick {
+  readonly body: number;
+  /** As of a Solid; its contacts are those with what stands still. Moving bodies are part of what it proves. */
+  readonly tick: SolidTick;
+  readonly contacts: readonly SolidBodyContact[];
+  readonly crushes: readonly SolidCrush[];
+  /** What its hands hold and is solid with it. */
+  readonly tools: readonly number[];
+  /** What they hold, and touched something where it was taken: nothing is claimed of it yet. */
+  readonly looseTools: readonly number[];
+  /** What they let go of and still touch: the two are not asked until they are apart. */
+  readonly letGo: readonly number[];
+  /** A body around it was silent, and was taken to hold still or to be nowhere. */
+  readonly isAssumed: boolean;
+}
+
+/** Where the tracker says that a solid avatar is at the end of a tick. */
+export interface SolidTarget {
+  readonly body: number;
+  readonly pose: PoseLike;
+  /** Per joint false if its tracker lost it. */
+  readonly isTracked?: ArrayLike<boolean> | undefined;
+}
+
+export class SolidWorld {
+  /** Add what moves by itself, push its poses, attach what hands hold. Solid avatars are moved by tick() alone. */
+  readonly world: World;
+  /** Weighs bodies, and says who is in contact now. */
+  readonly follower: Follower;
+  private readonly machine: Machine;
+  private readonly solids = new Set<number>();
+  private shown = new Set<number>();
+
+  constructor(machine: Machine, still: Scene, beginUs: number, { reach = "skin", ...options }: SolidWorldOptions) {
+    this.machine = machine;
+    this.world = new World(machine, machine.within((room) => {
+      const scene = handleOf(still, Scene, machine, "still"), reaching = numberOf(reaches, reach, "reach") ?? 0;
+      return room.answered("ft_solid_world_create", scene, instant(beginUs, "beginUs"), reaching, writtenWorldOptions(room, options));
+    }));
+    this.follower = this.world.followedBy(new Follower(this.world, beginUs));
+  }
+
+  /** A solid avatar, by its number among all bodies; it is there from its first target on. Options: as of a Solid, without `maySnap`, and as of World.add(). */
+  add(avatar: Avatar, { group, whenSilent, ...options }: SolidOptions & BodyOptions = {}): number {
+    return this.machine.within((room) => {
+      const shape = handleOf(avatar, Avatar, this.machine, "avatar");
+      const body = writtenBodyOptions(room, { ...(group !== undefined && { group }), ...(whenSilent !== undefined && { whenSilent }) });
+      const number = room.answered("ft_solid_world_add", this.world.handle, shape, writtenSolidOptions(room, options), body);
+      this.solids.add(number);
+      return this.world.added(avatar.links.length, number);
+    });
+  }
+
+  /**
+   * One tick, from the last one's end until `timeUs`. Whoever has no target keeps his last one. Answers
+   * of all that have had one, by their numbers: what to draw is `tick.shown` of each.
+   */
+  tick(timeUs: number, targets: readonly SolidTarget[]): SolidBodyTick[] {
+    return this.machine.within((room) => {
+      const all = room.take(structs.ft_solid_target.size * targets.length);
+      targets.forEach(({ body, pose, isTracked }, i) => {
+        const joints = this.world.jointsOf(body);
+        const target = { body, pose: writtenPose(room, pose, joints, `targets[${i}]`), isTracked: writtenFlags(room, joints, isTracked) };
+        const at = all + i * structs.ft_solid_target.size;
+        new Uint8Array(this.machine.view().buffer, at, structs.ft_solid_target.size).fill(0);
+        structs.ft_solid_target.write(this.machine.view(), at, target, "target");
+      });
+      this.machine.ask("ft_solid_world_tick", this.world.handle, instant(timeUs, "timeUs"), all, targets.length);
+      for (const { body } of targets) this.shown.add(body);
+      return [...this.solids].filter((body) => this.shown.has(body)).map((body) => this.told(body));
+    });
+  }
+
+  /** What has happened from where the last call ended until the last tick's end. Before World.forgetBefore(). */
+  follow(): WorldEvents {
+    return this.follower.follow(this.timeUs);
+  }
+
+  /** Where the last tick ended. */
+  get timeUs(): number {
+    return this.machine.within((room) => {
+      const at = room.doubles([0]);
+      this.machine.ask("ft_solid_world_at", this.world.handle, at);
+      return Number(this.machine.view().getBigInt64(at, true));
+    });
+  }
+
+  /** Piece `index` of a solid avatar's way in the last tick: when it is reached, in (0, 1] of the tick, and the pose that it ends with. */
+  way(body: number, index: number): { readonly time: number; readonly pose: Pose } {
+    return wayFrom(this.machine, "ft_solid_world_way", this.world.jointsOf(body), index, this.world.handle, body);
+  }
+
+  dispose(): void {
+    this.world.dispose();
+  }
+
+  private told(body: number): SolidBodyTick {
+    const { handle } = this.world;
+    return this.machine.within((room) => {
+      const at = room.zeroed(structs.ft_solid_tick);
+      const isAssumed = room.answered("ft_solid_world_get_tick", handle, body, at) === 1;
+      const held = room.list(structs.ft_solid_held, "ft_solid_world_held", handle, body);
+      const [tools, looseTools, letGo] = [0, 1, 2].map((state) => held.filter((one) => one.state === state).map((one) => one.body));
+      return {
+        body,
+        tick: tickFrom(room, at, "ft_solid_world", this.world.jointsOf(body), handle, body),
+        contacts: room.list(structs.ft_solid_body_contact, "ft_solid_world_body_contacts", handle, body),
+        crushes: room.list(structs.ft_solid_crush, "ft_solid_world_crushes", handle, body).map((crush) => ({ ...crush, isOver: crush.isOver === 1 })),
+        tools,
+        looseTools,
+        letGo,
+        isAssumed,
+      };
+    });
+  }
+}
