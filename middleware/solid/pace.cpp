@@ -22,8 +22,9 @@ constexpr double kTurnLever = 0.2;
 /// is shorter by the turn's square over 24, a hundredth.
 constexpr double kChordTurn = 0.5;
 constexpr int kMostPieces = 32;
-/// A chord's share is longer than the share of the chord, by less than the other hundredth.
-constexpr double kWithinChord = 0.99;
+/// How often the end of what is left is looked for, and how near to it.
+constexpr int kMostTries = 8;
+constexpr double kWithin = 0.999;
 /// Joints of a limb and a trunk: where none turns farther than a share of kChordTurn, no link does.
 constexpr double kDepth = 8.0;
 
@@ -150,11 +151,20 @@ double Pace::shareOf(const Pose& from, const Pose& to, Pose& part) {
   for (int i = 1; i <= pieces && share < mostTurn; ++i) {
     const double next = std::min(mostTurn, static_cast<double>(i) / pieces);
     placeAt(next, after_);
-    const Moved step = chords(before_, after_);
-    const double fits = std::min(shareWithin(left_.all - moved.all, step.all),
-                                 shareWithin(left_.head - moved.head, step.head));
-    if (fits < 1.0) {
-      share += kWithinChord * fits * (next - share);
+    Moved step = chords(before_, after_);
+    const auto fits = [&] {
+      return std::min(shareWithin(left_.all - moved.all, step.all),
+                      shareWithin(left_.head - moved.head, step.head));
+    };
+    if (fits() < 1.0) {
+      // A share of an arc is longer than that share of its chord.
+      double more = next - share;
+      for (int tries = 0; tries < kMostTries && fits() < 1.0; ++tries) {
+        more *= kWithin * fits();
+        placeAt(share + more, after_);
+        step = chords(before_, after_);
+      }
+      share += more;
       break;
     }
     moved.all += step.all;

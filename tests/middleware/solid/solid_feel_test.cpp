@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -42,8 +43,21 @@ RawScene floorOnly() {
   return raw;
 }
 
+/// The figure's legs end so far above the floor (m).
+constexpr double kLegsAbove = 0.05;
+
+SolidOptions onFeet() {
+  SolidOptions options;
+  const Avatar body = figure();
+  for (LinkId link = 0; link < body.numLinks(); ++link) {
+    const std::string& name = body.skeleton().name(link);
+    options.feet.push_back(name == "LeftLeg" || name == "RightLeg");
+  }
+  return options;
+}
+
 TEST(SolidFeel, TheLiftChangesSlowlyThroughHops) {
-  SolidRunner run(floorOnly());
+  SolidRunner run(floorOnly(), onFeet());
   double lift = 0.0;
   int lifted = 0;
   Ends shown, tracked;
@@ -51,7 +65,7 @@ TEST(SolidFeel, TheLiftChangesSlowlyThroughHops) {
     // Its feet are 4 cm too low; once a second it hops by 20 cm within a third of a second.
     const double t = std::fmod(i * kTickS, 1.0), hop = i > 180 && t < 0.33 ? t / 0.33 : 0.0;
     Pose pose = run.rest();
-    pose.translations[0].y() += 0.2 * 4.0 * hop * (1.0 - hop) - 0.04;
+    pose.translations[0].y() += 0.2 * 4.0 * hop * (1.0 - hop) - kLegsAbove - 0.04;
     const SolidTick& tick = run.follow(pose);
     const Ends shownNow = endsOf(run, tick.shown), trackedNow = endsOf(run, pose);
     if (i > 0) {
@@ -61,7 +75,9 @@ TEST(SolidFeel, TheLiftChangesSlowlyThroughHops) {
           << i;
     }
     // It is the same body as tracked, lifted: no knees are bent once it stands as tracked.
-    if (i > 180) EXPECT_NEAR(tick.lift, 0.042, 6e-3) << i;
+    if (i > 180) {
+      EXPECT_NEAR(tick.lift, 0.042, 6e-3) << i;
+    }
     lifted += tick.lift > 0.0;
     lift = tick.lift;
     shown = shownNow;
@@ -72,14 +88,14 @@ TEST(SolidFeel, TheLiftChangesSlowlyThroughHops) {
 }
 
 TEST(SolidFeel, ALiftThatNobodyAsksForFallsSlowly) {
-  SolidRunner run(floorOnly());
+  SolidRunner run(floorOnly(), onFeet());
   Pose low = run.rest();
-  low.translations[0].y() -= 0.04;
+  low.translations[0].y() -= kLegsAbove + 0.04;
   for (int i = 0; i < 180; ++i) run.follow(low);
   ASSERT_GT(run.tick.lift, 0.035);
   // Calibrated anew: it falls at its speed, to nothing, and what is shown is tracked again.
   Pose right = run.rest();
-  right.translations[0].y() += 0.003;
+  right.translations[0].y() -= kLegsAbove - 0.003;
   double before = run.tick.lift;
   for (int i = 0; i < 270; ++i) {
     run.follow(right);
@@ -214,7 +230,9 @@ TEST(SolidFeel, ASnapIntoSomethingIsWithdrawn) {
     }
     told += tick.snapInS >= 0.0 ? 1 : 0;
     if (announced >= 0.0 && tick.snapInS < 0.0) ++withdrawn;
-    if (announced >= 0.0 && tick.snapInS >= 0.0) EXPECT_LT(tick.snapInS, announced);
+    if (announced >= 0.0 && tick.snapInS >= 0.0) {
+      EXPECT_LT(tick.snapInS, announced);
+    }
     announced = tick.snapInS;
   }
   EXPECT_GT(told, 0);
