@@ -14,7 +14,7 @@
 namespace foretouch::internal {
 namespace {
 
-// Where each comes from: solid.md 6; what is not here, near_rows.h has.
+// Where each comes from: solid.md 7; what is not here, near_rows.h has.
 constexpr int kMostIterations = 8, kMostFruitless = 4;
 /// A tick ends with a step below this share of the tracked one, and at most this long (m): the rest
 /// waits for the next tick. A still target is followed until the avatar rests.

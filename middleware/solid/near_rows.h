@@ -1,5 +1,5 @@
 // middleware/solid/near_rows.h: rows from what is near, how far to look for it, and what each must
-// keep. Where the constants come from: solid.md 6. Metres. Not installed.
+// keep. Where the constants come from: solid.md 7. Metres. Not installed.
 #pragma once
 
 #include <algorithm>

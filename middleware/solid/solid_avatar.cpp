@@ -23,7 +23,7 @@ namespace foretouch {
 namespace {
 
 constexpr double kLongestTick = 10.0;
-// When a way around is looked for (solid.md 6): farther than this from the target (m), and moving
+// When a way around is looked for (solid.md 7): farther than this from the target (m), and moving
 // by less than this share of it for so long (s, ticks).
 constexpr double kFarEnough = 0.05, kProgress = 0.02, kStuckFor = 0.05;
 constexpr int kStuckTicks = 3;
