@@ -27,7 +27,21 @@ Error linkError(const Avatar& avatar, LinkId link, ErrorCode code, const std::st
       "link " + std::to_string(link) + " " + inQuotes(avatar.skeleton().name(link)) + ": " + what);
 }
 
-/// Which LSS of the link contains each triangle.
+/// An LSS that contains triangles has one of them below it, even if all of them hang under other
+/// LSS: an LSS with none below it is taken for a surface. A triangle may well hang under two.
+void hangOneUnderTwins(const std::vector<Lss>& lss, const std::vector<Triangle>& triangles,
+                       std::vector<std::vector<std::int32_t>>& idsOfLss) {
+  for (std::size_t k = 0; k < lss.size(); ++k) {
+    if (!idsOfLss[k].empty()) continue;
+    const auto held = std::find_if(triangles.begin(), triangles.end(), [&](const Triangle& one) {
+      return sticksOut(lss[k], one) <= kContainmentSlack;
+    });
+    if (held == triangles.end()) continue;
+    idsOfLss[k].push_back(static_cast<std::int32_t>(held - triangles.begin()));
+  }
+}
+
+/// The triangles below each LSS of the link: each triangle is below one that contains it.
 Result<std::vector<std::vector<std::int32_t>>> assigned(const Avatar& avatar, LinkId link,
                                                         const std::vector<Triangle>& triangles) {
   const std::vector<Lss>& lss = avatar.lss(link);
@@ -56,6 +70,7 @@ Result<std::vector<std::vector<std::int32_t>>> assigned(const Avatar& avatar, Li
     }
     idsOfLss[best].push_back(static_cast<std::int32_t>(i));
   }
+  hangOneUnderTwins(lss, triangles, idsOfLss);
   return idsOfLss;
 }
 

@@ -34,7 +34,8 @@ class PartsBelow {
   std::size_t count_ = 0;
 };
 
-/// The triangles of one link, each under the one LSS of the link that contains it.
+/// The triangles of one link, each under an LSS of the link that contains it. An LSS whose
+/// triangles all hang under others has one of them too.
 class LinkSurface {
  public:
   LinkSurface(std::vector<Triangle> triangles, std::vector<std::vector<std::int32_t>> idsOfLss)

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "articulated/avatar.h"
@@ -34,6 +35,21 @@ inline std::vector<std::vector<Triangle>> meshWithin(const Avatar& avatar, Rando
     }
   }
   return meshes;
+}
+
+/// Most LSS get a twin before or behind them: the same one again, or one of `thinnest` to 1.2 times
+/// the radius.
+inline Avatar withTwins(const Avatar& avatar, Random& random, double thinnest) {
+  std::vector<std::vector<Lss>> lss;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    lss.push_back(avatar.lss(link));
+    for (Lss twin : avatar.lss(link)) {
+      if (random.chance(0.3)) continue;
+      if (random.chance(0.6)) twin.radius *= random.uniform(thinnest, 1.2);
+      lss.back().insert(random.chance(0.5) ? lss.back().end() : lss.back().begin(), twin);
+    }
+  }
+  return Avatar::build(avatar.skeleton(), std::move(lss)).value();
 }
 
 /// Every vertex of a random mesh, `count` triangles per LSS, blended between its own link and two

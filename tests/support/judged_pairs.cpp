@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "lss/index.h"
-#include "middleware/surface/link_surface.h"
 #include "tests/support/judged_answer.h"
+#include "tests/support/own_surface.h"
 
 namespace foretouch::test {
 namespace {
@@ -59,18 +59,16 @@ PairsJudge::PairsJudge(const Avatar& avatar, const PairRules& rules, const Avata
 
 void PairsJudge::addSurface(const Avatar& avatar, LinkId link, const AvatarSurface* surface) {
   Surface added;
-  const internal::LinkSurface* const mesh =
-      surface == nullptr ? nullptr : surface->parts().links[slotOf(link)].get();
-  if (mesh != nullptr) {
-    for (const Triangle& triangle : mesh->triangles()) {
+  if (surface != nullptr) {
+    for (const Triangle& triangle : surface->triangles(link)) {
       added.hulls.push_back({link, 3, plain(triangle), 0.0});
     }
   }
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(avatar.lss(link).size()); ++i) {
-    const bool isSurface = mesh == nullptr || !mesh->hasTriangles(i);
+    const Lss& lss = avatar.lss(link)[slotOf(i)];
+    const bool isSurface = surface == nullptr || standsForItself(lss, surface->triangles(link));
     added.hullOfLss.push_back(isSurface ? static_cast<int>(added.hulls.size()) : -1);
     if (!isSurface) continue;
-    const Lss& lss = avatar.lss(link)[slotOf(i)];
     added.hulls.push_back({link, 2, {plain(lss.a), plain(lss.b), plain(lss.b)}, lss.radius});
   }
   surfaces_.push_back(std::move(added));

@@ -225,7 +225,8 @@ TEST_P(SelfOracle, ProvesEveryExactAnswer) {
   for (int i = 0; i < 150; ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     Random random(static_cast<std::uint64_t>(i));
-    const OwnBody body = test::randomOwnBody(random);
+    OwnBody body = test::randomOwnBody(random);
+    if (random.chance(0.5)) body.avatar = test::withTwins(body.avatar, random, 0.6);
     const auto rules = PairRules::derive(body.avatar);
     if (!rules.ok()) continue;
     auto meshes = test::meshWithin(body.avatar, random, 1 + random.below(12), 0.9);

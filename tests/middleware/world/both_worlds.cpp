@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/surface/link_surface.h"
 #include "middleware/world/world_parts.h"
+#include "tests/support/own_surface.h"
 
 namespace foretouch::test {
 namespace {
@@ -55,15 +55,12 @@ BodyId BothWorlds::add(const Avatar& avatar, const BodyOptions& options) {
   OracleBody body;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     body.parents.push_back(avatar.skeleton().parent(link));
-    const internal::LinkSurface* const mesh =
-        options.surface ? options.surface->parts().links[slotOf(link)].get() : nullptr;
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(avatar.lss(link).size()); ++i) {
-      if (mesh != nullptr && mesh->hasTriangles(i)) continue;
-      const Lss& lss = avatar.lss(link)[slotOf(i)];
+    for (const Lss& lss : avatar.lss(link)) {
+      if (options.surface && !standsForItself(lss, options.surface->triangles(link))) continue;
       body.parts.push_back({link, 2, {plain(lss.a), plain(lss.b), plain(lss.b)}, lss.radius});
     }
-    if (mesh == nullptr) continue;
-    for (const Triangle& triangle : mesh->triangles()) {
+    if (!options.surface) continue;
+    for (const Triangle& triangle : options.surface->triangles(link)) {
       body.parts.push_back({link, 3, plain(triangle), 0.0});
     }
   }

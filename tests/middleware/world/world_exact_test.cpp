@@ -48,6 +48,7 @@ TEST(WorldExact, ProvesAvatarsByTheirTriangles) {
     const bool isOneClock = random.chance(0.5);
     for (int k = 0; k < 3; ++k) {
       Walker walker = randomWalker(random, place + random.inBox(0.3), 0.15);
+      if (random.chance(0.3)) walker.avatar = withTwins(walker.avatar, random, 0.6);
       const BodyOptions options = exactOptions(walker.avatar, random, 0.8);
       walk(both, both.add(walker.avatar, options), walker,
            isOneClock ? 33'333 : randomPeriod(random), kWindowUs, random);
