@@ -110,11 +110,16 @@ void addClipOnlySettings(Settings& settings, AskedReplay& asked) {
   }
 }
 
+void tellOfLogs(Setting& setting) {
+  setting.help.front() = static_cast<char>(std::tolower(setting.help.front()));
+  setting.help = "Of a log: " + setting.help;
+}
+
 /// Own links and budgets have options of their own in a clip.
 void addSolidReplaySettings(Settings& settings, StreamSolidRequest& solid) {
   addStreamSolidSettings(settings, solid);
   for (const char* const option : {"--solid-self", "--solid-budget-us"}) {
-    settings.of(option).ofLogs();
+    tellOfLogs(settings.of(option).ofLogs());
   }
 }
 
@@ -125,8 +130,7 @@ void addLogSettings(Settings& settings, AskedReplay& asked) {
   for (const char* const option :
        {"--suffix", "--max-step", "--confirmations", "--unmatched-at-rest"}) {
     Setting& setting = settings.of(option).ofLogs().in("Event logs");
-    setting.help.front() = static_cast<char>(std::tolower(setting.help.front()));
-    setting.help = "Of a log: " + setting.help;
+    tellOfLogs(setting);
   }
 }
 

@@ -8,6 +8,10 @@
 #include <utility>
 #include <vector>
 
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/temp_folder.h"
@@ -193,6 +197,17 @@ TEST_F(SolidFile, HasEveryBitOfItsPoses) {
   ASSERT_EQ(records[1].way.size(), 2u);
   EXPECT_TRUE(tools::areSamePoses(records[1].way[0], odd));
   EXPECT_EQ(tools::markOfPose(records[1].way[0]), tools::markOfPose(odd));
+  // As docs/formats.md says, and xxhsum would with that seed.
+  std::vector<double> numbers;
+  for (const Quaternion& q : odd.rotations) {
+    numbers.insert(numbers.end(), {q.w(), q.x(), q.y(), q.z()});
+  }
+  for (const Eigen::Vector3d& p : odd.translations) {
+    numbers.insert(numbers.end(), {p.x(), p.y(), p.z()});
+  }
+  EXPECT_EQ(tools::markOfPose(odd),
+            fmt::format("{:016x}", XXH64(numbers.data(), numbers.size() * sizeof(double),
+                                         0xef46db3751d8e999u)));
   EXPECT_EQ(records[0].state, SolidState::Equal);
   EXPECT_TRUE(records[0].start.has_value());
 }
