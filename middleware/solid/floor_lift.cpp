@@ -65,12 +65,8 @@ double FloorLift::asked(const std::vector<LinkState>& target) const {
       }
     }
   }
-  return most;
-}
-
-bool FloorLift::isWorthLifting(double asked) const {
   // Nobody begins to lift for the skin alone.
-  return asked > (lift_ > 0.0 ? 0.0 : skin_);
+  return lift_ > 0.0 || most > skin_ ? most : 0.0;
 }
 
 void FloorLift::grow(double dtS) {

@@ -26,10 +26,9 @@ class FloorLift {
   /// Whether anything is lifted, or a floor is remembered: else nobody need ask.
   [[nodiscard]] bool isAny() const;
   /// How far a target that places the links so has to be lifted, for its feet to stand on the
-  /// floors that are remembered; 0: no foot is there.
+  /// floors that are remembered; 0: no foot is there, or nothing is lifted and it is for the skin
+  /// alone.
   [[nodiscard]] double asked(const std::vector<LinkState>& target) const;
-  /// Whether so much, asked, makes a difference, unless the target touches nothing.
-  [[nodiscard]] bool isWorthLifting(double asked) const;
   /// How far to lift a target whose feet ask for so much: what they asked for most of the last
   /// second, reached slowly. `isFree`: the target touches nothing as it is, whatever is remembered.
   [[nodiscard]] double update(double asked, bool isFree, double dtS);

@@ -118,8 +118,11 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
     return false;
   }
   standHere(request, shown);
-  if (!isAnyHot() && !warmOwn(request, certifier.plan(), shown)) {
-    return stepFreely(request, certifier, shown, tick);
+  if (!isAnyHot()) {
+    const double share = shareOfDirect(request, shown);
+    if (!warmOwn(request, certifier.plan(), share)) {
+      return stepFreely(request, share, certifier, shown, tick);
+    }
   }
 
   step_.aim(request.target, request.wanted, here_, shown);
@@ -128,11 +131,10 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
   const bool hasStep = propose(request, certifier.plan(), shown, tick);
   certifier.spend(kTryWork * tries_);
   if (!hasPushes() && (!hasDirectFailed_ || size_ <= trust_)) {
-    return stepFreely(request, certifier, shown, tick);
+    return stepFreely(request, shareOfDirect(request, shown), certifier, shown, tick);
   }
   isHeldBySelf_ = !hasStep && hasPushes() && areAllSoft();
-  if (hasPushes() && !hasDirectFailed_ &&
-      request.pace.shareOf(shown, request.target, part_) == 1.0 &&
+  if (hasPushes() && !hasDirectFailed_ && shareOfDirect(request, shown) == 1.0 &&
       isTargetApart(request, certifier)) {
     // What pushes is the skin, or a surface that the direct motion passes by.
     const Certified direct = ask(shown, request.target, certifier, tick);
@@ -157,10 +159,14 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
   return false;
 }
 
-/// Nothing holds the avatar: straight to the target, or as far as the budget goes.
-bool Follower::stepFreely(const FollowRequest& request, Certifier& certifier, Pose& shown,
-                          SolidTick& tick) {
-  const double share = request.pace.shareOf(shown, request.target, part_);
+/// How much of the direct motion the pace allows; part_ becomes the pose there, if it is not all.
+double Follower::shareOfDirect(const FollowRequest& request, const Pose& shown) {
+  return request.pace.shareOf(shown, request.target, part_);
+}
+
+/// Nothing holds the avatar: straight to the target, or to part_, as far as the pace allows.
+bool Follower::stepFreely(const FollowRequest& request, double share, Certifier& certifier,
+                          Pose& shown, SolidTick& tick) {
   const bool isWhole = share == 1.0;
   if (!isWhole) {
     tick.limit = SolidLimit::CatchUp;
@@ -311,18 +317,9 @@ bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, cons
 
 /// How much of the step that was solved for the trust region and the pace allow.
 double Follower::shareToTry(const FollowRequest& request) {
-  mostShare_ = std::min(trust_ / size_, mostOf(request));
+  const double within = kWithinPace * request.pace.shareOf(step_.moveOf(here_, request.pace));
+  mostShare_ = std::min(trust_ / size_, within);
   return std::min(1.0, mostShare_);
-}
-
-/// Of the step, as far as the pace allows: more than 1 where that is more.
-double Follower::mostOf(const FollowRequest& request) const {
-  const Moved step = step_.moveOf(here_, request.pace), &left = request.pace.left();
-  const auto share = [](double of, double asked) {
-    return asked > 0.0 ? std::max(0.0, of) / asked : std::numeric_limits<double>::infinity();
-  };
-  return kWithinPace * std::min({share(left.all, step.all), share(left.head, step.head),
-                                 share(left.turn, step.turn)});
 }
 
 /// Tries the share, and its halves, until one is nearer to the target and keeps the gaps.
@@ -450,11 +447,10 @@ bool Follower::areAllSoft() const {
                      [](const ContactRow& row) { return !(row.push > 0.0) || row.isSoft; });
 }
 
-/// Straight on, the body would dig into itself deeper than the target does: those links are in
-/// contact. O(pairs of LSS).
-bool Follower::warmOwn(const FollowRequest& request, const QueryPlan& plan, const Pose& shown) {
+/// Straight on to part_, the body would dig into itself deeper than the target does: those links
+/// are in contact. O(pairs of LSS).
+bool Follower::warmOwn(const FollowRequest& request, const QueryPlan& plan, double share) {
   if (options_.self || isCaught_) return false;
-  const double share = request.pace.shareOf(shown, request.target, part_);
   if (!(share > 0.0 && share < 1.0)) return false;  // the target is as it is
   placeLinks(skeleton_, part_, partStates_);
   const auto deeper =

@@ -62,8 +62,9 @@ class Follower {
                              SolidTick& tick);
   [[nodiscard]] bool iterate(const FollowRequest& request, Certifier& certifier, Pose& shown,
                              SolidTick& tick);
-  [[nodiscard]] bool stepFreely(const FollowRequest& request, Certifier& certifier, Pose& shown,
-                                SolidTick& tick);
+  [[nodiscard]] double shareOfDirect(const FollowRequest& request, const Pose& shown);
+  [[nodiscard]] bool stepFreely(const FollowRequest& request, double share, Certifier& certifier,
+                                Pose& shown, SolidTick& tick);
   void weigh(const FollowRequest& request, const Pose& pose, Stance& stance) const;
   void standHere(const FollowRequest& request, const Pose& shown);
   void moveThere(const FollowRequest& request, double clearance, Pose& shown, SolidTick& tick);
@@ -71,13 +72,11 @@ class Follower {
   void findReach();
   void gather(const FollowRequest& request, Certifier& certifier, SolidTick& tick);
   [[nodiscard]] bool areAllSoft() const;
-  [[nodiscard]] bool warmOwn(const FollowRequest& request, const QueryPlan& plan,
-                             const Pose& shown);
+  [[nodiscard]] bool warmOwn(const FollowRequest& request, const QueryPlan& plan, double share);
   void setBounds(bool mayPush);
   [[nodiscard]] bool propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
                              SolidTick& tick);
   [[nodiscard]] double shareToTry(const FollowRequest& request);
-  [[nodiscard]] double mostOf(const FollowRequest& request) const;
   [[nodiscard]] double fitOf(const FollowRequest& request, const Pose& shown) const;
   [[nodiscard]] bool halve(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
                            double& share, int halvings);

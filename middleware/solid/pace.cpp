@@ -34,8 +34,24 @@ double speedFor(double before, double far, double dtS, double most) {
   return std::min({most, before + speedUp * dtS, std::sqrt(2.0 * speedUp * std::max(far, kNear))});
 }
 
+/// More than 1 where that is more.
+double roomFor(double asked, double left) {
+  return asked > 0.0 ? std::max(0.0, left) / asked : std::numeric_limits<double>::infinity();
+}
+
 double shareWithin(double left, double asked) {
-  return asked > left ? std::max(0.0, left) / asked : 1.0;
+  return std::min(1.0, roomFor(asked, left));
+}
+
+/// The largest turn of a joint, of those that are counted (null: all).
+double largestTurn(const Pose& from, const Pose& to,
+                   const std::vector<std::uint8_t>* isUncounted = nullptr) {
+  double least = 1.0;
+  for (std::size_t j = 0; j < from.rotations.size(); ++j) {
+    if (isUncounted != nullptr && (*isUncounted)[j] != 0) continue;
+    least = std::min(least, std::abs(from.rotations[j].dot(to.rotations[j])));
+  }
+  return 2.0 * std::acos(least);
 }
 
 }  // namespace
@@ -63,14 +79,6 @@ Moved Pace::chords(const Places& one, const Places& other) const {
   return most;
 }
 
-double Pace::largestTurn(const Pose& from, const Pose& to) const {
-  double least = 1.0;
-  for (std::size_t j = 0; j < from.rotations.size(); ++j) {
-    least = std::min(least, std::abs(from.rotations[j].dot(to.rotations[j])));
-  }
-  return 2.0 * std::acos(least);
-}
-
 /// The tracker's joints that it has not seen in both ticks have not moved: they were found.
 void Pace::findUncounted(const TargetPose& target) {
   const std::vector<JointId>& parents = skeleton_.parents();
@@ -95,13 +103,8 @@ void Pace::begin(const TargetPose& target, const Begin& places, double lift, dou
       tracked_.all = std::max(tracked_.all, step);
       if (isHead_[k] != 0) tracked_.head = std::max(tracked_.head, step);
     }
-    double least = 1.0;
-    for (std::size_t j = 0; j < isUncounted_.size(); ++j) {
-      if (isUncounted_[j] != 0) continue;
-      const Quaternion &now = target.pose().rotations[j], &then = target.last().rotations[j];
-      least = std::min(least, std::abs(now.dot(then)));
-    }
-    tracked_.turn = std::max(2.0 * std::acos(least), tracked_.all / kTurnLever);
+    tracked_.turn = std::max(largestTurn(target.last(), target.pose(), &isUncounted_),
+                             tracked_.all / kTurnLever);
   }
   // The lift moves the target, and what is tracked stands below it.
   const double lifted = std::min(lift, catchUp_ * dtS);
@@ -126,8 +129,8 @@ bool Pace::isSpent() const {
 }
 
 double Pace::shareOf(const Moved& step) const {
-  return std::min({shareWithin(left_.all, step.all), shareWithin(left_.head, step.head),
-                   shareWithin(left_.turn, step.turn)});
+  return std::min({roomFor(step.all, left_.all), roomFor(step.head, left_.head),
+                   roomFor(step.turn, left_.turn)});
 }
 
 int Pace::piecesOf(const Pose& from, const Pose& to) {

@@ -42,11 +42,9 @@ class Pace {
 
   /// How far the farthest point of the target moved since the last tick.
   [[nodiscard]] double trackedStep() const { return tracked_.all; }
-  /// What is left of the tick.
-  [[nodiscard]] const Moved& left() const { return left_; }
   /// Nothing worth a motion is.
   [[nodiscard]] bool isSpent() const;
-  /// How much of a step may be taken that moves the body so far, in [0, 1].
+  /// How much of a step may be taken that moves the body so far: more than 1 where that is more.
   [[nodiscard]] double shareOf(const Moved& step) const;
   /// How much of the motion may be shown, in [0, 1]. `part`: becomes the pose there, if it is less
   /// than the whole and more than nothing.
@@ -64,7 +62,6 @@ class Pace {
 
  private:
   [[nodiscard]] Moved chords(const Places& one, const Places& other) const;
-  [[nodiscard]] double largestTurn(const Pose& from, const Pose& to) const;
   [[nodiscard]] int piecesOf(const Pose& from, const Pose& to);
   void placeAt(double t, Places& places);
   void findUncounted(const TargetPose& target);

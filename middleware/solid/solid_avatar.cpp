@@ -254,8 +254,8 @@ class SolidAvatar::Parts {
   void liftTarget(double dtS, SolidTick& tick) {
     const double asked = lift_.asked(target_.states());
     const Pose& target = target_.pose();
-    const bool isFree = lift_.isWorthLifting(asked) && certifier_.isClear(target, target);
-    tick.lift = lift_.update(lift_.isWorthLifting(asked) ? asked : 0.0, isFree, dtS);
+    const bool isFree = asked > 0.0 && certifier_.isClear(target, target);
+    tick.lift = lift_.update(asked, isFree, dtS);
     target_.moveRoots(tick.lift * options_.up);
   }
 
@@ -322,7 +322,10 @@ class SolidAvatar::Parts {
     const bool wantsSnap = options_.maySnap && awayS_ > options_.patience;
     if (!wantsAround && !wantsSnap) return;
     const std::uint32_t before = certifier_.queries();
-    if (!(isTargetFree_ || certifier_.isClear(target_.pose(), target_.pose()))) {
+    // Where a snap may come, that was asked as the tick began.
+    const bool isFree =
+        isTargetFree_ || (!wantsSnap && certifier_.isClear(target_.pose(), target_.pose()));
+    if (!isFree) {
       lookAt_ = stuckTicks_ + kTicksToLookAgain;
       // What was announced is withdrawn, and announced anew in full.
       if (wantsSnap) awayS_ = options_.patience;
