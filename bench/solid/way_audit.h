@@ -38,7 +38,6 @@ class WayAudit {
   /// `name`: of the run, for findings. The next tick is the first.
   void begin(std::string name);
   void look(const SolidTick& tick);
-  [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const WayTally& tally() const { return tally_; }
   /// Of the last tick's way (m); infinite beyond kLooksFarM, or where it did not move.
   [[nodiscard]] double leastOfTick() const { return leastOfTick_; }

@@ -8,7 +8,6 @@
 #include "articulated/pair_rules.h"
 #include "bench/solid/plain_body.h"
 #include "judge/distance.h"
-#include "judge/quaternion.h"
 
 namespace foretouch::test {
 namespace {
@@ -18,10 +17,6 @@ constexpr double kLiftSpeed = 0.05, kRounding = 1e-6;
 /// A link so deep in another, beyond the tracked one (m), is seen.
 constexpr double kSeen = 0.05;
 constexpr std::size_t kMostFindings = 20;
-
-double normOf(const oracle::Vec3<double>& v) {
-  return std::sqrt(dot(v, v));
-}
 
 double angleBetween(const std::array<double, 4>& one, const std::array<double, 4>& other) {
   double cosine = 0.0;
@@ -79,8 +74,12 @@ std::string MotionTally::table() const {
                     quantile(trackedHead, 1.0));
 }
 
-MotionAudit::MotionAudit(const Avatar& avatar, const SolidOptions& options)
-    : body_(tools::plainBody(avatar)), catchUp_(options.catchUp), isHead_(headsByName(avatar)) {
+MotionAudit::MotionAudit(const oracle::Scene& scene, const Avatar& avatar,
+                         const SolidOptions& options)
+    : judge_(scene, tools::plainBody(avatar)),
+      body_(tools::plainBody(avatar)),
+      catchUp_(options.catchUp),
+      isHead_(headsByName(avatar)) {
   for (std::size_t link = 0; link < body_.capsules.size(); ++link) {
     names_.push_back(avatar.skeleton().name(static_cast<LinkId>(link)));
     for (const auto& capsule : body_.capsules[link]) {
@@ -105,29 +104,9 @@ void MotionAudit::begin(std::string name) {
   tracked_.clear();
 }
 
-MotionAudit::Body MotionAudit::placed(const Pose& pose) const {
+MotionAudit::Body MotionAudit::placed(const Pose& pose) {
   const oracle::PlainPose plain = tools::plainPose(pose);
-  Body body;
-  std::vector<oracle::Quaternion<double>> turns;
-  std::vector<Vec> origins;
-  for (std::size_t j = 0; j < body_.parents.size(); ++j) {
-    const auto turn = oracle::quaternionOf<double>(plain.rotations[j]);
-    const Vec by = plain.translations[j];
-    body.turns.push_back(plain.rotations[j]);
-    if (body_.parents[j] < 0) {
-      turns.push_back(turn);
-      origins.push_back(by);
-    } else {
-      const auto parent = static_cast<std::size_t>(body_.parents[j]);
-      turns.push_back(turns[parent] * turn);
-      origins.push_back(origins[parent] + rotate(turns[parent], by));
-    }
-    for (const auto& capsule : body_.capsules[j]) {
-      body.axes.push_back({origins[j] + rotate(turns[j], capsule.ends[0]),
-                           origins[j] + rotate(turns[j], capsule.ends[1])});
-    }
-  }
-  return body;
+  return {judge_.endsAt(plain), plain.rotations};
 }
 
 void MotionAudit::find(const std::string& what) {
@@ -167,14 +146,14 @@ void MotionAudit::lookAtSpeed(const Body& shown, const Body& tracked, double dtS
   double fastest = 0.0;
   for (std::size_t i = 0; i < tracked.axes.size(); ++i) {
     for (std::size_t end = 0; end < 2; ++end) {
-      fastest = std::max(fastest, normOf(tracked.axes[i][end] - trackedBefore.axes[i][end]) / dtS);
+      fastest = std::max(fastest, norm(tracked.axes[i][end] - trackedBefore.axes[i][end]) / dtS);
     }
   }
   double worst = 0.0;
   std::size_t link = 0;
   for (std::size_t i = 0; i < shown.axes.size(); ++i) {
     for (std::size_t end = 0; end < 2; ++end) {
-      const double beyond = normOf(shown.axes[i][end] - shownBefore.axes[i][end]) / dtS - fastest;
+      const double beyond = norm(shown.axes[i][end] - shownBefore.axes[i][end]) / dtS - fastest;
       of(linkOf_[i]).beyond = std::max(of(linkOf_[i]).beyond, beyond);
       if (beyond > worst) link = linkOf_[i];
       worst = std::max(worst, beyond);
@@ -216,7 +195,7 @@ void MotionAudit::lookAtDepth(const Body& shown, const Body& tracked) {
 
 void MotionAudit::lookAtHead(const Body& shown, const Body& tracked, double dtS) {
   const auto acceleration = [dtS](const Vec& before, const Vec& then, const Vec& now) {
-    return normOf(now - 2.0 * then + before) / (dtS * dtS);
+    return norm(now - 2.0 * then + before) / (dtS * dtS);
   };
   double head = 0.0, trackedHead = 0.0;
   for (std::size_t i = 0; i < shown.axes.size(); ++i) {

@@ -43,7 +43,8 @@ struct MotionTally {
 
 class MotionAudit {
  public:
-  MotionAudit(const Avatar& avatar, const SolidOptions& options);
+  /// The judge's scene must outlive it; it places the bodies, and is not asked about the scene.
+  MotionAudit(const oracle::Scene& scene, const Avatar& avatar, const SolidOptions& options);
 
   /// `name`: of the run, for findings. The next tick is the first.
   void begin(std::string name);
@@ -57,7 +58,7 @@ class MotionAudit {
     std::vector<std::array<Vec, 2>> axes;
     std::vector<std::array<double, 4>> turns;
   };
-  [[nodiscard]] Body placed(const Pose& pose) const;
+  [[nodiscard]] Body placed(const Pose& pose);
   void lookAtSpeed(const Body& shown, const Body& tracked, double dtS);
   void lookAtDepth(const Body& shown, const Body& tracked);
   void lookAtHead(const Body& shown, const Body& tracked, double dtS);
@@ -65,6 +66,7 @@ class MotionAudit {
   [[nodiscard]] double ownDepth(const Body& body, std::size_t i, std::size_t k) const;
   [[nodiscard]] LinkMotion& of(std::size_t link) { return tally_.links[names_[link]]; }
 
+  oracle::WayJudge judge_;
   oracle::WayBody body_;
   double catchUp_;
   std::vector<std::string> names_;

@@ -151,12 +151,14 @@ SolidCampaignTally judgeSolid(const tools::SolidStage& stage, const tools::Solid
     ++tally.places;
     TargetMaker targets(campaign, std::move(poses), ++seed);
     tools::WayAudit audit(stage.judged, actor.avatar, ownPairs);
-    audit.begin(fmt::format("{} in {}, {} targets, {:g} Hz, skin {:g}, self {}, seed {}, place {}",
-                            actor.name, stage.name, toString(campaign.targets), campaign.rateHz,
-                            campaign.skin, campaign.self, campaign.seed, tally.places));
+    const std::string name =
+        fmt::format("{} in {}, {} targets, {:g} Hz, skin {:g}, self {}, seed {}, place {}",
+                    actor.name, stage.name, toString(campaign.targets), campaign.rateHz,
+                    campaign.skin, campaign.self, campaign.seed, tally.places);
+    audit.begin(name);
     const bool isPerson = campaign.targets != SolidTargets::Hostile;
-    MotionAudit motion(actor.avatar, options);
-    motion.begin(audit.name());
+    MotionAudit motion(stage.judged, actor.avatar, options);
+    motion.begin(name);
     SolidTick tick;
     for (std::size_t i = 0; i < targets.count(); ++i) {
       Pose target = targets.at(i);

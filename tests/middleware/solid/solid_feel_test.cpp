@@ -28,8 +28,7 @@ double farthest(const Ends& one, const Ends& other) {
   double most = 0.0;
   for (std::size_t i = 0; i < one.size(); ++i) {
     for (std::size_t end = 0; end < 2; ++end) {
-      const oracle::Vec3d by = one[i][end] - other[i][end];
-      most = std::max(most, std::sqrt(dot(by, by)));
+      most = std::max(most, norm(one[i][end] - other[i][end]));
     }
   }
   return most;
@@ -37,9 +36,7 @@ double farthest(const Ends& one, const Ends& other) {
 
 RawScene floorOnly() {
   RawScene raw;
-  raw.objectNames = {"floor"};
   addSheet(raw, {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
-  raw.objectOf.assign(raw.triangles.size(), 0);
   return raw;
 }
 
@@ -173,9 +170,7 @@ TEST(SolidFeel, CatchingUpGathersAndLosesSpeed) {
 /// Behind a closed wall, where no way leads.
 RawScene wallAcross() {
   RawScene raw;
-  raw.objectNames = {"wall"};
   addSheet(raw, {-40, -40, -0.5}, {80, 0, 0}, {0, 80, 0});
-  raw.objectOf.assign(raw.triangles.size(), 0);
   return raw;
 }
 
@@ -214,7 +209,6 @@ TEST(SolidFeel, ASnapIntoSomethingIsWithdrawn) {
   options.maySnap = true;
   RawScene raw = wallAcross();
   addBox(raw, {-0.4, 0.8, -3.4}, {0.4, 1.6, -2.9});
-  raw.objectOf.assign(raw.triangles.size(), 0);
   SolidRunner run(raw, options);
   run.follow(run.rest());
   int told = 0, withdrawn = 0, snapped = 0;
