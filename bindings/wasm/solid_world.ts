@@ -1,9 +1,9 @@
 // Solid avatars in a world in which other things move: doors push them, what they hold is solid with
 // them, two of them meet and neither passes; and what they press against is told from enter to leave.
 
-import { handleOf, instant, type Machine, numberOf, type Point } from "./machine.js";
+import { handleOf, instant, type Machine, numberOf } from "./machine.js";
 import { Avatar, type Pose, type PoseLike, Scene, writtenPose } from "./shapes.js";
-import { type SolidOptions, type SolidTick, tickFrom, wayFrom, writtenFlags, writtenSolidOptions } from "./solid.js";
+import { type SolidContact, type SolidOptions, type SolidTick, tickFrom, wayFrom, writtenFlags, writtenSolidOptions } from "./solid.js";
 import * as structs from "./structs.js";
 import { type BodyOptions, Follower, World, type WorldEvents, type WorldOptions, writtenBodyOptions, writtenWorldOptions } from "./world.js";
 
@@ -14,23 +14,13 @@ export interface SolidWorldOptions extends WorldOptions {
   readonly reach?: (typeof reaches)[number];
 }
 
-/** A moving body that holds or pushes a solid avatar. */
-export interface SolidBodyContact {
+/** A moving body that holds or pushes a solid avatar: `link` is the avatar's, the place is on the body's surface, and what the body's own motion adds to the push is in it. */
+export interface SolidBodyContact extends Omit<SolidContact, "slipSpeed"> {
   readonly body: number;
-  /** The avatar's. */
-  readonly link: number;
   /** Of the link's LSS; those of tools in its hand come after its own. */
   readonly lss: number;
   /** Of a mesh; -1: none. */
   readonly triangle: number;
-  readonly object: number;
-  /** On the body's surface. */
-  readonly point: Point;
-  /** Unit, from it to the avatar. */
-  readonly normal: Point;
-  readonly gap: number;
-  /** As of SolidContact; what the body's own motion adds is in it. */
-  readonly push: number;
 }
 
 /** A body that nobody holds back has left a solid avatar no proven way: between the two nothing is claimed from `sinceUs` on. Everything else stays proven. */
@@ -126,11 +116,7 @@ export class SolidWorld {
 
   /** Where the last tick ended. */
   get timeUs(): number {
-    return this.machine.within((room) => {
-      const at = room.doubles([0]);
-      this.machine.ask("ft_solid_world_at", this.world.handle, at);
-      return Number(this.machine.view().getBigInt64(at, true));
-    });
+    return this.machine.within((room) => room.instantOf("ft_solid_world_at", this.world.handle));
   }
 
   /** Piece `index` of a solid avatar's way in the last tick: when it is reached, in (0, 1] of the tick, and the pose that it ends with. */

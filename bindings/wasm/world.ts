@@ -430,9 +430,7 @@ export class Follower {
       const fromUs = this.untilUs;
       machine.ask("ft_world_follow", handle, instant(untilUs, "untilUs"));
       this.hasFollowed = true;
-      const until = room.doubles([0]);
-      machine.ask("ft_world_followed", handle, 0, until);
-      this.untilUs = Number(machine.view().getBigInt64(until, true));
+      this.untilUs = room.instantOf("ft_world_followed", handle, 0);
       return {
         fromUs,
         toUs: this.untilUs,
