@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/query_set.h"
-#include "middleware/reference/rigid_query.h"
+#include "tests/reference/rigid_query.h"
 
 namespace foretouch::tools {
 

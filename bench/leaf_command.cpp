@@ -12,7 +12,7 @@
 #include "assets/text_file.h"
 #include "bench/generated_queries.h"
 #include "bench/leaf.h"
-#include "middleware/reference/rigid_query.h"
+#include "tests/reference/rigid_query.h"
 
 namespace foretouch::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/query_set.h"
-#include "middleware/reference/leaf.h"
+#include "tests/reference/leaf.h"
 
 namespace foretouch::tools {
 

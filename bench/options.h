@@ -11,7 +11,7 @@
 #include "bench/workload.h"
 #include "lss/simd.h"
 #include "middleware/query/query.h"
-#include "middleware/reference/reference_query.h"
+#include "tests/reference/reference_query.h"
 
 namespace CLI {
 class App;

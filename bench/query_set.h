@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "middleware/reference/linear_query.h"
+#include "tests/reference/linear_query.h"
 
 namespace foretouch::tools {
 

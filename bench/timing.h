@@ -11,8 +11,8 @@
 #include "bench/workload.h"
 #include "lss/simd.h"
 #include "middleware/query/query.h"
-#include "middleware/reference/reference_query.h"
 #include "middleware/scene/scene.h"
+#include "tests/reference/reference_query.h"
 
 namespace foretouch::tools {
 

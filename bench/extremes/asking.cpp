@@ -11,7 +11,7 @@
 #include "bench/extremes/float_mode.h"
 #include "bench/judged.h"
 #include "lss/simd.h"
-#include "middleware/reference/reference_query.h"
+#include "tests/reference/reference_query.h"
 
 namespace foretouch::tools::extremes {
 namespace {

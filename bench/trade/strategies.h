@@ -14,7 +14,7 @@
 #include "bench/trade/voxels.h"
 #include "judge/scene.h"
 #include "middleware/query/query.h"
-#include "middleware/reference/reference_query.h"
+#include "tests/reference/reference_query.h"
 
 namespace foretouch::tools {
 

@@ -1,5 +1,5 @@
 // middleware/query/provers.h: other proofs that a query may be given beside its own. The product
-// gives none; the reference room does (middleware/reference/). Not installed.
+// gives none; the reference room does (tests/reference/). Not installed.
 #pragma once
 
 #include "articulated/motion.h"

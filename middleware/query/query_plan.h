@@ -62,7 +62,7 @@ struct QueryPlan {
   std::vector<double> margins;               // per link, if tolerances differ
   bool inLanes;                              // not pair by pair in doubles
   SelfPlan self;                             // which own links are asked; none by default
-  // What the reference room may replace (middleware/reference/reference_query.h).
+  // What the reference room may replace (tests/reference/reference_query.h).
   std::shared_ptr<const TriangleCuller> culler;  // the scene's
   std::shared_ptr<const LeafProver> leafProver;  // null
   std::shared_ptr<const StepProver> stepProver;  // null

@@ -19,8 +19,8 @@
 #include "assets/avatar/joint_match.h"
 #include "assets/bvh/bvh_reader.h"
 #include "middleware/query/query.h"
-#include "middleware/reference/reference_query.h"
 #include "middleware/scene/scene.h"
+#include "tests/reference/reference_query.h"
 
 namespace foretouch {
 namespace {

@@ -32,7 +32,7 @@ expect_kernel_alone() {  # expect_kernel_alone PROGRAM
   fi
 }
 
-# The reference room (middleware/reference/) is for tests and benchmarks: what is installed has none
+# The reference room (tests/reference/) is for tests and benchmarks: what is installed has none
 # of its functions, and no header to ask for them.
 expect_no_reference() {  # expect_no_reference FILE...
   local room file shared
@@ -47,7 +47,7 @@ expect_no_reference() {  # expect_no_reference FILE...
       exit 1
     fi
   done
-  if [ -e "$prefix/include/foretouch/middleware/reference" ]; then
+  if [ -e "$prefix/include/foretouch/tests" ]; then
     echo "headers of the reference room are installed" >&2
     exit 1
   fi

@@ -6,7 +6,7 @@
 #include <exception>
 #include <thread>
 
-#include "middleware/reference/linear_query.h"
+#include "tests/reference/linear_query.h"
 
 namespace foretouch::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "middleware/reference/leaf.h"
 #include "tests/oracle/leaf_families.h"
+#include "tests/reference/leaf.h"
 
 namespace foretouch::test {
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "middleware/exact/triangles_meet.h"
-#include "middleware/reference/linear_query.h"
+#include "tests/reference/linear_query.h"
 
 namespace foretouch::test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <Eigen/Dense>
 
-#include "middleware/reference/rigid_query.h"
+#include "tests/reference/rigid_query.h"
 #include "tests/support/judged.h"
 
 namespace foretouch::test {

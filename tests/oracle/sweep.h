@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "articulated/pair_rules.h"
-#include "middleware/reference/reference_query.h"
 #include "tests/oracle/sweep_inputs.h"
+#include "tests/reference/reference_query.h"
 
 namespace foretouch::test {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "middleware/query/query.h"
-#include "middleware/reference/reference_query.h"
+#include "tests/reference/reference_query.h"
 
 namespace foretouch::test {
 

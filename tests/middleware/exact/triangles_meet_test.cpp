@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "judge/plain_motion.h"
-#include "middleware/reference/linear_query.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/reference/linear_query.h"
 
 namespace foretouch {
 namespace {

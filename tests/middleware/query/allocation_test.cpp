@@ -6,9 +6,9 @@
 #include "middleware/query/near_features.h"
 #include "middleware/query/query.h"
 #include "middleware/query/query_pool.h"
-#include "middleware/reference/reference_query.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/reference/reference_query.h"
 #include "tests/support/allocation_count.h"
 
 namespace foretouch {

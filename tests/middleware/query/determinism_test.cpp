@@ -9,8 +9,8 @@
 
 #include "lss/segment_triangle.h"
 #include "middleware/query/query.h"
-#include "middleware/reference/reference_query.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/reference/reference_query.h"
 #include "tests/support/asked.h"
 
 namespace foretouch {

@@ -12,7 +12,7 @@
 #include "judge/plain_motion.h"
 #include "lss/fit.h"
 #include "middleware/query/query.h"
-#include "middleware/reference/reference_query.h"
+#include "tests/reference/reference_query.h"
 #include "tests/support/asked.h"
 #include "tests/support/judged.h"
 #include "tests/support/random_geometry.h"

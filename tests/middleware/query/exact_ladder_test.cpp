@@ -10,9 +10,9 @@
 
 #include "lss/simd.h"
 #include "middleware/query/query.h"
-#include "middleware/reference/reference_query.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/reference/reference_query.h"
 #include "tests/support/asked.h"
 
 namespace foretouch {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "middleware/query/query.h"
-#include "middleware/reference/reference_query.h"
 #include "tests/middleware/analytic_cases.h"
+#include "tests/reference/reference_query.h"
 #include "tests/support/asked.h"
 
 namespace foretouch {

@@ -8,10 +8,10 @@
 #include "lss/separation.h"
 #include "lss/simd.h"
 #include "middleware/query/query.h"
-#include "middleware/reference/reference_query.h"
 #include "tessellation/swept_lss.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/reference/reference_query.h"
 
 namespace foretouch {
 namespace {

@@ -10,9 +10,9 @@
 #include "judge/motion.h"
 #include "judge/scene.h"
 #include "middleware/query/query.h"
-#include "middleware/reference/reference_query.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/reference/reference_query.h"
 #include "tests/support/judged.h"
 
 namespace foretouch {

@@ -8,9 +8,9 @@
 
 #include "middleware/query/query.h"
 #include "middleware/query/query_plan.h"
-#include "middleware/reference/reference_query.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/reference/reference_query.h"
 
 namespace foretouch {
 namespace {

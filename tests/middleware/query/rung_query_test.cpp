@@ -11,9 +11,9 @@
 #include "lss/simd.h"
 #include "middleware/ladder/rungs.h"
 #include "middleware/query/query.h"
-#include "middleware/reference/reference_query.h"
 #include "tests/middleware/ladder/random_step.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/reference/reference_query.h"
 #include "tests/support/asked.h"
 #include "tests/support/judged_answer.h"
 

@@ -12,9 +12,9 @@
 #include "lss/index.h"
 #include "lss/simd.h"
 #include "middleware/query/query.h"
-#include "middleware/reference/reference_query.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/reference/reference_query.h"
 #include "tests/support/asked.h"
 #include "tests/support/judged_answer.h"
 

@@ -16,10 +16,10 @@
 #include "middleware/query/rung_query.h"
 #include "middleware/query/scalar_query.h"
 #include "middleware/query/work_meter.h"
-#include "middleware/reference/reference_query.h"
 #include "middleware/scene/scene_parts.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/reference/reference_query.h"
 
 namespace foretouch {
 namespace {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "judge/plain_motion.h"
-#include "middleware/reference/filter_corners.h"
-#include "middleware/reference/rigid_curves.h"
 #include "tests/middleware/reference/leaf_samples.h"
+#include "tests/reference/filter_corners.h"
+#include "tests/reference/rigid_curves.h"
 
 namespace foretouch::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "middleware/reference/integer_polynomial.h"
+#include "tests/reference/integer_polynomial.h"
 
 #include <cmath>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "middleware/reference/linear_query.h"
+#include "tests/reference/linear_query.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "judge/plain_motion.h"
-#include "middleware/reference/moving_polygon.h"
 #include "tests/middleware/reference/leaf_samples.h"
+#include "tests/reference/moving_polygon.h"
 
 namespace foretouch::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "middleware/reference/rigid_query.h"
+#include "tests/reference/rigid_query.h"
 
 #include <cmath>
 #include <cstdio>
@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "judge/plain_motion.h"
-#include "middleware/reference/rigid_plane.h"
+#include "tests/reference/rigid_plane.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {

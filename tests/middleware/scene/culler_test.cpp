@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "lss/rounding.h"
-#include "middleware/reference/point_query_culler.h"
 #include "middleware/scene/flat_bvh_lanes.h"
 #include "middleware/scene/scene_parts.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/reference/point_query_culler.h"
 
 namespace foretouch {
 namespace {

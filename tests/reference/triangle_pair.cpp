@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "lss/triangle.h"
-#include "middleware/reference/linear_query.h"
+#include "tests/reference/linear_query.h"
 
 namespace foretouch {
 namespace {

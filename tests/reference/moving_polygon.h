@@ -1,12 +1,12 @@
-// middleware/reference/moving_polygon.h: the form that every linear query takes: corners that move
+// tests/reference/moving_polygon.h: the form that every linear query takes: corners that move
 // along straight lines, each the difference of two of the query's points. Contact is the origin in
 // their convex hull. Not installed.
 #pragma once
 
 #include <array>
 
-#include "middleware/reference/leaf.h"
-#include "middleware/reference/linear_point.h"
+#include "tests/reference/leaf.h"
+#include "tests/reference/linear_point.h"
 
 namespace foretouch::internal {
 

@@ -1,6 +1,6 @@
 // What every way of collecting has in common; the ways: point_query_embree.cpp, and where Embree is
 // not, point_query_plain.cpp.
-#include "middleware/reference/point_query_culler.h"
+#include "tests/reference/point_query_culler.h"
 
 #include <algorithm>
 #include <tuple>

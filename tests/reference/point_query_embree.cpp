@@ -4,9 +4,9 @@
 
 #include "articulated/try.h"
 #include "lss/rounding.h"
-#include "middleware/reference/point_query_culler.h"
 #include "middleware/scene/embree_triangles.h"
 #include "middleware/scene/scene_parts.h"
+#include "tests/reference/point_query_culler.h"
 
 namespace foretouch::internal {
 namespace {

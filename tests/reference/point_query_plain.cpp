@@ -1,7 +1,7 @@
 // The point-query culler of a library without Embree: every triangle's box, one after the other.
 #include "lss/index.h"
-#include "middleware/reference/point_query_culler.h"
 #include "middleware/scene/scene_parts.h"
+#include "tests/reference/point_query_culler.h"
 
 namespace foretouch::internal {
 

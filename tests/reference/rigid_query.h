@@ -1,12 +1,12 @@
-// middleware/reference/rigid_query.h: a triangle of a rigid body whose translation and quaternion
+// tests/reference/rigid_query.h: a triangle of a rigid body whose translation and quaternion
 // are both linear in t (the quaternion unnormalised: nlerp) against a triangle at rest. Multiplied
-// by |q|^2 every contact function is a cubic in t ([Canny86]; middleware/reference/rigid_query.md
+// by |q|^2 every contact function is a cubic in t ([Canny86]; tests/reference/rigid_query.md
 // derives them). Signs beyond proved rounding bounds decide, in doubles. A few rounds of about a
 // microsecond each.
 #pragma once
 
 #include "lss/triangle.h"
-#include "middleware/reference/nlerp_motion.h"
+#include "tests/reference/nlerp_motion.h"
 
 namespace foretouch {
 

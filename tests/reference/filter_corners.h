@@ -1,6 +1,6 @@
-// middleware/reference/filter_corners.h: the quantities of a moving polygon that the filter
+// tests/reference/filter_corners.h: the quantities of a moving polygon that the filter
 // computes in doubles, and how far each may be off. Not installed. Proof:
-// middleware/reference/linear_query.md 3; tests/middleware/reference/filter_rounding_test.cpp
+// tests/reference/linear_query.md 3; tests/middleware/reference/filter_rounding_test.cpp
 // checks it with fifty digits.
 #pragma once
 
@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 
 #include "lss/separation.h"
-#include "middleware/reference/cubic.h"
-#include "middleware/reference/moving_polygon.h"
+#include "tests/reference/cubic.h"
+#include "tests/reference/moving_polygon.h"
 
 namespace foretouch::internal {
 

@@ -1,4 +1,4 @@
-// middleware/reference/reference_query.h: the door of the reference room: the same questions,
+// tests/reference/reference_query.h: the door of the reference room: the same questions,
 // answered in other ways. For tests, which hold one way against another, and for benchmarks; no
 // program of the product links this library, and none of its answers needs it.
 #pragma once

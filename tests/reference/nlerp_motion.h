@@ -1,11 +1,11 @@
-// middleware/reference/nlerp_motion.h: a rigid body whose translation and quaternion are both
+// tests/reference/nlerp_motion.h: a rigid body whose translation and quaternion are both
 // linear in t (the quaternion unnormalised: nlerp), and when it comes near a triangle at rest.
 #pragma once
 
 #include <Eigen/Core>
 
 #include "articulated/skeleton.h"
-#include "middleware/reference/leaf.h"
+#include "tests/reference/leaf.h"
 
 namespace foretouch {
 

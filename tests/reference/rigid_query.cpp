@@ -1,7 +1,7 @@
 // From one instant that is proven free to the next: a plane that separates the triangles now, moved
 // in a simple way, separates them until one of a few cubics vanishes. Soundness, convergence and
-// termination: middleware/reference/rigid_query.md.
-#include "middleware/reference/rigid_query.h"
+// termination: tests/reference/rigid_query.md.
+#include "tests/reference/rigid_query.h"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +13,8 @@
 #include "lss/assert.h"
 #include "lss/rounding.h"
 #include "lss/segment_triangle.h"
-#include "middleware/reference/rigid_curves.h"
-#include "middleware/reference/rigid_plane.h"
+#include "tests/reference/rigid_curves.h"
+#include "tests/reference/rigid_plane.h"
 
 namespace foretouch {
 namespace {

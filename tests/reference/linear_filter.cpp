@@ -1,5 +1,5 @@
 // The stage in doubles. Symbols, bounds and why each step is sound:
-// middleware/reference/linear_query.md.
+// tests/reference/linear_query.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "middleware/reference/cubic.h"
-#include "middleware/reference/filter_corners.h"
-#include "middleware/reference/moving_polygon.h"
+#include "tests/reference/cubic.h"
+#include "tests/reference/filter_corners.h"
+#include "tests/reference/moving_polygon.h"
 
 namespace foretouch::internal {
 namespace {

@@ -1,4 +1,4 @@
-// middleware/reference/point_query_culler.h: the culler that shares nothing with the flat tree but
+// tests/reference/point_query_culler.h: the culler that shares nothing with the flat tree but
 // the triangles: Embree's own RTCScene and rtcPointQuery with the sphere around the given box.
 // Slower, and the same answers, byte for byte. Where Embree is not, every triangle's own box
 // instead.

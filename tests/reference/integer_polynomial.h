@@ -1,4 +1,4 @@
-// middleware/reference/integer_polynomial.h: polynomials of degree three or less with integer
+// tests/reference/integer_polynomial.h: polynomials of degree three or less with integer
 // coefficients, their roots in [0,1] and their signs there, all exact. Not installed.
 #pragma once
 

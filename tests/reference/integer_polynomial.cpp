@@ -1,12 +1,12 @@
-// Why each loop ends and why each answer is exact: middleware/reference/linear_query.md 4.
-#include "middleware/reference/integer_polynomial.h"
+// Why each loop ends and why each answer is exact: tests/reference/linear_query.md 4.
+#include "tests/reference/integer_polynomial.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "lss/assert.h"
-#include "middleware/reference/cubic.h"
+#include "tests/reference/cubic.h"
 
 namespace foretouch::internal {
 namespace {

@@ -1,9 +1,9 @@
-#include "middleware/reference/linear_query.h"
+#include "tests/reference/linear_query.h"
 
 #include <cmath>
 
 #include "lss/assert.h"
-#include "middleware/reference/moving_polygon.h"
+#include "tests/reference/moving_polygon.h"
 
 namespace foretouch {
 namespace {

@@ -1,4 +1,4 @@
-#include "middleware/reference/filter_corners.h"
+#include "tests/reference/filter_corners.h"
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,4 @@
-// The stage in integers. Symbols and proofs: middleware/reference/linear_query.md 4.
+// The stage in integers. Symbols and proofs: tests/reference/linear_query.md 4.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 #include "lss/assert.h"
 #include "middleware/exact/scaled_integer.h"
-#include "middleware/reference/integer_polynomial.h"
-#include "middleware/reference/moving_polygon.h"
+#include "tests/reference/integer_polynomial.h"
+#include "tests/reference/moving_polygon.h"
 
 namespace foretouch::internal {
 namespace {

@@ -1,8 +1,8 @@
-// middleware/reference/linear_query.h: points that move along straight lines at constant speed over
+// tests/reference/linear_query.h: points that move along straight lines at constant speed over
 // t in [0,1]: do two features meet, and when first? The answer is exact: no false negative and no
 // false positive, degenerate cases included (always coplanar, parallel, zero area, touching at t =
 // 0 or t = 1, vertex on edge). Sources: [Brochu12] for exactness as the aim, [Wang21] for the query
-// set, derivation in middleware/reference/linear_query.md.
+// set, derivation in tests/reference/linear_query.md.
 //
 // Every query is one question: when does the origin first lie in a moving polygon? Vertex against
 // face: a triangle of differences; edge against edge: a parallelogram; vertex against edge and
@@ -13,8 +13,8 @@
 
 #include <Eigen/Core>
 
-#include "middleware/reference/leaf.h"
-#include "middleware/reference/linear_point.h"
+#include "tests/reference/leaf.h"
+#include "tests/reference/linear_point.h"
 
 namespace foretouch {
 

@@ -1,4 +1,4 @@
-// middleware/reference/leaf.h: the answer of the exact leaf tests. Time t is normalised, [0,1].
+// tests/reference/leaf.h: the answer of the exact leaf tests. Time t is normalised, [0,1].
 #pragma once
 
 #include <cstdint>

@@ -1,15 +1,15 @@
-// middleware/reference/chain_piece.h: a span of a chain's motion as a nlerp body, whose cubics
+// tests/reference/chain_piece.h: a span of a chain's motion as a nlerp body, whose cubics
 // bound it within a certified band. Not installed.
 //
 // Over a span both motions have the same end poses; a point with |acceleration| <= A stays within
 // A*h^2/8 of its chord, so the two paths are apart by at most the sum of the two bounds
-// (middleware/reference/rigid_query.md, last section).
+// (tests/reference/rigid_query.md, last section).
 #pragma once
 
 #include "articulated/motion.h"
 #include "lss/triangle.h"
 #include "middleware/query/provers.h"
-#include "middleware/reference/rigid_query.h"
+#include "tests/reference/rigid_query.h"
 
 namespace foretouch::internal {
 

@@ -1,4 +1,4 @@
-// middleware/reference/linear_point.h: a point that moves along a straight line at constant speed.
+// tests/reference/linear_point.h: a point that moves along a straight line at constant speed.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-#include "middleware/reference/rigid_curves.h"
+#include "tests/reference/rigid_curves.h"
 
 #include <algorithm>
 

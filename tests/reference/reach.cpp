@@ -1,4 +1,4 @@
-#include "middleware/reference/reach.h"
+#include "tests/reference/reach.h"
 
 #include "middleware/scene/scene_parts.h"
 #include "tessellation/aabb.h"

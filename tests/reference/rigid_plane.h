@@ -1,11 +1,11 @@
-// middleware/reference/rigid_plane.h: a rigid query that begins with a plane from its caller. Not
+// tests/reference/rigid_plane.h: a rigid query that begins with a plane from its caller. Not
 // installed.
 #pragma once
 
 #include <Eigen/Core>
 
 #include "lss/triangle.h"
-#include "middleware/reference/nlerp_motion.h"
+#include "tests/reference/nlerp_motion.h"
 
 namespace foretouch::internal {
 

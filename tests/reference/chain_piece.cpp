@@ -1,4 +1,4 @@
-#include "middleware/reference/chain_piece.h"
+#include "tests/reference/chain_piece.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "lss/rounding.h"
 #include "middleware/query/link_query.h"
-#include "middleware/reference/rigid_plane.h"
+#include "tests/reference/rigid_plane.h"
 
 namespace foretouch::internal {
 namespace {

@@ -1,4 +1,4 @@
-// middleware/reference/reach.h: is any triangle of the scene where the avatar could be at all?
+// tests/reference/reach.h: is any triangle of the scene where the avatar could be at all?
 // Sweeps a ball as wide as the body is long along each root's straight path; needs no frames. An
 // experiment (docs/trade.md): it pays if nothing is near, and costs otherwise.
 #pragma once

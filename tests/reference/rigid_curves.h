@@ -1,5 +1,5 @@
-// middleware/reference/rigid_curves.h: the paths of a triangle's vertices under a nlerp motion,
-// multiplied by |q|^2: cubics in t. Derivation and rounding: middleware/reference/rigid_query.md.
+// tests/reference/rigid_curves.h: the paths of a triangle's vertices under a nlerp motion,
+// multiplied by |q|^2: cubics in t. Derivation and rounding: tests/reference/rigid_query.md.
 // Not installed.
 #pragma once
 
@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 
 #include "lss/separation.h"
-#include "middleware/reference/cubic.h"
-#include "middleware/reference/nlerp_motion.h"
+#include "tests/reference/cubic.h"
+#include "tests/reference/nlerp_motion.h"
 
 namespace foretouch::internal {
 

@@ -1,4 +1,4 @@
-#include "middleware/reference/reference_query.h"
+#include "tests/reference/reference_query.h"
 
 #include <algorithm>
 #include <memory>
@@ -7,10 +7,10 @@
 
 #include "articulated/try.h"
 #include "middleware/query/query_plan.h"
-#include "middleware/reference/chain_piece.h"
-#include "middleware/reference/point_query_culler.h"
-#include "middleware/reference/reach.h"
 #include "middleware/scene/flat_bvh_lanes.h"
+#include "tests/reference/chain_piece.h"
+#include "tests/reference/point_query_culler.h"
+#include "tests/reference/reach.h"
 
 namespace foretouch {
 namespace {
@@ -41,8 +41,7 @@ Result<Done> checked(const internal::QueryPlan& plan, const ReferenceOptions& re
   }
   if (*reference.backtracking == Backtracking::Lanes && !plan.inLanes) {
     return Error::in("backtracking", ErrorCode::Mismatch,
-                     "expected scalar" + found +
-                         ": lanes answer no avatars of more than " +
+                     "expected scalar" + found + ": lanes answer no avatars of more than " +
                          std::to_string(internal::BoxLanes::kMaxBoxes) + " LSS");
   }
   return Done{};
