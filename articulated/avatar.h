@@ -34,6 +34,7 @@ class Avatar {
   [[nodiscard]] const Skeleton& skeleton() const { return skeleton_; }
   [[nodiscard]] std::int32_t numLinks() const { return skeleton_.numJoints(); }
   [[nodiscard]] const std::vector<Lss>& lss(LinkId link) const { return lss_[slotOf(link)]; }
+  [[nodiscard]] const std::vector<std::vector<Lss>>& lss() const { return lss_; }  ///< Per link.
   [[nodiscard]] const MeshReference& mesh(LinkId link) const { return meshes_[slotOf(link)]; }
   [[nodiscard]] std::int32_t numLss() const;
   /// Another avatar, without meshes, whose LSS hold all within `growth` (m, >= 0) of these: no

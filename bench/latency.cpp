@@ -260,7 +260,8 @@ BenchReport startedReport(const LatencyRequest& request, const BenchInputs& inpu
   report.kind = "latency";
   report.title = fmt::format("Latency of a step: {} in {} triangles, {} links, {} fidelity",
                              std::filesystem::path(inputs.files.scenePath).filename().string(),
-                             scene.numTriangles(), avatar.numLinks(), toString(query.fidelity));
+                             scene.numTriangles(), avatar.numLinks(),
+                             fidelityWord(query.fidelity, request.options.reference));
   report.command = request.options.command;
   report.date = dateNow();
   report.machine = machineFacts();

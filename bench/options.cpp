@@ -45,6 +45,14 @@ Result<Value> parseWord(const std::string& option, const std::string& text,
                        ", found " + inQuotes(text));
 }
 
+/// Of volumes that only the reference room asks.
+std::optional<Rung> rungNamed(const std::string& word) {
+  for (const Rung rung : {Rung::Limb, Rung::Avatar, Rung::Ellipsoid}) {
+    if (word == toString(rung)) return rung;
+  }
+  return std::nullopt;
+}
+
 std::string nameOf(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
@@ -171,7 +179,10 @@ Result<BenchOptions> settled(const BenchTexts& texts) {
   settleFiles(texts, settle, options.files);
   settleWorkload(texts, settle, options.workload);
   settle.into(options.timing.repeats, parseCount("--repeat", texts.repeat, kMaxBenchRepeats));
-  settle.into(options.fidelity, parseFidelity("--fidelity", texts.fidelity));
+  options.reference.rung = rungNamed(texts.fidelity);
+  if (!options.reference.rung) {
+    settle.into(options.fidelity, parseFidelity("--fidelity", texts.fidelity));
+  }
   settle.into(options.reference.descent,
               parseWord<Descent>("--descent", texts.descent, {Descent::Straight, Descent::ByNeed}));
   settle.into(options.reference.leafMethod,
@@ -239,6 +250,10 @@ Result<BenchBody> bodyOf(const BenchInputs& inputs, int links) {
   return body;
 }
 
+const char* fidelityWord(Fidelity fidelity, const ReferenceOptions& reference) {
+  return reference.rung ? toString(*reference.rung) : toString(fidelity);
+}
+
 std::vector<BenchFact> workloadFacts(const BenchInputs& inputs, const Scene& scene,
                                      const Avatar& avatar, const QueryOptions& query,
                                      const ReferenceOptions& reference) {
@@ -251,7 +266,7 @@ std::vector<BenchFact> workloadFacts(const BenchInputs& inputs, const Scene& sce
                              avatar.numLinks(), avatar.numLss(), inputs.avatar.numLinks())},
       {"clip", fmt::format("{}, {} frames at {:.4g} Hz", nameOf(inputs.files.motionPath),
                            inputs.clip.frames.size(), 1.0 / inputs.clip.frameTimeS)},
-      {"fidelity", toString(query.fidelity)}};
+      {"fidelity", fidelityWord(query.fidelity, reference)}};
   if (reference.descent == Descent::ByNeed) facts.back().second += ", descent by need";
   if (reference.leafMethod == LeafMethod::Cubics) facts.back().second += ", by cubics";
   if (reference.culler == Culler::PointQuery) facts.back().second += ", culled by point queries";

@@ -75,6 +75,9 @@ void addBenchOptions(CLI::App& command, BenchTexts& texts);
 /// The inputs' avatar with `links` links; 0: its own.
 [[nodiscard]] Result<BenchBody> bodyOf(const BenchInputs& inputs, int links);
 
+/// What touches: "link", or "limb" where the reference room asks that.
+[[nodiscard]] const char* fidelityWord(Fidelity fidelity, const ReferenceOptions& reference);
+
 /// Scene, avatar, clip, surface and what of `reference` is not the product's, in words.
 [[nodiscard]] std::vector<BenchFact> workloadFacts(const BenchInputs& inputs, const Scene& scene,
                                                    const Avatar& avatar, const QueryOptions& query,

@@ -54,9 +54,10 @@ std::vector<TradeContender> contendersFor(const TradeWorld& world,
     scalar.backtracking = Backtracking::Scalar;
     add(foretouchQuery(world, options, "Foretouch, scalar", scalar));
     add(foretouchQuery(world, options, "Foretouch"));
-    for (const Fidelity rung : {Fidelity::Limb, Fidelity::Avatar, Fidelity::Ellipsoid}) {
-      options.fidelity = rung;
-      add(foretouchQuery(world, options, std::string("Foretouch, ") + toString(rung)));
+    for (const Rung rung : {Rung::Limb, Rung::Avatar, Rung::Ellipsoid}) {
+      ReferenceOptions above;
+      above.rung = rung;
+      add(foretouchQuery(world, options, std::string("Foretouch, ") + toString(rung), above));
     }
     if (!surface) continue;
     options.fidelity = Fidelity::Exact;

@@ -20,16 +20,15 @@
 namespace foretouch::tools {
 namespace {
 
-/// Coarsest first.
-constexpr Fidelity kRungs[] = {Fidelity::Ellipsoid, Fidelity::Avatar, Fidelity::Limb,
-                               Fidelity::Link, Fidelity::Exact};
+/// Coarser first.
+constexpr Fidelity kFidelities[] = {Fidelity::Link, Fidelity::Exact};
 
 /// Differences of percentiles below this factor may come from the machine's load.
 constexpr double kAsQuick = 1.25;
 
 int fineness(Fidelity fidelity) {
-  return static_cast<int>(std::find(std::begin(kRungs), std::end(kRungs), fidelity) -
-                          std::begin(kRungs));
+  return static_cast<int>(std::find(std::begin(kFidelities), std::end(kFidelities), fidelity) -
+                          std::begin(kFidelities));
 }
 
 bool missedNothing(const TunedSetting& setting) {
@@ -81,7 +80,7 @@ class Tuner {
   /// One per setting, and last the poses alone.
   std::vector<TradeContender> contendersFor(std::vector<TunedSetting>& settings) {
     std::vector<TradeContender> contenders;
-    for (const Fidelity fidelity : kRungs) {
+    for (const Fidelity fidelity : kFidelities) {
       const bool isExact = fidelity == Fidelity::Exact;
       if (isExact && !surface_) continue;
       for (const double tolerance : kTuneTolerances) {

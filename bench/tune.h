@@ -61,8 +61,8 @@ struct Tuned {
   BenchReport report;
 };
 
-/// Tries rungs from the coarsest to the finest (exact if the avatar has meshes), at every
-/// tolerance. Errors name the file or option.
+/// Tries link fidelity, and exact if the avatar has meshes, at every tolerance. Errors name the
+/// file or option.
 [[nodiscard]] Result<Tuned> tune(const TuneRequest& request);
 
 /// The recommendation in words, with the options that set it.

@@ -66,7 +66,7 @@ ExitCode run(const TuneTexts& texts) {
 }
 
 constexpr char kTuneFooter[] =
-    R"(Tries the rungs of the ladder and tolerances on your own scene, avatar and clip.
+    R"(Tries fidelities and tolerances on your own scene, avatar and clip.
 Examples:
   foretouch-bench tune --budget-us 20
   foretouch-bench tune --scene kitchen.ply --motion walk.bvh --clip-scale 0.01 --rate 30 --budget-us 50)";

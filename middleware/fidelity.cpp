@@ -7,11 +7,15 @@ const char* toString(Fidelity fidelity) {
     case Fidelity::Link: return "link";
     case Fidelity::Exact: return "exact";
     case Fidelity::Skinned: return "skinned";
-    case Fidelity::Limb: return "limb";
-    case Fidelity::Avatar: return "avatar";
-    case Fidelity::Ellipsoid: return "ellipsoid";
   }
   return "link";
+}
+
+std::string whyFidelityIsGone(const std::string& name) {
+  if (name != "limb" && name != "avatar" && name != "ellipsoid") return "";
+  return name +
+         " is gone: a volume around several links was slower and coarser than the links' own in "
+         "every row measured (docs/trade.md); use link";
 }
 
 }  // namespace foretouch

@@ -19,8 +19,8 @@ struct QueryCounters {
   std::uint64_t cubicTests = 0;      ///< By the reference room's cubics: pieces of pairs.
   std::uint64_t leafTests = 0;       ///< At exact fidelity: of two triangles.
   std::uint64_t states = 0;          ///< Link states evaluated (forward kinematics).
-  std::uint64_t rungTests = 0;       ///< Tests of volumes that cover several links.
-  std::uint64_t settledAbove = 0;    ///< Links that the reference room's reach settled.
+  std::uint64_t rungTests = 0;     ///< By the reference room: of volumes that cover several links.
+  std::uint64_t settledAbove = 0;  ///< Links that the reference room's reach settled.
 };
 
 }  // namespace foretouch

@@ -29,9 +29,7 @@ enum class Scope : std::uint8_t {
 /// "links", "avatar", "objects".
 [[nodiscard]] const char* toString(Scope scope);
 
-/// A link, or a link and one object, whose contacts the query ignores. Above link fidelity a volume
-/// ignores an object only if all links it covers do (not counting links that are ignored
-/// altogether). If only some do, they still get the volume's verdict.
+/// A link, or a link and one object, whose contacts the query ignores.
 struct IgnoredPair {
   LinkId link = 0;
   ObjectId object = kEveryObject;

@@ -96,11 +96,10 @@ Result<Scope> parseScope(const std::string& option, const std::string& text) {
 }
 
 Result<Fidelity> parseFidelity(const std::string& option, const std::string& text) {
-  for (const Fidelity fidelity : {Fidelity::Ellipsoid, Fidelity::Avatar, Fidelity::Limb,
-                                  Fidelity::Link, Fidelity::Exact, Fidelity::Skinned}) {
+  for (const Fidelity fidelity : {Fidelity::Link, Fidelity::Exact, Fidelity::Skinned}) {
     if (text == toString(fidelity)) return fidelity;
   }
-  return refusal(option, "ellipsoid, avatar, limb, link, exact or skinned", text);
+  return refusal(option, "link, exact or skinned", text);
 }
 
 Result<Done> checkIsNoInput(const std::string& output, const std::vector<std::string>& inputs) {

@@ -224,10 +224,8 @@ class VoxelSweep : public Strategy {
 
 class ForetouchQuery : public Strategy {
  public:
-  ForetouchQuery(Query query, const std::string& name)
-      : Strategy(name, query.options().fidelity == Fidelity::Link ? TradePromise::Accurate
-                                                                  : TradePromise::Sound),
-        query_(std::move(query)) {}
+  ForetouchQuery(Query query, const std::string& name, TradePromise promise)
+      : Strategy(name, promise), query_(std::move(query)) {}
 
   void solve(const TradeStep& step, std::vector<LinkTouch>& touches, TradeWork& work) override {
     motion_.assign(query_.avatar().skeleton(), step.from, step.to);
@@ -270,8 +268,10 @@ std::unique_ptr<Strategy> voxelSweep(const TradeWorld& world) {
 std::unique_ptr<Strategy> foretouchQuery(const TradeWorld& world, const QueryOptions& options,
                                          const std::string& name,
                                          const ReferenceOptions& reference) {
+  const bool isAccurate = options.fidelity == Fidelity::Link && !reference.rung;
   return std::make_unique<ForetouchQuery>(
-      buildReference(world.avatar, world.scene, options, reference).value(), name);
+      buildReference(world.avatar, world.scene, options, reference).value(), name,
+      isAccurate ? TradePromise::Accurate : TradePromise::Sound);
 }
 
 }  // namespace foretouch::tools

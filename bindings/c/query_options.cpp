@@ -1,7 +1,9 @@
 #include "bindings/c/query_options.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "lss/index.h"
@@ -14,14 +16,18 @@ namespace {
 constexpr std::size_t kMaxIgnoredPairs = std::size_t{1} << 20;
 constexpr std::size_t kMaxObjectPolicies = std::size_t{1} << 12;
 
+/// Those that the numbers from 1 on stood for.
+constexpr std::array<const char*, 3> kGoneFidelities{"limb", "avatar", "ellipsoid"};
+
 ft_status readFidelity(std::int32_t given, std::int64_t link, Fidelity& fidelity) {
   switch (given) {
     case FT_FIDELITY_LINK: fidelity = Fidelity::Link; return FT_OK;
-    case FT_FIDELITY_LIMB: fidelity = Fidelity::Limb; return FT_OK;
-    case FT_FIDELITY_AVATAR: fidelity = Fidelity::Avatar; return FT_OK;
-    case FT_FIDELITY_ELLIPSOID: fidelity = Fidelity::Ellipsoid; return FT_OK;
     case FT_FIDELITY_EXACT: fidelity = Fidelity::Exact; return FT_OK;
     default: break;
+  }
+  if (given >= 1 && given <= static_cast<std::int32_t>(kGoneFidelities.size())) {
+    const std::string why = whyFidelityIsGone(kGoneFidelities[static_cast<std::size_t>(given) - 1]);
+    return failure(FT_ERROR_OUT_OF_RANGE, link, "fidelity: %s", why.c_str());
   }
   return failure(FT_ERROR_OUT_OF_RANGE, link, "fidelity: expected one of FT_FIDELITY_*, found %d",
                  given);

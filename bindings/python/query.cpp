@@ -163,7 +163,7 @@ Steps many(Query& query, const Shown<shown::Poses>& poses, const Shown<shown::Po
 constexpr char kOptionsText[] =
     "tolerance: metres, at most what separates a contact at its toi. fidelity: 'link' "
     "(LSS),\n"
-    "'exact' (triangles; needs surface), or coarser: 'limb', 'avatar', 'ellipsoid'.\n"
+    "or 'exact' (triangles; needs surface).\n"
     "policies: {link: {'tolerance': ..., 'fidelity': ..., 'ignore': ...}} where links\n"
     "differ, or {(link, object): ...} where objects do; later ones win.\n"
     "ignore: a list of links and of pairs (link, object), by name or index.\n"

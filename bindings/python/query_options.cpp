@@ -12,15 +12,19 @@
 namespace foretouch::python {
 namespace {
 
-constexpr std::array<std::pair<const char*, Fidelity>, 5> kFidelities{
-    {{"link", Fidelity::Link},
-     {"exact", Fidelity::Exact},
-     {"limb", Fidelity::Limb},
-     {"avatar", Fidelity::Avatar},
-     {"ellipsoid", Fidelity::Ellipsoid}}};
+constexpr std::array<std::pair<const char*, Fidelity>, 2> kFidelities{
+    {{"link", Fidelity::Link}, {"exact", Fidelity::Exact}}};
 constexpr std::array<std::pair<const char*, Scope>, 3> kScopes{{{"links", Scope::EveryLink},
                                                                 {"avatar", Scope::FirstOfAvatar},
                                                                 {"objects", Scope::EveryObject}}};
+
+Fidelity fidelityFrom(py::handle given, const std::string& what) {
+  if (PyUnicode_Check(given.ptr())) {
+    const std::string why = whyFidelityIsGone(text(given, what));
+    if (!why.empty()) refuse(ErrorCode::UnknownName, what, why);
+  }
+  return oneOf(given, what, kFidelities);
+}
 
 // ---- ignore ----
 
@@ -69,7 +73,7 @@ void readPolicy(py::handle given, const std::string& what, ObjectPolicy& policy)
       if (*policy.tolerance >= kMinTolerance && *policy.tolerance <= kMaxTolerance) continue;
       refuse(ErrorCode::OutOfRange, place, "expected 1e-9 to 1e7 metres");
     } else if (name == "fidelity") {
-      policy.fidelity = oneOf(value, place, kFidelities);
+      policy.fidelity = fidelityFrom(value, place);
     } else if (name == "ignore") {
       policy.ignore = boolean(value, place);
     } else {
@@ -172,7 +176,7 @@ std::optional<foretouch::PairRules> rulesFrom(const py::object& given, const Ava
 QueryOptions optionsFrom(const GivenOptions& given, const Avatar& avatar, const Scene& scene) {
   QueryOptions options;
   options.tolerance = toleranceFrom(given.tolerance);
-  options.fidelity = oneOf(given.fidelity, "fidelity", kFidelities);
+  options.fidelity = fidelityFrom(given.fidelity, "fidelity");
   options.ignored = ignoredFrom(given.ignore, avatar, scene);
   applyPolicies(given.policies, avatar, scene, options);
   options.scope = oneOf(given.scope, "scope", kScopes);

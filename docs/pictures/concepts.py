@@ -275,54 +275,6 @@ def draw_exact():
     p.write("exact.svg")
 
 
-def draw_ladder():
-    p = Picture(720, 290, "The ladder of fidelities")
-    arms = [((0, -58), (-34, -20)), ((-34, -20), (-46, 18)), ((0, -58), (34, -20)), ((34, -20), (52, -52))]
-    legs = [((-9, 4), (-18, 56)), ((-18, 56), (-20, 104)), ((9, 4), (20, 56)), ((20, 56), (30, 100))]
-    trunk = [((0, -58), (0, 0))]
-    widths = [8, 6, 8, 6, 11, 8, 11, 8, 18]
-    bones = arms + legs + trunk
-    names = [("ellipsoid", "one ellipsoid"), ("avatar", "one LSS"), ("limb", "an LSS a limb"),
-             ("link", "an LSS (or more) a link"), ("exact", "the links' triangles")]
-    for i, (name, what) in enumerate(names):
-        cx, cy = 78 + 141 * i, 130
-
-        def put(q):
-            return (cx + q[0], cy + q[1])
-
-        for (a, b), w in zip(bones, widths):
-            p.capsule(put(a), put(b), 0.62 * w, "#6b7480", 0.55, False)
-        p.circle(put((0, -80)), 11, "#6b7480", 0, "#6b7480", 0.55)
-        if name == "ellipsoid":
-            p.parts.append(f'<ellipse cx="{cx + 4}" cy="{cy + 8}" rx="66" ry="112" fill="{BLUE}" fill-opacity="0.16" '
-                           f'stroke="{BLUE}" stroke-width="1.5"/>')
-        elif name == "avatar":
-            p.capsule(put((2, -42)), put((2, 60)), 56, BLUE, 0.16)
-        elif name == "limb":
-            for a, b, w in (((0, -58), (-46, 18), 17), ((0, -58), (52, -52), 26), ((-9, 4), (-20, 104), 12),
-                            ((9, 4), (30, 100), 13), ((0, -84), (0, 0), 20)):
-                p.capsule(put(a), put(b), w, BLUE, 0.16)
-        elif name == "link":
-            for (a, b), w in zip(bones, widths):
-                p.capsule(put(a), put(b), w, BLUE, 0.16)
-            p.circle(put((0, -80)), 14, BLUE, 1.5, BLUE, 0.16)
-        else:
-            for (a, b), w in zip(bones, widths):
-                dx, dy = b[0] - a[0], b[1] - a[1]
-                n = math.hypot(dx, dy)
-                s = (-dy / n * 0.62 * w, dx / n * 0.62 * w)
-                for k in range(4):
-                    f, g = k / 4, (k + 1) / 4
-                    p.path([put((a[0] + dx * f + s[0], a[1] + dy * f + s[1])),
-                            put((a[0] + dx * g - s[0], a[1] + dy * g - s[1])),
-                            put((a[0] + dx * f - s[0], a[1] + dy * f - s[1]))], INK, 0.7, "none", 1, True)
-        p.text(cx, 262, name, INK, "middle", weight="bold")
-        p.text(cx, 279, what, FAINT, "middle", 12)
-    p.arrow((30, 18), (690, 18), GREEN)
-    p.text(360, 12, "each contains the next: what is clear at one is clear at all to its right", GREEN, "middle", 12)
-    p.write("ladder.svg")
-
-
 def draw_verdicts():
     p = Picture(720, 250, "The four verdicts")
     rows = [("clear", [(0.0, 1.0, GREEN, "proven free")]),
@@ -349,5 +301,5 @@ def draw_verdicts():
 
 
 if __name__ == "__main__":
-    for draw in (draw_lss, draw_sweep, draw_culling, draw_backtracking, draw_exact, draw_ladder, draw_verdicts):
+    for draw in (draw_lss, draw_sweep, draw_culling, draw_backtracking, draw_exact, draw_verdicts):
         draw()

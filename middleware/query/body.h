@@ -1,12 +1,12 @@
-// middleware/query/body.h: what a query moves through the scene: an avatar's own LSS, or LSS that
-// each cover several links and move with one of them (middleware/ladder/). Not installed.
+// middleware/query/body.h: what a query moves through the scene. Not installed.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "articulated/avatar.h"
+#include "articulated/skeleton.h"
 #include "lss/index.h"
+#include "lss/lss.h"
 #include "middleware/query_options.h"
 
 namespace foretouch::internal {
@@ -14,24 +14,17 @@ namespace foretouch::internal {
 /// All references outlive it.
 class Body {
  public:
-  Body(const Avatar& avatar, const std::vector<IgnoredPair>& ignored)
-      : avatar_(&avatar), ignored_(&ignored) {}
-  /// Volumes by the link that carries them: one list per link.
-  Body(const std::vector<std::vector<Lss>>& volumes, const std::vector<IgnoredPair>& ignored)
-      : volumes_(&volumes), ignored_(&ignored) {}
+  /// `lss`: per link, those that move with it.
+  Body(const std::vector<std::vector<Lss>>& lss, const std::vector<IgnoredPair>& ignored)
+      : lss_(lss), ignored_(ignored) {}
 
-  [[nodiscard]] std::int32_t numLinks() const {
-    return volumes_ != nullptr ? static_cast<std::int32_t>(volumes_->size()) : avatar_->numLinks();
-  }
-  [[nodiscard]] const std::vector<Lss>& lss(LinkId link) const {
-    return volumes_ != nullptr ? (*volumes_)[slotOf(link)] : avatar_->lss(link);
-  }
-  [[nodiscard]] const std::vector<IgnoredPair>& ignored() const { return *ignored_; }
+  [[nodiscard]] std::int32_t numLinks() const { return static_cast<std::int32_t>(lss_.size()); }
+  [[nodiscard]] const std::vector<Lss>& lss(LinkId link) const { return lss_[slotOf(link)]; }
+  [[nodiscard]] const std::vector<IgnoredPair>& ignored() const { return ignored_; }
 
  private:
-  const Avatar* avatar_ = nullptr;
-  const std::vector<std::vector<Lss>>* volumes_ = nullptr;
-  const std::vector<IgnoredPair>* ignored_;
+  const std::vector<std::vector<Lss>>& lss_;
+  const std::vector<IgnoredPair>& ignored_;
 };
 
 }  // namespace foretouch::internal

@@ -1,15 +1,22 @@
-// middleware/query/provers.h: other proofs that a query may be given beside its own. The product
+// middleware/query/provers.h: other ways that a query may be given beside its own. The product
 // gives none; the reference room does (tests/reference/). Not installed.
 #pragma once
 
 #include "articulated/motion.h"
 #include "middleware/query_counters.h"
 
+namespace foretouch {
+struct StepContacts;
+}
+
 namespace foretouch::internal {
 
 struct Candidate;
 struct LinkQuery;
 struct MovingPair;
+struct QueryPlan;
+struct ScratchParts;
+class WorkMeter;
 
 /// Proves a pair of triangles apart, beside conservative advancement (provenFrom(), link_query.h).
 class LeafProver {
@@ -22,12 +29,15 @@ class LeafProver {
                                          QueryCounters& counters) const = 0;
 };
 
-/// Proves all links clear at once, before any of them is asked.
-class StepProver {
+/// Answers all links of a step at once, before any of them is asked.
+class StepAnswerer {
  public:
-  virtual ~StepProver() = default;
-  /// No link comes within its tolerance of the scene in the whole motion.
-  [[nodiscard]] virtual bool isClear(const ChainMotion& motion, QueryCounters& counters) const = 0;
+  virtual ~StepAnswerer() = default;
+  /// True: every link of `step` has its answer. False: none has, and the query goes its own way.
+  /// Precondition: `meter` started with the query.
+  [[nodiscard]] virtual bool answers(const QueryPlan& plan, const ChainMotion& motion,
+                                     const WorkMeter& meter, ScratchParts& scratch,
+                                     StepContacts& step) const = 0;
 };
 
 }  // namespace foretouch::internal

@@ -9,7 +9,6 @@
 #include "middleware/query/body.h"
 #include "middleware/query/lane_query.h"
 #include "middleware/query/query_plan.h"
-#include "middleware/query/rung_query.h"
 #include "middleware/query/scalar_query.h"
 #include "middleware/query/scratch_parts.h"
 #include "middleware/query/self_query.h"
@@ -18,15 +17,14 @@ namespace foretouch {
 
 namespace {
 
-/// At link, exact or skinned fidelity.
 void linkQuery(const internal::QueryPlan& plan, const ChainMotion& motion,
                const internal::WorkMeter& meter, internal::ScratchParts& scratch,
                StepContacts& step) {
-  if (plan.stepProver != nullptr && plan.stepProver->isClear(motion, step.counters)) {
-    for (LinkContact& contact : step.links) internal::answerClear(contact);
+  if (plan.stepAnswerer != nullptr &&
+      plan.stepAnswerer->answers(plan, motion, meter, scratch, step)) {
     return;
   }
-  const internal::Body body(plan.avatar, plan.options.ignored);
+  const internal::Body body(plan.avatar.lss(), plan.options.ignored);
   // Of a skin, a single lane is slower than doubles.
   const bool isSingleLane = plan.blends && activeSimd() == Simd::Scalar;
   if (plan.inLanes && !isSingleLane) {
@@ -88,8 +86,7 @@ void internal::answerStep(const QueryPlan& plan, const ChainMotion& motion, cons
   FORETOUCH_ASSERT(motion.numLinks() == plan.avatar.numLinks());
   if (motion.numLinks() != plan.avatar.numLinks()) return;
   scratch.beginStep(motion);
-  const auto ask = isRung(plan.options.fidelity) ? rungQuery : linkQuery;
-  ask(plan, motion, meter, scratch, step);
+  linkQuery(plan, motion, meter, scratch, step);
   FORETOUCH_ASSERT(isAnswered(step));
   if (plan.options.scope == Scope::FirstOfAvatar) keepFirst(plan, step);
   if (plan.self.isAsked()) SelfQuery(plan, motion, meter, scratch).run(step);

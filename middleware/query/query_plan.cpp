@@ -195,9 +195,8 @@ Result<QueryPlan> QueryPlan::make(const Avatar& avatar, const Scene& scene,
     for (const LinkPlan& link : plan.links) plan.margins.push_back(link.tolerance);
   }
   if (options.fidelity == Fidelity::Skinned) plan.blends = blendsOf(avatar, *options.skin);
-  // Not beyond the number of boxes of a walk. Above the links there is one box per limb at most,
-  // hence never too many.
-  plan.inLanes = isRung(options.fidelity) || plan.laneTable().size() <= BoxLanes::kMaxBoxes;
+  // Not beyond the number of boxes of a walk.
+  plan.inLanes = plan.laneTable().size() <= BoxLanes::kMaxBoxes;
   FORETOUCH_CHECK(checkedLanes(plan));
   if (options.self) plan.self = SelfPlan(avatar, plan.table, *options.self);
   return plan;

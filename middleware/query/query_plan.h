@@ -28,12 +28,6 @@ namespace foretouch::internal {
 struct ScratchParts;
 class WorkMeter;
 
-/// Above link fidelity.
-[[nodiscard]] inline bool isRung(Fidelity fidelity) {
-  return fidelity == Fidelity::Limb || fidelity == Fidelity::Avatar ||
-         fidelity == Fidelity::Ellipsoid;
-}
-
 /// Each link has a surface of its own, fixed to it.
 [[nodiscard]] inline bool isOfLinks(Fidelity fidelity) {
   return fidelity == Fidelity::Link || fidelity == Fidelity::Exact;
@@ -63,9 +57,9 @@ struct QueryPlan {
   bool inLanes;                              // not pair by pair in doubles
   SelfPlan self;                             // which own links are asked; none by default
   // What the reference room may replace (tests/reference/reference_query.h).
-  std::shared_ptr<const TriangleCuller> culler;  // the scene's
-  std::shared_ptr<const LeafProver> leafProver;  // null
-  std::shared_ptr<const StepProver> stepProver;  // null
+  std::shared_ptr<const TriangleCuller> culler;      // the scene's
+  std::shared_ptr<const LeafProver> leafProver;      // null
+  std::shared_ptr<const StepAnswerer> stepAnswerer;  // null
   /// Above 0: a link, or a pair of own links, that begins within its tolerance without touching is
   /// not stopped there, whichever way it moves. Its tolerance is then this share of its separation
   /// at t = 0, if that is less, and not below kMinTolerance (docs/guarantees.md 13).

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "articulated/motion.h"
-#include "middleware/ladder/rung_volumes.h"
 #include "middleware/lanes/node_planes.h"
 #include "middleware/lanes/pair_boxes.h"
 #include "middleware/query/ignored_objects.h"
@@ -13,17 +12,6 @@
 #include "tessellation/axis_curve.h"
 
 namespace foretouch::internal {
-
-/// Memory of queries above link fidelity.
-struct RungScratch {
-  RungVolumes volumes;
-  std::vector<std::vector<Lss>> perLink;  // the volumes by their carriers
-  LssTable table;
-  std::vector<IgnoredPair> ignored;   // of the volumes, by their carriers
-  std::vector<std::uint8_t> isAsked;  // per link: not ignored altogether
-  StepContacts carriers;              // their answers, for their volumes
-  std::vector<LinkContact> answers;   // of the volumes
-};
 
 /// An LSS of the table as a curve.
 struct SelfCurve {
@@ -62,7 +50,6 @@ struct ScratchParts {
   std::vector<LinkState> states;  // per link, at one instant
   LaneScratch lanes;
   IgnoredObjects ignored;  // of the current link
-  RungScratch rungs;
   SelfScratch self;
 
   /// Another motion is asked from now on: nothing of the last one counts. It outlives the question.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "middleware/ladder/limbs.h"
-
 namespace foretouch::internal {
 namespace {
 
@@ -25,6 +23,16 @@ LinkId commonFrame(const Skeleton& skeleton, const std::vector<int>& children, L
 }
 
 }  // namespace
+
+std::vector<int> childrenThatCount(const Avatar& avatar) {
+  std::vector<int> children(countOf(avatar.numLinks()), 0);
+  for (LinkId link = avatar.numLinks() - 1; link >= 0; --link) {
+    const JointId parent = avatar.skeleton().parent(link);
+    const bool counts = !avatar.lss(link).empty() || children[slotOf(link)] > 0;
+    if (counts && parent != kNoParent) ++children[slotOf(parent)];
+  }
+  return children;
+}
 
 SelfPlan::SelfPlan(const Avatar& avatar, const LssTable& table, const PairRules& rules)
     : numLinks_(countOf(avatar.numLinks())) {

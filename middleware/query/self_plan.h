@@ -15,6 +15,10 @@
 
 namespace foretouch::internal {
 
+/// Per link: how many of its children have LSS or a link below that has. Two or more make a
+/// branching.
+[[nodiscard]] std::vector<int> childrenThatCount(const Avatar& avatar);
+
 /// Of the LSS in an avatar's table.
 class SelfPlan {
  public:

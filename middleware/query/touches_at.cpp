@@ -6,7 +6,6 @@
 #include "middleware/exact/triangles_meet.h"
 #include "middleware/query/query.h"
 #include "middleware/query/query_plan.h"
-#include "middleware/query/rung_query.h"
 #include "middleware/query/scratch_parts.h"
 #include "middleware/scene/scene_parts.h"
 #include "middleware/surface/link_surface.h"
@@ -70,9 +69,6 @@ bool Query::touchesAt(const ChainMotion& motion, LinkId link, double t,
   const Scene& scene = plan_->scene;
   FORETOUCH_ASSERT(link >= 0 && link < avatar.numLinks());
   FORETOUCH_ASSERT(motion.numLinks() == avatar.numLinks());
-  if (internal::isRung(plan_->options.fidelity)) {
-    return internal::rungTouchesAt(*plan_, motion, link, t, scratch.parts());
-  }
   const internal::LinkPlan& asked = plan_->of(link);
   std::vector<TriangleId>& found = scratch.parts().found;
   IgnoredObjects& ignored = scratch.parts().ignored;

@@ -34,12 +34,6 @@ Result<StreamSolver> StreamSolver::make(std::int32_t id, const Avatar& avatar, c
     return Error::in("scope", ErrorCode::OutOfRange,
                      "expected the scope 'links': of a stream every link is answered");
   }
-  if (options.fidelity != Fidelity::Link && options.fidelity != Fidelity::Exact &&
-      options.fidelity != Fidelity::Skinned) {
-    return Error::in("fidelity", ErrorCode::OutOfRange,
-                     "expected link, exact or skinned: one joint that is not known would be in the "
-                     "volume of many links");
-  }
   if (options.deadlineUs < std::numeric_limits<double>::infinity()) {
     return Error::in("deadline", ErrorCode::OutOfRange,
                      "expected a work budget instead: no clock decides what a stream is answered");

@@ -23,8 +23,8 @@ namespace foretouch {
 class StreamSolver {
  public:
   /// `id`: the avatar's number in messages. Errors: options that a query refuses, a Scope other
-  /// than EveryLink (another link's contact would hide an unknown link), a rung above the links
-  /// (likewise), a deadline (no clock decides), a bad policy.
+  /// than EveryLink (another link's contact would hide an unknown link), a deadline (no clock
+  /// decides), a bad policy.
   static Result<StreamSolver> make(std::int32_t id, const Avatar& avatar, const Scene& scene,
                                    const QueryOptions& options, const StreamPolicy& policy);
 

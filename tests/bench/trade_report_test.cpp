@@ -175,7 +175,7 @@ TunedSetting setting(Fidelity fidelity, double tolerance, double p99, std::int64
 
 TEST(Tune, RecommendsTheFinestWithinTheBudget) {
   const std::vector<TunedSetting> settings = {
-      setting(Fidelity::Avatar, 1e-3, 5.0, 9), setting(Fidelity::Link, 1e-2, 10.0, 0),
+      setting(Fidelity::Link, 1e-1, 5.0, 9), setting(Fidelity::Link, 1e-2, 10.0, 0),
       setting(Fidelity::Link, 1e-4, 15.0, 0), setting(Fidelity::Exact, 1e-3, 40.0, 0)};
   EXPECT_EQ(recommended(settings, 100.0)->setting, 3u);
   EXPECT_EQ(recommended(settings, 20.0)->setting, 2u);
@@ -193,7 +193,7 @@ TEST(Tune, NeverRecommendsWhatMissedOrWasLate) {
   settings[0].row.score.missed = 1;
   settings[1].row.score.late = 1;
   EXPECT_FALSE(recommended(settings, 100.0).has_value());
-  settings.push_back(setting(Fidelity::Avatar, 1e-2, 99.0, 50));
+  settings.push_back(setting(Fidelity::Link, 1e-2, 99.0, 50));
   EXPECT_EQ(recommended(settings, 100.0)->setting, 2u);
 }
 

@@ -197,10 +197,11 @@ TEST(TradeClutter, PromisesAreKeptAndSamplesDoMiss) {
       add(certificates(place, tolerance), tolerance);
       QueryOptions options;
       options.tolerance = tolerance;
-      for (const Fidelity rung :
-           {Fidelity::Link, Fidelity::Limb, Fidelity::Avatar, Fidelity::Ellipsoid}) {
-        options.fidelity = rung;
-        add(foretouchQuery(place, options, toString(rung)), tolerance);
+      add(foretouchQuery(place, options, "link"), tolerance);
+      for (const Rung rung : {Rung::Limb, Rung::Avatar, Rung::Ellipsoid}) {
+        ReferenceOptions above;
+        above.rung = rung;
+        add(foretouchQuery(place, options, toString(rung), above), tolerance);
       }
     }
     const auto result = runTrade(place, std::nullopt, run, contenders);

@@ -56,22 +56,11 @@ struct Options {
   }
 };
 
-struct Rung {
-  Fidelity cxx;
-  std::int32_t c;
-};
-constexpr Rung kRungs[] = {{Fidelity::Link, FT_FIDELITY_LINK},
-                           {Fidelity::Limb, FT_FIDELITY_LIMB},
-                           {Fidelity::Avatar, FT_FIDELITY_AVATAR},
-                           {Fidelity::Ellipsoid, FT_FIDELITY_ELLIPSOID},
-                           {Fidelity::Exact, FT_FIDELITY_EXACT}};
-
 /// Of one step, all that can be asked, for links that differ from case to case.
 void draw(Random& random, const test::RandomBody& body, int objects, Options& options) {
-  const Rung& rung = kRungs[random.below(5)];
-  const bool isOfLinks = rung.cxx == Fidelity::Link || rung.cxx == Fidelity::Exact;
-  options.cxx.fidelity = rung.cxx;
-  options.c.fidelity = rung.c;
+  const bool isExact = random.chance(0.4);
+  options.cxx.fidelity = isExact ? Fidelity::Exact : Fidelity::Link;
+  options.c.fidelity = isExact ? FT_FIDELITY_EXACT : FT_FIDELITY_LINK;
   options.cxx.tolerance = options.c.tolerance = random.magnitude(1e-6, 1e-2);
   const bool hasBudget = random.chance(0.2);
   if (hasBudget) {
@@ -80,18 +69,18 @@ void draw(Random& random, const test::RandomBody& body, int objects, Options& op
   if (random.chance(0.2)) {
     options.cxx.scope = Scope::FirstOfAvatar;
     options.c.scope = FT_SCOPE_FIRST_OF_AVATAR;
-  } else if (isOfLinks && !hasBudget && random.chance(0.6)) {
+  } else if (!hasBudget && random.chance(0.6)) {
     options.cxx.scope = Scope::EveryObject;
     options.c.scope = FT_SCOPE_EVERY_OBJECT;
   }
-  if (isOfLinks && random.chance(0.4)) {
+  if (random.chance(0.4)) {
     options.cxx.passSeparating = true;
     options.c.pass_separating = 1;
   }
   for (int i = random.below(3); i > 0; --i) {
     options.ignore(random.below(body.avatar.numLinks()), random.below(objects + 1) - 1);
   }
-  for (LinkId link = 0; isOfLinks && random.chance(0.99) && link < body.avatar.numLinks(); ++link) {
+  for (LinkId link = 0; random.chance(0.99) && link < body.avatar.numLinks(); ++link) {
     if (link == 0 && random.chance(0.7)) break;  // no policies at all
     options.policy(random.magnitude(1e-6, 1e-2), random.chance(0.5));
   }
@@ -99,7 +88,7 @@ void draw(Random& random, const test::RandomBody& body, int objects, Options& op
   options.cxx.linkPolicies.clear();
   options.c.policies = nullptr;
   options.c.policy_count = 0;
-  for (int i = random.below(4); isOfLinks && i > 0; --i) {
+  for (int i = random.below(4); i > 0; --i) {
     options.objectPolicy({random.below(body.avatar.numLinks() + 1) - 1,
                           random.below(objects + 1) - 1,
                           random.chance(0.3) ? 0.0 : random.magnitude(1e-6, 1e-2), FT_UNCHANGED,

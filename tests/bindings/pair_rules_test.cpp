@@ -222,13 +222,13 @@ TEST(CPairRules, StayWhenOptionsChangeAndCanBeTakenAway) {
                 {"pair rules of this avatar"});
   ASSERT_EQ(ft_query_set_pair_rules(query.get(), rules.get()), FT_OK);
   ft_query_options options = test::initialised(ft_query_options_init);
-  options.fidelity = FT_FIDELITY_LIMB;
+  options.scope = FT_SCOPE_FIRST_OF_AVATAR;
   expectRefused(ft_query_set_options(query.get(), &options), FT_ERROR_MISMATCH,
-                {"self", "link or exact"});
+                {"self", "scope links"});
   ASSERT_EQ(ft_query_set_pair_rules(query.get(), nullptr), FT_OK);
   EXPECT_EQ(ft_query_set_options(query.get(), &options), FT_OK) << ft_last_error();
   expectRefused(ft_query_set_pair_rules(query.get(), rules.get()), FT_ERROR_MISMATCH,
-                {"link or exact"});
+                {"scope links"});
 }
 
 TEST(CPairRules, RefuseBadArguments) {

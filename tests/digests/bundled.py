@@ -22,9 +22,6 @@ ignore = true
 # tests/middleware/, tests/examples/ and tests/oracle/.
 WAYS = {
     "every-pose": "--rate all",
-    "ellipsoid": "--fidelity ellipsoid --place 0,1.1,0",
-    "avatar": "--fidelity avatar --place 0,1.1,0",
-    "limb": "--fidelity limb",
     "first-of-avatar": "--scope avatar",
     "objects": "--scope objects --pass-separating",
     "own-links": "--self",
@@ -40,7 +37,7 @@ WAYS = {
     "lying": "--motion-up z --place 0,1,0",
     "small-scene": "--scene-scale 0.8",
 }
-SHORT_WAYS = ("limb", "budget", "policy")
+SHORT_WAYS = ("budget", "policy")
 
 
 def way_cases():

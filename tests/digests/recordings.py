@@ -54,9 +54,6 @@ def clip_cases():
 # Ways to ask about one clip in one scene, beside every link's own volume. Neither --culler nor
 # --leaves among them or below: see bundled.py.
 CLIP_WAYS = {
-    "ellipsoid": "--fidelity ellipsoid",
-    "avatar": "--fidelity avatar",
-    "limb": "--fidelity limb",
     "first-of-avatar": "--scope avatar",
     "budget": "--budget-us 10",
     "fine": "--tolerance 1e-5",

@@ -27,8 +27,6 @@ const std::map<std::string, std::string>& allowed() {
       {"tools/stream/told_events.cpp: a call", oneJoint},
       {"assets/import/gltf_compression.cpp: corner", "no Result: an index of Draco's"},
       {"assets/import/gltf_compression.cpp: value", "no Result: an index of Draco's"},
-      {"middleware/query/rung_query.cpp: plan",
-       "the usual options, of a fidelity that is asserted"},
       {"tools/solid/solid_check.cpp: first", "both are asked in a loop over the two"},
       {"tools/solid/solid_check.cpp: last", "both are asked in a loop over the two"},
   };

@@ -88,7 +88,7 @@ TEST(ObjectPolicies, OfLinksThatAreAlikeMakeNoLinkPolicies) {
 
 TEST(ObjectPolicies, MayIgnoreAtAnyFidelityAndBesideLinkPolicies) {
   QueryOptions base;
-  base.fidelity = Fidelity::Limb;
+  base.fidelity = Fidelity::Skinned;
   EXPECT_EQ(pairsOf(applied({ignoring(true, {1}, {1})}, base)), "1:1 ");
   base.fidelity = Fidelity::Link;
   base.linkPolicies.assign(kLinks, LinkPolicy{});
@@ -113,16 +113,14 @@ TEST(ObjectPolicies, RefuseWhatTheyCannotMean) {
   for (const double bad : {0.0, 1e-10, 2e7, kNotANumber}) {
     EXPECT_TRUE(begins(refusalOf(within(bad)), "policies 1 tolerance: ")) << bad;
   }
-  for (const Fidelity bad : {Fidelity::Limb, Fidelity::Skinned, Fidelity::Ellipsoid}) {
-    EXPECT_TRUE(begins(refusalOf(asking(bad)), "policies 1 fidelity: expected link"));
-  }
+  EXPECT_TRUE(begins(refusalOf(asking(Fidelity::Skinned)), "policies 1 fidelity: expected link"));
   EXPECT_TRUE(begins(refusalOf(asking(Fidelity::Exact, {}, {0})),
                      "policies 1 fidelity: expected no objects"));
   QueryOptions base;
-  base.fidelity = Fidelity::Avatar;
+  base.fidelity = Fidelity::Skinned;
   EXPECT_TRUE(begins(refusalOf(within(1e-3), base),
                      "policies 1 expected neither tolerance nor fidelity beside the fidelity "
-                     "avatar"));
+                     "skinned"));
   base.fidelity = Fidelity::Link;
   base.linkPolicies.assign(kLinks, LinkPolicy{});
   EXPECT_TRUE(begins(refusalOf(within(1e-3), base),

@@ -150,13 +150,13 @@ TEST(OracleSampleOfRungs, EveryAnswerKeepsThePromise) {
   ASSERT_TRUE(clip.ok()) << describe(clip.error());
   SweepTally total;
   for (const Placement& placement : choosePlacements(clip.value(), scene.value(), 2)) {
-    for (const Fidelity rung : {Fidelity::Limb, Fidelity::Avatar}) {
+    for (const Rung rung : {Rung::Limb, Rung::Avatar}) {
       for (const double tolerance : {1e-3, 1e-5}) {
         SweepOptions options;
         options.rateHz = 10.0;
         options.tolerance = tolerance;
         options.maxSteps = 10;
-        options.fidelity = rung;
+        options.reference.rung = rung;
         total.add(sweepEveryWay(clip.value(), scene.value(), placement, options));
       }
     }

@@ -166,8 +166,8 @@ class Run {
     }
     if (arguments_.workBudget > 0) options.workBudget = arguments_.workBudget;
     if (arguments_.deadlineUs > 0.0) options.deadlineUs = arguments_.deadlineUs;
-    if (arguments_.fidelity == "limb") options.fidelity = foretouch::Fidelity::Limb;
-    if (arguments_.fidelity == "avatar") options.fidelity = foretouch::Fidelity::Avatar;
+    if (arguments_.fidelity == "limb") options.reference.rung = foretouch::Rung::Limb;
+    if (arguments_.fidelity == "avatar") options.reference.rung = foretouch::Rung::Avatar;
     if (arguments_.fidelity == "skinned") options.fidelity = foretouch::Fidelity::Skinned;
     options.deadline = deadline_;
     const SweepTally tally = sweep(clip, scene, placement, options);

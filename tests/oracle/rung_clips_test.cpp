@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/ladder/rungs.h"
 #include "tests/oracle/sweep_inputs.h"
+#include "tests/reference/rungs.h"
 #include "tests/support/judged.h"
 #include "tests/support/shared_data.h"
 
@@ -98,7 +98,7 @@ TEST(RungVolumesOfClips, ContainWhatIsBelowThemAndHardlyMore) {
       const ChainMotion motion(avatar.skeleton(), from, to);
       const oracle::Motion truth(plainJoints(avatar.skeleton(), from, to));
       constexpr Real kGuard = 1e-15L;
-      const auto limbs = rungVolumes(avatar, motion, scene, Fidelity::Limb);
+      const auto limbs = rungVolumes(avatar, motion, scene, Rung::Limb);
       for (const RungVolume& limb : limbs) {
         Real needed = 0;
         for (const LinkId link : limb.links) {
@@ -109,7 +109,7 @@ TEST(RungVolumesOfClips, ContainWhatIsBelowThemAndHardlyMore) {
         EXPECT_LE(needed, static_cast<Real>(limb.lss.radius) + kGuard);
         ofLimbs.add(limb.lss, needed);
       }
-      for (const RungVolume& tree : rungVolumes(avatar, motion, scene, Fidelity::Avatar)) {
+      for (const RungVolume& tree : rungVolumes(avatar, motion, scene, Rung::Avatar)) {
         Real needed = 0;
         for (const RungVolume& limb : limbs) {
           needed =

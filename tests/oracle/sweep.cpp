@@ -7,7 +7,7 @@
 #include <sstream>
 #include <thread>
 
-#include "middleware/ladder/rungs.h"
+#include "tests/reference/rungs.h"
 #include "tests/support/judged_pairs.h"
 
 namespace foretouch::test {
@@ -92,7 +92,7 @@ class Sweeper {
     ++tally.steps;
     const oracle::Motion truth(plainJoints(skeleton, from, to));
     if (pairs_) return judgePairs(n, answer, truth, tally);
-    if (query_.fidelity == Fidelity::Limb || query_.fidelity == Fidelity::Avatar) {
+    if (options_.reference.rung) {
       judgeVolumes(n, motion, answer, truth, tally);
       return;
     }
@@ -121,7 +121,7 @@ class Sweeper {
   void judgeVolumes(int n, const ChainMotion& motion, const StepContacts& step,
                     const oracle::Motion& truth, SweepTally& tally) const {
     for (const RungVolume& volume :
-         rungVolumes(clip_.avatar, motion, scene_.scene, query_.fidelity)) {
+         rungVolumes(clip_.avatar, motion, scene_.scene, *options_.reference.rung)) {
       LinkContact contact = step.links[static_cast<std::size_t>(volume.links.front())];
       contact.link = volume.carrier;
       if (options_.tamper) options_.tamper(contact);

@@ -21,11 +21,10 @@ struct SweepOptions {
   double tolerance = 1e-3;
   int maxSteps = 200;  ///< Spread evenly over the clip, its first step included.
   int threads = 1;
-  ReferenceOptions reference;
+  ReferenceOptions reference;  ///< With a rung, for clips without a surface: judges its volumes.
   std::uint64_t workBudget = QueryOptions{}.workBudget;
   double deadlineUs = QueryOptions{}.deadlineUs;
-  /// For clips without a surface: a rung above the links; then judges its volumes instead. For
-  /// models: Skinned asks and judges their skins.
+  /// For models: Skinned asks and judges their skins.
   Fidelity fidelity = Fidelity::Link;
   /// Asks whether own links touch each other, and judges that instead.
   std::optional<PairRules> self;

@@ -1,5 +1,5 @@
 // tests/reference/chain_piece.h: a span of a chain's motion as a nlerp body, whose cubics
-// bound it within a certified band. Not installed.
+// bound it within a certified band.
 //
 // Over a span both motions have the same end poses; a point with |acceleration| <= A stays within
 // A*h^2/8 of its chord, so the two paths are apart by at most the sum of the two bounds

@@ -1,4 +1,4 @@
-// tests/reference/cubic.h: cubics in Bernstein form on [0,1], in doubles. Not installed.
+// tests/reference/cubic.h: cubics in Bernstein form on [0,1], in doubles.
 // Over its span a cubic lies between its least and its largest coefficient, and it has no more
 // roots there than its coefficients have changes of sign ([Farouki12]).
 #pragma once

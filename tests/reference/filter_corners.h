@@ -1,5 +1,5 @@
 // tests/reference/filter_corners.h: the quantities of a moving polygon that the filter
-// computes in doubles, and how far each may be off. Not installed. Proof:
+// computes in doubles, and how far each may be off. Proof:
 // tests/reference/linear_query.md 3; tests/middleware/reference/filter_rounding_test.cpp
 // checks it with fifty digits.
 #pragma once

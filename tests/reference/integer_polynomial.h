@@ -1,5 +1,5 @@
 // tests/reference/integer_polynomial.h: polynomials of degree three or less with integer
-// coefficients, their roots in [0,1] and their signs there, all exact. Not installed.
+// coefficients, their roots in [0,1] and their signs there, all exact.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // tests/reference/moving_polygon.h: the form that every linear query takes: corners that move
 // along straight lines, each the difference of two of the query's points. Contact is the origin in
-// their convex hull. Not installed.
+// their convex hull.
 #pragma once
 
 #include <array>

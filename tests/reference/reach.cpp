@@ -1,5 +1,7 @@
 #include "tests/reference/reach.h"
 
+#include "middleware/contact.h"
+#include "middleware/query/link_query.h"
 #include "middleware/scene/scene_parts.h"
 #include "tessellation/aabb.h"
 
@@ -25,6 +27,14 @@ bool ReachProver::isClear(const ChainMotion& motion, QueryCounters& counters) co
   ++counters.rungTests;
   if (scene_.parts().bvh.meetsLeaf(box, counters.nodes)) return false;
   counters.settledAbove += static_cast<std::uint64_t>(motion.numLinks());
+  return true;
+}
+
+bool ReachProver::answers(const QueryPlan& /*plan*/, const ChainMotion& motion,
+                          const WorkMeter& /*meter*/, ScratchParts& /*scratch*/,
+                          StepContacts& step) const {
+  if (!isClear(motion, step.counters)) return false;
+  for (LinkContact& contact : step.links) answerClear(contact);
   return true;
 }
 

@@ -12,7 +12,7 @@
 namespace foretouch::internal {
 
 /// Of queries at link or exact fidelity.
-class ReachProver final : public StepProver {
+class ReachProver final : public StepAnswerer {
  public:
   /// `tolerance`: the links' largest.
   ReachProver(const Avatar& avatar, const Scene& scene, double tolerance)
@@ -21,7 +21,11 @@ class ReachProver final : public StepProver {
   /// True: every LSS stays farther than the tolerance from every triangle at every t, however the
   /// joints turn; so every link is clear. O(roots), and one walk of the tree that ends at the first
   /// leaf.
-  [[nodiscard]] bool isClear(const ChainMotion& motion, QueryCounters& counters) const override;
+  [[nodiscard]] bool isClear(const ChainMotion& motion, QueryCounters& counters) const;
+  /// Whether that is so; then every link is answered.
+  [[nodiscard]] bool answers(const QueryPlan& plan, const ChainMotion& motion,
+                             const WorkMeter& meter, ScratchParts& scratch,
+                             StepContacts& step) const override;
 
  private:
   LssTable table_;

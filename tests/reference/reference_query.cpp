@@ -11,6 +11,7 @@
 #include "tests/reference/chain_piece.h"
 #include "tests/reference/point_query_culler.h"
 #include "tests/reference/reach.h"
+#include "tests/reference/rung_query.h"
 
 namespace foretouch {
 namespace {
@@ -20,22 +21,37 @@ bool isExactAnywhere(const internal::QueryPlan& plan) {
                      [](const internal::LinkPlan& link) { return link.surface != nullptr; });
 }
 
-/// A way that the fidelity does not have is refused, never passed over.
+/// What asks link by link is not asked of volumes that cover several.
+Result<Done> checkedRung(const QueryOptions& options, Rung rung) {
+  const auto refused = [rung](const char* option, const std::string& expected) {
+    return Error::in(option, ErrorCode::Mismatch,
+                     "expected " + expected + " at fidelity " + toString(rung));
+  };
+  if (options.fidelity != Fidelity::Link) return refused("fidelity", "link");
+  if (!options.linkPolicies.empty()) return refused("linkPolicies", "none");
+  if (options.passSeparating) return refused("passSeparating", "false");
+  if (options.scope == Scope::EveryObject) return refused("scope", "links or avatar");
+  if (options.self) return refused("self", "none");
+  return Done{};
+}
+
+/// A way that the fidelity or the rung does not have is refused, never passed over.
 Result<Done> checked(const internal::QueryPlan& plan, const ReferenceOptions& reference) {
   const Fidelity fidelity = plan.options.fidelity;
-  const std::string found = std::string(" at fidelity ") + toString(fidelity);
+  const std::string found = std::string(" at fidelity ") +
+                            (reference.rung ? toString(*reference.rung) : toString(fidelity));
+  if (reference.rung) FORETOUCH_CHECK(checkedRung(plan.options, *reference.rung));
   if (reference.leafMethod == LeafMethod::Cubics && !isExactAnywhere(plan)) {
     return Error::in(
         "leafMethod", ErrorCode::Mismatch,
         "expected advancement" + found + ": only exact fidelity follows pairs of triangles");
   }
-  if (reference.descent == Descent::ByNeed && fidelity != Fidelity::Link &&
-      fidelity != Fidelity::Exact) {
+  if (reference.descent == Descent::ByNeed && (reference.rung || !internal::isOfLinks(fidelity))) {
     return Error::in("descent", ErrorCode::Mismatch,
                      "expected straight" + found + ": by need is for link and exact fidelity");
   }
   if (!reference.backtracking) return Done{};
-  if (fidelity == Fidelity::Ellipsoid) {
+  if (reference.rung == Rung::Ellipsoid) {
     return Error::in("backtracking", ErrorCode::Mismatch,
                      "expected none" + found + ", which has one way alone");
   }
@@ -84,6 +100,7 @@ const char* toString(Descent descent) {
 Result<Query> buildReference(const Avatar& avatar, const Scene& scene, const QueryOptions& options,
                              const ReferenceOptions& reference) {
   FORETOUCH_TRY(auto plan, internal::QueryPlan::make(avatar, scene, options));
+  if (reference.rung) plan.inLanes = true;  // one box per limb at most: never too many
   FORETOUCH_CHECK(checked(plan, reference));
   if (reference.culler == Culler::PointQuery) {
     FORETOUCH_TRY(plan.culler, internal::PointQueryCuller::build(scene));
@@ -92,8 +109,11 @@ Result<Query> buildReference(const Avatar& avatar, const Scene& scene, const Que
     plan.leafProver = std::make_shared<const internal::CubicsProver>();
   }
   if (reference.descent == Descent::ByNeed) {
-    plan.stepProver =
+    plan.stepAnswerer =
         std::make_shared<const internal::ReachProver>(avatar, scene, plan.tolerances.largest);
+  }
+  if (reference.rung) {
+    plan.stepAnswerer = std::make_shared<const internal::RungAnswerer>(*reference.rung);
   }
   if (reference.backtracking == Backtracking::Scalar) plan.inLanes = false;
   return Query(std::make_shared<const internal::QueryPlan>(std::move(plan)));

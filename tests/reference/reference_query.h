@@ -13,6 +13,7 @@
 #include "middleware/query/query.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/scene.h"
+#include "tests/reference/rungs.h"
 
 namespace foretouch {
 
@@ -63,11 +64,16 @@ struct ReferenceOptions {
   std::optional<Backtracking> backtracking;
   LeafMethod leafMethod = LeafMethod::Advancement;
   Descent descent = Descent::Straight;
+  /// Volumes around several links in place of the links' own LSS. A volume ignores an object only
+  /// if all links that it covers do (not counting links that are ignored altogether). A link
+  /// without LSS has no surface. touchesAt() asks the links all the same.
+  std::optional<Rung> rung;
 };
 
 /// As Query::build(), answered in the ways of `reference`. Further errors: a way that the query
-/// does not have (cubics without exact fidelity; by need of skins or above the links; lanes of
-/// skins or of too many LSS; either backtracking of an ellipsoid).
+/// does not have (cubics without exact fidelity; by need of skins or of rungs; lanes of skins or of
+/// too many LSS; either backtracking of an ellipsoid; rungs at another fidelity than link, or with
+/// what asks link by link).
 [[nodiscard]] Result<Query> buildReference(const Avatar& avatar, const Scene& scene,
                                            const QueryOptions& options,
                                            const ReferenceOptions& reference);

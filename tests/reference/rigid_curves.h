@@ -1,6 +1,6 @@
 // tests/reference/rigid_curves.h: the paths of a triangle's vertices under a nlerp motion,
 // multiplied by |q|^2: cubics in t. Derivation and rounding: tests/reference/rigid_query.md.
-// Not installed.
+//
 #pragma once
 
 #include <array>

@@ -1,5 +1,4 @@
-// tests/reference/rigid_plane.h: a rigid query that begins with a plane from its caller. Not
-// installed.
+// tests/reference/rigid_plane.h: a rigid query that begins with a plane from its caller.
 #pragma once
 
 #include <Eigen/Core>

@@ -160,8 +160,10 @@ std::vector<BadInput> badOptions() {
       badOption("LeavesAreGone", {"--leaves", "cubics"},
                 "foretouch-bench latency --fidelity exact --leaves cubics"),
       badOption("LeavesAreGoneAlone", {"--leaves"}, "--leaves: is gone: "),
-      badOption("FidelityNotComparable", {"--fidelity", "avatar", "--compare-rigid"},
-                "--fidelity: "),
+      badOption(
+          "FidelityIsGone", {"--fidelity", "limb"},
+          "--fidelity: limb is gone: a volume around several links was slower and coarser than "
+          "the links' own in every row measured (docs/trade.md); use link"),
       badOption("SelfOfTwoNeighbours", {"--self"}, "--self: expected at least one pair"),
       badOption("PairsWithoutSelf", {"--pairs", "p.json"}, "--pairs requires --self"),
       badOption("FidelityUnknown", {"--fidelity", "best"}, "--fidelity: "),

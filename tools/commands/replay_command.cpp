@@ -192,16 +192,7 @@ Result<Done> checkBeyondFirst(const WorldRequest& request, bool compares) {
 /// Options that are legal by themselves, but not together.
 Result<Done> checkTogether(const ReplayJob& job) {
   const WorldRequest& request = job.request;
-  const Fidelity fidelity = request.query.fidelity;
-  const bool isAboveLinks =
-      fidelity == Fidelity::Limb || fidelity == Fidelity::Avatar || fidelity == Fidelity::Ellipsoid;
   const bool compares = job.options.compareRigid || job.options.compareLink;
-  if (isAboveLinks && compares) {
-    return Error::in(
-        "--fidelity", ErrorCode::OutOfRange,
-        "expected link, exact or skinned with --compare-rigid or --compare-link: above "
-        "them links have no surface of their own to compare");
-  }
   FORETOUCH_CHECK(checkSelf(request));
   FORETOUCH_CHECK(checkBeyondFirst(request, compares));
   if (request.budgetUs == 0) return Done{};

@@ -16,7 +16,6 @@ PlaceDoubts::PlaceDoubts(const Skeleton& skeleton, bool asksSelf)
 
 void PlaceDoubts::add(const StepAnswer& answer) {
   ++steps_;
-  // At rungs above the links, a volume of several links stands for each of them: still a trunk.
   const bool isIn =
       std::any_of(answer.contacts.begin(), answer.contacts.end(), [&](const LinkContact& contact) {
         return contact.verdict == Verdict::StartsInContact && isTrunk_[slotOf(contact.link)];

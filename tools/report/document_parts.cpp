@@ -102,15 +102,6 @@ void noteFidelity(Fidelity fidelity, std::vector<std::string>& notes) {
     case Fidelity::Skinned:
       notes.emplace_back("Contacts are those of the skin; shown are the links' LSS around it.");
       return;
-    case Fidelity::Limb:
-    case Fidelity::Avatar:
-    case Fidelity::Ellipsoid:
-      notes.push_back(
-          fmt::format("Contacts are those of volumes that stand for several links each (fidelity "
-                      "{}); shown are "
-                      "the links' own LSS.",
-                      toString(fidelity)));
-      return;
   }
 }
 

@@ -145,6 +145,7 @@ void addServeSettings(Settings& settings, ServeConfig& config) {
   addServiceSettings(settings, config);
   addQuerySettings(settings, config.world);
   Setting& fidelity = settings.of("--fidelity").only({"link", "exact"});
+  refuseGoneFidelities(fidelity);
   fidelity.value = "link|exact";
   fidelity.help = "What touches: the links' LSS (link) or their meshes (exact)";
   addStreamSettings(settings, config.stream);

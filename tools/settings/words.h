@@ -9,8 +9,7 @@ namespace foretouch::tools {
 
 [[nodiscard]] inline Words<Fidelity> fidelityWords() {
   Words<Fidelity> words;
-  for (const Fidelity fidelity : {Fidelity::Ellipsoid, Fidelity::Avatar, Fidelity::Limb,
-                                  Fidelity::Link, Fidelity::Exact, Fidelity::Skinned}) {
+  for (const Fidelity fidelity : {Fidelity::Link, Fidelity::Exact, Fidelity::Skinned}) {
     words.emplace_back(toString(fidelity), fidelity);
   }
   return words;

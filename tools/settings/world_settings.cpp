@@ -128,6 +128,14 @@ void addSceneSettings(Settings& settings, WorldRequest& request) {
       .inReport("scene's up axis");
 }
 
+void refuseGoneFidelities(Setting& setting) {
+  setting.take = [take = setting.take](const GivenValue& given) -> Result<Done> {
+    const std::string why = whyFidelityIsGone(given.texts.front());
+    if (!why.empty()) return Error{ErrorCode::OutOfRange, "", -1, -1, why};
+    return take(given);
+  };
+}
+
 void addQuerySettings(Settings& settings, WorldRequest& request) {
   settings
       .number("--tolerance", "M", request.query.tolerance, kToleranceRange,
@@ -137,13 +145,13 @@ void addQuerySettings(Settings& settings, WorldRequest& request) {
       .inHeader("tolerance")
       .inReport("tolerance");
   settings
-      .word("--fidelity", "RUNG", request.query.fidelity, fidelityWords(),
-            "What touches: one ellipsoid, one LSS (avatar), one per limb, the links' LSS (link), "
-            "their meshes (exact), or a skin (skinned)")
+      .word("--fidelity", "link|exact|skinned", request.query.fidelity, fidelityWords(),
+            "What touches: the links' LSS (link), their meshes (exact), or a skin (skinned)")
       .in(kTouchGroup)
       .inConfig("query", "fidelity")
       .inHeader("fidelity")
       .inReport("fidelity");
+  refuseGoneFidelities(settings.of("--fidelity"));
   settings.list("--ignore", "PAIRS", request.ignore, "Contacts to ignore; may be repeated")
       .in(kTouchGroup)
       .inConfig("query", "ignore")

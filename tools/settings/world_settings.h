@@ -52,6 +52,8 @@ struct WorldRequest {
 
 /// --scene, --scene-scale and --scene-up: the scene, and how to read its file.
 void addSceneSettings(Settings& settings, WorldRequest& request);
+/// Of --fidelity: the words that it once took are refused by name, and the error says why.
+void refuseGoneFidelities(Setting& setting);
 /// The ones that services have too: --tolerance, --fidelity, --ignore, --budget-us.
 void addQuerySettings(Settings& settings, WorldRequest& request);
 /// The rest: --scope, --pass-separating, --skin and how to read it, --policy and --pairs (does not

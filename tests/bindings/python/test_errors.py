@@ -204,10 +204,11 @@ class Errors(unittest.TestCase):
         self.refused(r"policies\['fore'\]\['tol'\]", ask, policies={"fore": {"tol": 1}})
         self.refused(r"policies\['fore'\]\['tolerance'\]: expected 1e-9", ask,
                      policies={"fore": {"tolerance": 0}})
-        self.refused("policies: fidelity: expected link or exact", ask,
+        self.refused(r"policies\['fore'\]\['fidelity'\]: limb is gone: .*; use link", ask,
                      policies={"fore": {"fidelity": "limb"}})
-        self.refused("policies: expected neither tolerance nor fidelity beside the fidelity limb",
-                     ask, fidelity="limb", policies={"fore": {"tolerance": 1e-3}})
+        for gone in ["limb", "avatar", "ellipsoid"]:
+            self.refused(f"fidelity: {gone} is gone: a volume around several links was slower and "
+                         r"coarser .* \(docs/trade.md\); use link", ask, fidelity=gone)
         self.refused(r"policies\['fore', 'wall'\]\['ignore'\]: expected a bool", ask,
                      policies={("fore", "wall"): {"ignore": 1}})
         self.refused("policies: 'walls' is no object.*'wall'", ask,

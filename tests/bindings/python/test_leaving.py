@@ -82,12 +82,10 @@ class EveryObject(unittest.TestCase):
         cases = [
             (dict(scope="object"), "scope: expected one of 'links', 'avatar', 'objects', found "
                                    "'object'; did you mean 'objects'"),
-            (dict(scope="objects", fidelity="limb"), "scope: .* limb"),
             (dict(scope="objects", work_budget=1000), "scope: .* budget"),
             (dict(scope="objects", deadline_us=1000), "scope: .* budget"),
             (dict(pass_separating=1), "pass_separating: expected a bool"),
             (dict(pass_separating=None), "pass_separating: expected a bool"),
-            (dict(pass_separating=True, fidelity="ellipsoid"), "pass_separating: .* ellipsoid"),
         ]
         for options, text in cases:
             with self.subTest(text), self.assertRaisesRegex(foretouch.InputError, text):

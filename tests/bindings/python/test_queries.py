@@ -161,13 +161,6 @@ class Options(unittest.TestCase):
         policies = {"fore": {"fidelity": "exact"}}
         self.assertEqual(self.ask(policies=policies, surface=surface)["fore"].toi, exact.toi)
 
-    def test_coarser_fidelities_are_never_later(self):
-        link = self.ask()
-        for fidelity in ["limb", "avatar", "ellipsoid"]:
-            coarse = self.ask(fidelity=fidelity)["fore"]
-            self.assertLessEqual(coarse.toi, link["fore"].toi + 1e-2)
-            self.assertEqual((coarse.object, coarse.lss), ("wall", 0))
-
     def test_counters_count(self):
         counters = self.ask().counters
         self.assertGreater(counters["nodes"], 0)

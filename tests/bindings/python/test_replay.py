@@ -64,10 +64,6 @@ class Replay(unittest.TestCase):
                                 ignore=["Head", ("LeftHand", "string_curtain")])
         self.check(query, "--tolerance", "1e-5", "--ignore", "Head,LeftHand:string_curtain")
 
-    def test_gives_them_at_a_coarser_fidelity(self):
-        avatar, scene, _ = example()
-        self.check(foretouch.Query(avatar, scene, fidelity="limb"), "--fidelity", "limb")
-
     def test_gives_them_in_the_scope_of_the_avatar(self):
         avatar, scene, _ = example()
         self.check(foretouch.Query(avatar, scene, scope="avatar"), "--scope", "avatar")

@@ -149,8 +149,6 @@ class Rules(unittest.TestCase):
             (lambda: foretouch.Query(avatar, scene, self_pairs=True), "self_pairs: expected a"),
             (lambda: foretouch.Query(hands(), scene, self_pairs=rules),
              "self_pairs: expected the rules of this avatar"),
-            (lambda: foretouch.Query(avatar, scene, self_pairs=rules, fidelity="limb"),
-             "self_pairs: expected link or exact fidelity, found limb"),
             (lambda: foretouch.Query(avatar, scene, self_pairs=rules, scope="avatar"),
              "self_pairs: expected scope links"),
             (lambda: PairRules.leaving_out(avatar, [("left", "rigth")]), "did you mean 'right'"),

@@ -109,23 +109,6 @@ TEST_F(Allocations, OfQueriesAtLinkFidelityAreNone) {
   EXPECT_EQ(inSteadyState(bodies, scene, {options}, kScalar), 0U);
 }
 
-TEST_F(Allocations, OfQueriesAboveLinkFidelityAreNone) {
-  Random random(6);
-  const Scene scene = Scene::build(test::clutter(random, 200, 3, Vector3d::Zero())).value();
-  std::vector<test::RandomBody> bodies(kBodies, test::bodyInClutter(random, 9, Vector3d::Zero()));
-  for (test::RandomBody& body : bodies) {
-    for (auto& rotation : body.to.rotations) rotation = random.turn(0.5);
-  }
-  for (const Fidelity rung : {Fidelity::Limb, Fidelity::Avatar, Fidelity::Ellipsoid}) {
-    QueryOptions options;
-    options.fidelity = rung;
-    options.ignored = {{2, 1}, {3, IgnoredPair::kEveryObject}};
-    EXPECT_EQ(inSteadyState(bodies, scene, {options}), 0U) << toString(rung);
-    if (rung == Fidelity::Ellipsoid) continue;  // has one way alone
-    EXPECT_EQ(inSteadyState(bodies, scene, {options}, kScalar), 0U) << toString(rung);
-  }
-}
-
 TEST_F(Allocations, OfQueriesAtExactFidelityAreNone) {
   Random random(4);
   const Scene scene = Scene::build(test::clutter(random, 500, 3, Vector3d::Zero())).value();

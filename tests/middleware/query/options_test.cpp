@@ -19,8 +19,7 @@ using Eigen::Vector3d;
 using test::Random;
 
 constexpr std::int32_t kLinks = 6;
-const std::vector<Fidelity> kFidelities = {Fidelity::Link, Fidelity::Exact,  Fidelity::Skinned,
-                                           Fidelity::Limb, Fidelity::Avatar, Fidelity::Ellipsoid};
+const std::vector<Fidelity> kFidelities = {Fidelity::Link, Fidelity::Exact, Fidelity::Skinned};
 
 struct World {
   explicit World(Random random)
@@ -77,7 +76,7 @@ TEST(QueryOptions, AreHonouredOrRefusedByNameAtEveryFidelity) {
       {"deadline", [](QueryOptions& o) { o.deadlineUs = 1000.0; }},
       {"linkPolicies",
        [](QueryOptions& o) { o.linkPolicies.assign(kLinks, LinkPolicy{}); },
-       {Fidelity::Skinned, Fidelity::Limb, Fidelity::Avatar, Fidelity::Ellipsoid}}};
+       {Fidelity::Skinned}}};
   for (const Fidelity fidelity : kFidelities) {
     for (const Change& change : changes) {
       QueryOptions options = world.options(fidelity);
@@ -94,8 +93,7 @@ TEST(QueryOptions, AreHonouredOrRefusedByNameAtEveryFidelity) {
   }
 }
 
-const std::set<Fidelity> kNotOfLinks = {Fidelity::Skinned, Fidelity::Limb, Fidelity::Avatar,
-                                        Fidelity::Ellipsoid};
+const std::set<Fidelity> kNotOfLinks = {Fidelity::Skinned};
 
 // What looks beyond the first contact, or at own links, is honoured link by link or refused.
 TEST(QueryOptions, BeyondTheFirstContactAreHonouredOrRefusedByName) {
@@ -183,6 +181,14 @@ struct OtherWay {
   std::set<Fidelity> takenAt;
 };
 
+TEST(Fidelities, ThatAreGoneAreNamedWithTheReason) {
+  for (const std::string gone : {"limb", "avatar", "ellipsoid"}) {
+    EXPECT_EQ(whyFidelityIsGone(gone).rfind(gone + " is gone: ", 0), 0u) << gone;
+  }
+  for (const Fidelity fidelity : kFidelities) EXPECT_EQ(whyFidelityIsGone(toString(fidelity)), "");
+  EXPECT_EQ(whyFidelityIsGone("limbs"), "");
+}
+
 TEST(ReferenceOptions, AreHonouredOrRefusedByNameAtEveryFidelity) {
   const World world{Random(2)};
   const std::set<Fidelity> all(kFidelities.begin(), kFidelities.end());
@@ -196,14 +202,10 @@ TEST(ReferenceOptions, AreHonouredOrRefusedByNameAtEveryFidelity) {
        "expected straight at fidelity ",
        [](ReferenceOptions& r) { r.descent = Descent::ByNeed; },
        {Fidelity::Link, Fidelity::Exact}},
-      {"backtracking",
-       "expected ",
-       [](ReferenceOptions& r) { r.backtracking = Backtracking::Lanes; },
-       {Fidelity::Link, Fidelity::Exact, Fidelity::Skinned, Fidelity::Limb, Fidelity::Avatar}},
-      {"backtracking",
-       "expected none at fidelity ",
-       [](ReferenceOptions& r) { r.backtracking = Backtracking::Scalar; },
-       {Fidelity::Link, Fidelity::Exact, Fidelity::Skinned, Fidelity::Limb, Fidelity::Avatar}}};
+      {"backtracking", "expected ",
+       [](ReferenceOptions& r) { r.backtracking = Backtracking::Lanes; }, all},
+      {"backtracking", "expected ",
+       [](ReferenceOptions& r) { r.backtracking = Backtracking::Scalar; }, all}};
   for (const Fidelity fidelity : kFidelities) {
     for (const OtherWay& way : ways) {
       ReferenceOptions reference;
@@ -240,7 +242,7 @@ TEST(ReferenceOptions, AreTheProductsByDefault) {
     const Query query =
         buildReference(world.body.avatar, world.scene, world.options(fidelity), {}).value();
     EXPECT_EQ(query.plan().leafProver, nullptr);
-    EXPECT_EQ(query.plan().stepProver, nullptr);
+    EXPECT_EQ(query.plan().stepAnswerer, nullptr);
     EXPECT_TRUE(query.plan().inLanes);
   }
 }

@@ -12,6 +12,7 @@
 #include "middleware/query/leaving.h"
 #include "middleware/query/query.h"
 #include "middleware/query/query_plan.h"
+#include "tests/middleware/mesh_body.h"
 #include "tests/middleware/own_body.h"
 #include "tests/support/judged.h"
 #include "tests/support/judged_answer.h"
@@ -193,7 +194,11 @@ TEST(StartShares, AreRefusedByNameWhereNobodyHonoursThem) {
   options.passSeparating = true;
   EXPECT_FALSE(internal::QueryPlan::make(slide.avatar, scene, options, kShare).ok());
   options.passSeparating = false;
-  options.fidelity = Fidelity::Avatar;
+  options.fidelity = Fidelity::Skinned;
+  Random random(1);
+  const ChainMotion motion(slide.avatar.skeleton(), slide.from, slide.to);
+  const test::RandomSkin made = test::randomSkin(slide.avatar, motion, random);
+  options.skin = SkinnedSurface::build(slide.avatar, made.skin, made.counts).value();
   EXPECT_FALSE(internal::QueryPlan::make(slide.avatar, scene, options, kShare).ok());
   EXPECT_TRUE(internal::QueryPlan::make(slide.avatar, scene, options).ok());
 }

@@ -13,7 +13,6 @@
 #include "middleware/query/lane_query.h"
 #include "middleware/query/query.h"
 #include "middleware/query/query_plan.h"
-#include "middleware/query/rung_query.h"
 #include "middleware/query/scalar_query.h"
 #include "middleware/query/work_meter.h"
 #include "middleware/scene/scene_parts.h"
@@ -85,7 +84,6 @@ StepContacts answer(const Case& c, const Path& path) {
 
 /// The ways of backtracking that a fidelity has.
 std::vector<std::optional<Backtracking>> backtrackingsOf(Fidelity fidelity) {
-  if (fidelity == Fidelity::Ellipsoid) return {std::nullopt};
   if (fidelity == Fidelity::Skinned) return {Backtracking::Scalar};
   return {Backtracking::Lanes, Backtracking::Scalar};
 }
@@ -93,8 +91,7 @@ std::vector<std::optional<Backtracking>> backtrackingsOf(Fidelity fidelity) {
 /// Every way that a query goes, each link asked for by itself and without a budget.
 std::vector<Path> pathsOf(const Case& c) {
   std::vector<Path> paths;
-  for (const Fidelity fidelity : {Fidelity::Link, Fidelity::Exact, Fidelity::Skinned,
-                                  Fidelity::Limb, Fidelity::Avatar, Fidelity::Ellipsoid}) {
+  for (const Fidelity fidelity : {Fidelity::Link, Fidelity::Exact, Fidelity::Skinned}) {
     for (const std::optional<Backtracking> way : backtrackingsOf(fidelity)) {
       for (const Culler culler : {Culler::FlatBvh, Culler::PointQuery}) {
         Path path{toString(fidelity), c.options(fidelity), {}};
@@ -103,6 +100,13 @@ std::vector<Path> pathsOf(const Case& c) {
         if (way) path.name += std::string(" ") + toString(*way);
         paths.push_back(std::move(path));
       }
+    }
+  }
+  for (const Rung rung : {Rung::Limb, Rung::Avatar, Rung::Ellipsoid}) {
+    for (const Culler culler : {Culler::FlatBvh, Culler::PointQuery}) {
+      paths.push_back({toString(rung), c.options(Fidelity::Link), {}});
+      paths.back().reference.rung = rung;
+      paths.back().reference.culler = culler;
     }
   }
   paths.push_back({"cubics", c.options(Fidelity::Exact), {}});
@@ -228,13 +232,15 @@ void ask(const Case& c, const Path& path, const internal::TriangleCuller& culler
   internal::QueryPlan plan =
       buildReference(c.body.avatar, c.scene, options, path.reference).value().plan();
   plan.culler = {std::shared_ptr<const void>(), &culler};  // the caller's
-  const internal::Body body(plan.avatar, plan.options.ignored);
+  const internal::Body body(plan.avatar.lss(), plan.options.ignored);
   internal::ScratchParts& parts = scratch.parts();
   const internal::WorkMeter meter(options);
   parts.beginStep(c.motion);
-  if (internal::isRung(options.fidelity)) {
-    internal::rungQuery(plan, c.motion, meter, parts, step);
-  } else if (plan.inLanes) {
+  if (plan.stepAnswerer != nullptr &&
+      plan.stepAnswerer->answers(plan, c.motion, meter, parts, step)) {
+    return;
+  }
+  if (plan.inLanes) {
     internal::LaneQuery(plan, body, plan.table, c.motion, meter, parts).run(step);
   } else {
     internal::scalarQuery(plan, body, c.motion, meter, parts, step);

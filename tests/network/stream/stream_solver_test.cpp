@@ -194,7 +194,6 @@ TEST(StreamSolverOptions, RefuseWhatAStreamCannotBeAnsweredWith) {
   };
   EXPECT_EQ(refusal([](QueryOptions&) {}), "");
   EXPECT_EQ(refusal([](QueryOptions& o) { o.scope = Scope::FirstOfAvatar; }), "scope");
-  EXPECT_EQ(refusal([](QueryOptions& o) { o.fidelity = Fidelity::Avatar; }), "fidelity");
   EXPECT_EQ(refusal([](QueryOptions& o) { o.deadlineUs = 100.0; }), "deadline");
 }
 

@@ -181,8 +181,6 @@ TEST(SelfReplay, RefusesByNameWhatCannotBeHonoured) {
                      R"({"format":"foretouch-pairs","version":1,)"
                      R"("left_out":[{"a":"Trunk","b":"LeftHnd","reason":"adjacent"}]})");
   const std::vector<std::pair<std::vector<std::string>, std::string>> trials = {
-      {{"--self", "--fidelity", "limb"}, "--self: expected --fidelity link or exact, found limb"},
-      {{"--self", "--fidelity", "ellipsoid"}, "--self: expected --fidelity link or exact"},
       {{"--self", "--fidelity", "skinned", "--skin", "x.glb"},
        "--self: expected --fidelity link or exact, found skinned"},
       {{"--self", "--scope", "avatar"}, "--self: expected --scope links or objects, found avatar"},

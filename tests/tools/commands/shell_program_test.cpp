@@ -56,7 +56,7 @@ TEST(Completion, OffersCommandsOptionsWordsAndFilesInBash) {
   EXPECT_EQ(offersOfBash(folder, "foretouch avatar ''"),
             (Offers{"bvh", "check", "mesh", "pairs", "urdf"}));
   EXPECT_EQ(offersOfBash(folder, "foretouch avatar check --clip-s"), Offers{"--clip-scale"});
-  EXPECT_EQ(offersOfBash(folder, "foretouch replay --fidelity l"), (Offers{"limb", "link"}));
+  EXPECT_EQ(offersOfBash(folder, "foretouch replay --fidelity l"), Offers{"link"});
   EXPECT_EQ(offersOfBash(folder, "foretouch serve --fidelity ''"), (Offers{"exact", "link"}));
   EXPECT_EQ(offersOfBash(folder, "foretouch replay --scene ''"), Offers{"room.obj"});
   EXPECT_EQ(offersOfBash(folder, "foretouch replay --motion ''"), Offers{"walk.BVH"});

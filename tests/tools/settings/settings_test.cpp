@@ -60,8 +60,9 @@ TEST(Settings, RefuseWhatIsNotLegalAndLeaveThePlaceAlone) {
   EXPECT_EQ(errorOf(tolerance, "1e-9"), "accepted");
   EXPECT_EQ(errorOf(tolerance, "1e7"), "accepted");
   EXPECT_EQ(errorOf(settings.of("--fidelity"), "exakt"),
-            "--fidelity: expected ellipsoid, avatar, limb, link, exact or skinned, found 'exakt'; "
-            "did you mean 'exact'?");
+            "--fidelity: expected link, exact or skinned, found 'exakt'; did you mean 'exact'?");
+  EXPECT_EQ(errorOf(settings.of("--fidelity"), "avatar").rfind("--fidelity: avatar is gone: ", 0),
+            0u);
   EXPECT_EQ(errorOf(settings.of("--budget-us"), "60000001"),
             "--budget-us: expected a whole number from 0 to 60000000, found '60000001'");
 }

@@ -372,13 +372,11 @@ FT_API void ft_pair_rules_destroy(ft_pair_rules* rules);
 
 /* ---- Queries: what does each link meet first? ---- */
 
-/* What counts as a link's surface. From coarse to fine: ELLIPSOID, AVATAR, LIMB, LINK, EXACT. */
+/* What counts as a link's surface. 1, 2 and 3 were LIMB, AVATAR and ELLIPSOID, volumes around
+ * several links: they are refused, and the error says why. */
 enum {
-  FT_FIDELITY_LINK = 0,      /* its LSS */
-  FT_FIDELITY_LIMB = 1,      /* one LSS per chain of links between branchings */
-  FT_FIDELITY_AVATAR = 2,    /* one LSS for all links */
-  FT_FIDELITY_ELLIPSOID = 3, /* one ellipsoid on a straight line for all links */
-  FT_FIDELITY_EXACT = 4      /* its triangles, and LSS that contain no triangle */
+  FT_FIDELITY_LINK = 0, /* its LSS */
+  FT_FIDELITY_EXACT = 4 /* its triangles, and LSS that contain no triangle */
 };
 enum {
   FT_SCOPE_EVERY_LINK = 0,      /* every link's own first contact */
@@ -583,7 +581,8 @@ typedef struct ft_counters {
   uint32_t size;
   uint32_t reserved; /* 0 */
   uint64_t nodes, leaves, candidates, cluster_steps, lane_steps, part_steps, advancements;
-  uint64_t hierarchy_tests, plane_tests, leaf_tests, states, rung_tests;
+  uint64_t hierarchy_tests, plane_tests, leaf_tests, states;
+  uint64_t rung_tests; /* of volumes that are gone: 0 */
 } ft_counters;
 
 FT_API ft_status ft_query_counters(const ft_query* query, ft_counters* counters);

@@ -1,19 +1,20 @@
-// Queries above link fidelity: each volume's answer by the oracle that judges LSS, the order of the
-// rungs' answers, ignored pairs, determinism, and Descent::ByNeed.
+// Queries by volumes around several links: each volume's answer by the oracle that judges LSS, the
+// order of the rungs' answers, ignored pairs, determinism, and Descent::ByNeed.
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "judge/judge.h"
 #include "lss/simd.h"
-#include "middleware/ladder/rungs.h"
 #include "middleware/query/query.h"
-#include "tests/middleware/ladder/random_step.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/middleware/reference/random_step.h"
 #include "tests/reference/reference_query.h"
+#include "tests/reference/rungs.h"
 #include "tests/support/asked.h"
 #include "tests/support/judged_answer.h"
 
@@ -24,9 +25,10 @@ using Eigen::Vector3d;
 using test::Random;
 using test::RandomStep;
 
-constexpr std::array<Fidelity, 4> kLadder{Fidelity::Ellipsoid, Fidelity::Avatar, Fidelity::Limb,
-                                          Fidelity::Link};
-constexpr std::array<Fidelity, 3> kRungs{Fidelity::Ellipsoid, Fidelity::Avatar, Fidelity::Limb};
+constexpr std::array<Rung, 3> kRungs{Rung::Ellipsoid, Rung::Avatar, Rung::Limb};
+/// Those, and last the links themselves.
+constexpr std::array<std::optional<Rung>, 4> kLadder{Rung::Ellipsoid, Rung::Avatar, Rung::Limb,
+                                                     std::nullopt};
 
 /// A body near few triangles, so that its volumes do not always touch something at once.
 struct Case {
@@ -44,15 +46,19 @@ Case someCase(int i, int triangles) {
   return {step, raw, Scene::build(raw).value()};
 }
 
-QueryOptions at(Fidelity fidelity, double tolerance) {
+QueryOptions within(double tolerance) {
   QueryOptions options;
-  options.fidelity = fidelity;
   options.tolerance = tolerance;
   return options;
 }
 
-StepContacts answer(const Case& c, const QueryOptions& options,
-                    const ReferenceOptions& reference = {}) {
+ReferenceOptions by(std::optional<Rung> rung) {
+  ReferenceOptions reference;
+  reference.rung = rung;
+  return reference;
+}
+
+StepContacts answer(const Case& c, const QueryOptions& options, const ReferenceOptions& reference) {
   return firstContacts(c.step.avatar, c.step.motion(), c.scene, options, reference).value();
 }
 
@@ -69,9 +75,9 @@ TEST_P(RungQueries, AreSoundAndTightByTheOracle) {
     const Case c = someCase(i, 16);
     const oracle::Scene scene(test::plain(c.raw.triangles));
     const oracle::Motion truth(test::plainJoints(c.step.avatar.skeleton(), c.step.from, c.step.to));
-    for (const Fidelity rung : {Fidelity::Limb, Fidelity::Avatar}) {
-      const QueryOptions options = at(rung, std::array<double, 3>{1e-2, 1e-3, 1e-6}[i % 3]);
-      ReferenceOptions reference;
+    for (const Rung rung : {Rung::Limb, Rung::Avatar}) {
+      const QueryOptions options = within(std::array<double, 3>{1e-2, 1e-3, 1e-6}[i % 3]);
+      ReferenceOptions reference = by(rung);
       if (i % 4 == 0) reference.backtracking = Backtracking::Scalar;
       const StepContacts got = answer(c, options, reference);
       for (const RungVolume& volume : rungVolumes(c.step.avatar, c.step.motion(), c.scene, rung)) {
@@ -113,14 +119,14 @@ TEST_P(RungQueries, AreOrderedAsTheRungsAre) {
     const Case c = someCase(1000 + i, 12);
     std::array<StepContacts, kLadder.size()> coarse, fine;
     for (std::size_t rung = 0; rung < kLadder.size(); ++rung) {
-      coarse[rung] = answer(c, at(kLadder[rung], 1e-3));
-      fine[rung] = answer(c, at(kLadder[rung], 1e-7));
+      coarse[rung] = answer(c, within(1e-3), by(kLadder[rung]));
+      fine[rung] = answer(c, within(1e-7), by(kLadder[rung]));
     }
     for (std::size_t above = 0; above < kLadder.size(); ++above) {
       for (std::size_t below = above + 1; below < kLadder.size(); ++below) {
         for (std::size_t link = 0; link < coarse[above].links.size(); ++link) {
-          SCOPED_TRACE(std::string(toString(kLadder[above])) + " > " + toString(kLadder[below]) +
-                       ", link " + std::to_string(link));
+          SCOPED_TRACE(std::to_string(above) + " > " + std::to_string(below) + ", link " +
+                       std::to_string(link));
           const LinkContact& high = coarse[above].links[link];
           const LinkContact& low = fine[below].links[link];
           if (high.verdict == Verdict::Clear) {
@@ -166,13 +172,13 @@ TEST(RungDeterminism, CullersTriangleOrderAndScratchDoNotShow) {
     std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(),
                  std::mt19937(static_cast<unsigned>(i)));
     const Scene other = Scene::build(shuffled).value();
-    for (const Fidelity rung : kRungs) {
-      QueryOptions options = at(rung, 1e-4);
+    for (const Rung rung : kRungs) {
+      const QueryOptions options = within(1e-4);
       const ChainMotion motion = c.step.motion();
-      const auto fresh = firstContacts(c.step.avatar, motion, c.scene, options).value();
-      const auto again = test::answerOf(c.step.avatar, motion, c.scene, options, used);
-      const auto mixed = test::answerOf(c.step.avatar, motion, other, options, used);
-      ReferenceOptions pointQuery;
+      const auto fresh = firstContacts(c.step.avatar, motion, c.scene, options, by(rung)).value();
+      const auto again = test::answerOf(c.step.avatar, motion, c.scene, options, by(rung), used);
+      const auto mixed = test::answerOf(c.step.avatar, motion, other, options, by(rung), used);
+      ReferenceOptions pointQuery = by(rung);
       pointQuery.culler = Culler::PointQuery;
       const auto slow = test::answerOf(c.step.avatar, motion, c.scene, options, pointQuery, used);
       for (std::size_t link = 0; link < fresh.links.size(); ++link) {
@@ -208,13 +214,45 @@ TwoOnAFloor twoOnAFloor() {
   return {std::move(avatar), Scene::build(floor).value(), std::move(motion)};
 }
 
+TEST(RungOptions, AreHonouredOrRefusedByName) {
+  const TwoOnAFloor c = twoOnAFloor();
+  const auto refused = [&](QueryOptions options, const ReferenceOptions& reference) {
+    const auto query = buildReference(c.avatar, c.scene, options, reference);
+    return query.ok() ? std::string("accepted") : query.error().file;
+  };
+  const auto rules = PairRules::leavingOut(c.avatar, {});
+  ASSERT_TRUE(rules.ok());
+  for (const Rung rung : kRungs) {
+    QueryOptions exact, policies, separating, objects, self;
+    exact.fidelity = Fidelity::Exact;
+    exact.surface = AvatarSurface::build(c.avatar, {{}, {}}).value();
+    policies.linkPolicies.assign(2, LinkPolicy{});
+    separating.passSeparating = true;
+    objects.scope = Scope::EveryObject;
+    self.self = rules.value();
+    EXPECT_EQ(refused({}, by(rung)), "accepted");
+    EXPECT_EQ(refused(exact, by(rung)), "fidelity");
+    EXPECT_EQ(refused(policies, by(rung)), "linkPolicies");
+    EXPECT_EQ(refused(separating, by(rung)), "passSeparating");
+    EXPECT_EQ(refused(objects, by(rung)), "scope");
+    EXPECT_EQ(refused(self, by(rung)), "self");
+    ReferenceOptions byNeed = by(rung), scalar = by(rung), cubics = by(rung);
+    byNeed.descent = Descent::ByNeed;
+    scalar.backtracking = Backtracking::Scalar;
+    cubics.leafMethod = LeafMethod::Cubics;
+    EXPECT_EQ(refused({}, byNeed), "descent");
+    EXPECT_EQ(refused({}, cubics), "leafMethod");
+    EXPECT_EQ(refused({}, scalar), rung == Rung::Ellipsoid ? "backtracking" : "accepted");
+  }
+}
+
 TEST(RungIgnoredPairs, AnObjectIsPassedOverOnlyWhereAllLinksIgnoreIt) {
   const TwoOnAFloor c = twoOnAFloor();
-  for (const Fidelity rung : kRungs) {
+  for (const Rung rung : kRungs) {
     SCOPED_TRACE(toString(rung));
-    QueryOptions options = at(rung, 1e-3);
+    QueryOptions options = within(1e-3);
     const auto verdicts = [&] {
-      const auto got = firstContacts(c.avatar, c.motion, c.scene, options).value();
+      const auto got = firstContacts(c.avatar, c.motion, c.scene, options, by(rung)).value();
       return std::pair(got.links[0].verdict, got.links[1].verdict);
     };
     const std::pair both(Verdict::Contact, Verdict::Contact), none(Verdict::Clear, Verdict::Clear);
@@ -230,28 +268,16 @@ TEST(RungIgnoredPairs, AnObjectIsPassedOverOnlyWhereAllLinksIgnoreIt) {
   }
 }
 
-TEST(RungTouchesAt, SeesTheVolumeThatAQueryMoves) {
-  const TwoOnAFloor c = twoOnAFloor();
-  QueryScratch scratch;
-  for (const Fidelity rung : kRungs) {
-    SCOPED_TRACE(toString(rung));
-    const QueryOptions options = at(rung, 1e-6);
-    const double toi = firstContacts(c.avatar, c.motion, c.scene, options).value().links[1].toi;
-    EXPECT_FALSE(test::touchesAt(c.avatar, c.motion, 1, toi - 1e-3, c.scene, options, scratch));
-    EXPECT_TRUE(test::touchesAt(c.avatar, c.motion, 1, toi + 1e-3, c.scene, options, scratch));
-  }
-}
-
 TEST(RungBudgets, AreSound) {
   for (int i = 0; i < 60; ++i) {
     SCOPED_TRACE(i);
     const Case c = someCase(3000 + i, 12);
-    for (const Fidelity rung : kRungs) {
-      const StepContacts all = answer(c, at(rung, 1e-7));
+    for (const Rung rung : kRungs) {
+      const StepContacts all = answer(c, within(1e-7), by(rung));
       for (const std::uint64_t budget : {0, 100, 400, 1000}) {
-        QueryOptions options = at(rung, 1e-4);
+        QueryOptions options = within(1e-4);
         options.workBudget = budget;
-        const StepContacts got = answer(c, options);
+        const StepContacts got = answer(c, options, by(rung));
         for (std::size_t link = 0; link < got.links.size(); ++link) {
           // Free up to the touch itself, which is hardly later than what the least tolerance finds.
           EXPECT_LE(got.links[link].freeUntil, all.links[link].freeUntil + 1e-6);
@@ -269,7 +295,7 @@ TEST(DescentByNeed, GivesTheSameAnswers) {
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
     const Case c = someCase(4000 + i, 20);
-    const QueryOptions options = at(Fidelity::Link, i % 2 == 0 ? 1e-3 : 0.05);
+    const QueryOptions options = within(i % 2 == 0 ? 1e-3 : 0.05);
     ReferenceOptions reference;
     if (i % 5 == 0) reference.backtracking = Backtracking::Scalar;
     const StepContacts straight = answer(c, options, reference);

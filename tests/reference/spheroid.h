@@ -1,8 +1,7 @@
-// middleware/ladder/spheroid.h: the ellipsoid rung. One ellipsoid of revolution around a tree's LSS
+// tests/reference/spheroid.h: the ellipsoid rung. One ellipsoid of revolution around a tree's LSS
 // at every t of a step: it moves with the root's origin, on a straight line, and does not turn; it
 // is large enough for the body's turning. Games move characters this way [Fauerby03]; this one
-// holds the whole body, with a proof. Derivation: middleware/ladder/rungs.md 5. Metres. Not
-// installed.
+// holds the whole body, with a proof. Derivation: tests/reference/rungs.md 5. Metres.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +10,7 @@
 #include "articulated/motion.h"
 #include "lss/lss.h"
 #include "lss/triangle.h"
-#include "middleware/ladder/rungs.h"
+#include "tests/reference/rungs.h"
 
 namespace foretouch::internal {
 

@@ -1,9 +1,9 @@
-// middleware/ladder/rungs.h: the volumes that cover an avatar's links above link fidelity
-// (Fidelity::Limb, Avatar, Ellipsoid) on one step. A query at that fidelity tests these volumes;
-// they are public so that you can check its answers. Metres. Proof that each contains those below
-// it at every t in [0,1]: middleware/ladder/rungs.md.
+// tests/reference/rungs.h: volumes that each cover several of an avatar's links on one step, which
+// the product once offered as fidelities above the links. Metres. Proof that each contains those
+// below it at every t in [0,1]: tests/reference/rungs.md.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,10 +11,21 @@
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
 #include "lss/lss.h"
-#include "middleware/fidelity.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch {
+
+/// Which volume stands for the links that it covers, which share its verdict. From fine to coarse:
+/// each contains those of the rung before, and the links' own LSS, at every t. So clear at one rung
+/// implies no contact at any finer one, and a coarser rung never reports a contact later.
+enum class Rung : std::uint8_t {
+  Limb,    ///< One LSS for all links of a chain between branchings (a finger, an arm to the hand).
+  Avatar,  ///< One LSS for all links; with several roots, one LSS per root.
+  Ellipsoid,  ///< An ellipsoid of revolution around that LSS, which moves on a straight line.
+};
+
+/// "limb", "avatar", "ellipsoid".
+[[nodiscard]] const char* toString(Rung rung);
 
 /// An ellipsoid of revolution that moves on a straight line and does not turn:
 /// the points x with |S(x - start - t*drift)| <= 1, S = 1/across + (1/along - 1/across) axis axis'.
@@ -45,9 +56,8 @@ struct RungVolume {
   Spheroid spheroid;          ///< For Ellipsoid.
 };
 
-/// In the order of their carriers. Precondition: `rung` is Limb, Avatar or Ellipsoid (asserted).
-/// The scene's origin only affects how the volumes round. O(LSS).
+/// In the order of their carriers. The scene's origin only affects how the volumes round. O(LSS).
 [[nodiscard]] std::vector<RungVolume> rungVolumes(const Avatar& avatar, const ChainMotion& motion,
-                                                  const Scene& scene, Fidelity rung);
+                                                  const Scene& scene, Rung rung);
 
 }  // namespace foretouch

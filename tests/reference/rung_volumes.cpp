@@ -1,4 +1,4 @@
-#include "middleware/ladder/rung_volumes.h"
+#include "tests/reference/rung_volumes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "lss/simd.h"
-#include "tests/middleware/ladder/random_step.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/middleware/reference/random_step.h"
 
 namespace foretouch {
 namespace {
@@ -81,9 +81,9 @@ Real sticksOut(const Spheroid& spheroid, const Precise3& p, double radius, doubl
 void expectContained(const RandomStep& step, Random& random, const Vector3d& center) {
   const ChainMotion motion = step.motion();
   const Scene scene = someScene(center);
-  const auto limbs = rungVolumes(step.avatar, motion, scene, Fidelity::Limb);
-  const auto trees = rungVolumes(step.avatar, motion, scene, Fidelity::Avatar);
-  const auto spheroids = rungVolumes(step.avatar, motion, scene, Fidelity::Ellipsoid);
+  const auto limbs = rungVolumes(step.avatar, motion, scene, Rung::Limb);
+  const auto trees = rungVolumes(step.avatar, motion, scene, Rung::Avatar);
+  const auto spheroids = rungVolumes(step.avatar, motion, scene, Rung::Ellipsoid);
   ASSERT_EQ(trees.size(), spheroids.size());
   std::size_t covered = 0;
   for (const double t : test::instants(random, 8)) {
@@ -153,7 +153,7 @@ TEST(RungVolumes, OfAThinTurningLinkContainIt) {
     RandomStep step{Avatar::build(Skeleton::build(raw).value(), {{lss}}).value(), {}, {}};
     step.from = step.to = restPose(step.avatar.skeleton());
     step.to.rotations[0] = random.turn(random.uniform(0.5, 3.1));
-    const auto volume = rungVolumes(step.avatar, step.motion(), scene, Fidelity::Ellipsoid).front();
+    const auto volume = rungVolumes(step.avatar, step.motion(), scene, Rung::Ellipsoid).front();
     for (const double t : test::instants(random, 30)) {
       const auto frame = oracle::preciseFrames(step.precise(), Real(t)).front();
       for (const Vector3d& point : {lss.a, lss.b}) {
@@ -173,7 +173,7 @@ TEST(RungVolumes, OfALinkWithOneLssAreThatLss) {
   Pose to = restPose(avatar.skeleton());
   to.rotations[0] = random.turn(2.0);
   const ChainMotion motion(avatar.skeleton(), restPose(avatar.skeleton()), to);
-  for (const Fidelity rung : {Fidelity::Limb, Fidelity::Avatar}) {
+  for (const Rung rung : {Rung::Limb, Rung::Avatar}) {
     const auto volumes = rungVolumes(avatar, motion, someScene(Vector3d::Zero()), rung);
     ASSERT_EQ(volumes.size(), 1U);
     EXPECT_EQ(volumes[0].lss.a, lss.a);
@@ -198,11 +198,11 @@ TEST(RungVolumes, OfAStraightChainAreAsThinAsTheChain) {
   shifted.translations[0] += Vector3d(1, 2, 3);
   const ChainMotion motion(avatar.skeleton(), rest, shifted);
   const Scene scene = someScene(Vector3d::Zero());
-  const auto tree = rungVolumes(avatar, motion, scene, Fidelity::Avatar);
+  const auto tree = rungVolumes(avatar, motion, scene, Rung::Avatar);
   ASSERT_EQ(tree.size(), 1U);
   EXPECT_NEAR(tree[0].lss.radius, 0.04, 1e-7);
   EXPECT_NEAR((tree[0].lss.b - tree[0].lss.a).norm(), 12.8, 1e-7);
-  const auto spheroid = rungVolumes(avatar, motion, scene, Fidelity::Ellipsoid);
+  const auto spheroid = rungVolumes(avatar, motion, scene, Rung::Ellipsoid);
   EXPECT_GT(spheroid[0].spheroid.along, 6.44);
   EXPECT_LT(spheroid[0].spheroid.along, 2.0 * 6.44);
   EXPECT_LT(spheroid[0].spheroid.across, 3.0 * 0.04);

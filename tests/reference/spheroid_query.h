@@ -1,16 +1,15 @@
-// middleware/query/spheroid_query.h: the first contact of a moving spheroid with the scene. Not
-// installed.
+// tests/reference/spheroid_query.h: the first contact of a moving spheroid with the scene.
 #pragma once
 
 #include <vector>
 
 #include "middleware/contact.h"
-#include "middleware/ladder/spheroid.h"
 #include "middleware/query/ignored_objects.h"
 #include "middleware/query/work_meter.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/scene.h"
+#include "tests/reference/spheroid.h"
 
 namespace foretouch::internal {
 

@@ -1,67 +1,71 @@
-#include "middleware/query/rung_query.h"
+#include "tests/reference/rung_query.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "lss/assert.h"
 #include "lss/index.h"
-#include "lss/segment_triangle.h"
-#include "middleware/ladder/rungs.h"
+#include "middleware/contact.h"
 #include "middleware/query/body.h"
 #include "middleware/query/lane_query.h"
+#include "middleware/query/query_plan.h"
+#include "middleware/query/query_scratch.h"
 #include "middleware/query/scalar_query.h"
-#include "middleware/query/spheroid_query.h"
+#include "middleware/query/scratch_parts.h"
+#include "middleware/query/work_meter.h"
 #include "middleware/scene/scene_parts.h"
+#include "tests/reference/rung_volumes.h"
+#include "tests/reference/spheroid_query.h"
 
 namespace foretouch::internal {
 namespace {
 
+/// Memory that one thread's queries reuse.
+struct RungScratch {
+  RungVolumes volumes;
+  std::vector<std::vector<Lss>> perLink;  // the volumes by their carriers
+  LssTable table;
+  std::vector<IgnoredPair> ignored;   // of the volumes, by their carriers
+  std::vector<std::uint8_t> isAsked;  // per link: not ignored altogether
+  StepContacts carriers;              // their answers, for their volumes
+  std::vector<LinkContact> answers;   // of the volumes
+};
+
+RungScratch& scratchOfThread() {
+  thread_local RungScratch scratch;
+  return scratch;
+}
+
 /// One query. A group is the links of one volume: a limb, or a tree.
 class RungQuery {
  public:
-  RungQuery(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
+  RungQuery(Rung rung, const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
             ScratchParts& scratch)
-      : plan_(plan),
+      : rung_(rung),
+        plan_(plan),
         avatar_(plan.avatar),
         motion_(motion),
         scene_(plan.scene),
         options_(plan.options),
         scratch_(scratch),
         meter_(meter),
-        rungs_(scratch.rungs) {}
+        rungs_(scratchOfThread()) {}
 
   void evaluate(QueryCounters& counters) {
     scratch_.lanes.evaluateNodes(motion_, 0.0, 1.0, scene_.parts().origin, counters);
-    rungs_.volumes.evaluate(avatar_, motion_, scratch_.lanes.nodes(),
-                            options_.fidelity != Fidelity::Limb);
+    rungs_.volumes.evaluate(avatar_, motion_, scratch_.lanes.nodes(), rung_ != Rung::Limb);
     counters.rungTests += numGroups();
   }
 
   void run(StepContacts& step) {
     evaluate(step.counters);
     findIgnored();
-    if (options_.fidelity == Fidelity::Ellipsoid) {
+    if (rung_ == Rung::Ellipsoid) {
       askSpheroids(step);
     } else {
       askLss(step);
     }
     spread(step);
-  }
-
-  /// Of one link at one instant.
-  [[nodiscard]] bool touchesAt(LinkId link, double t) {
-    QueryCounters counters;
-    evaluate(counters);
-    findIgnored();
-    for (std::size_t group = 0; group < numGroups(); ++group) {
-      const std::vector<LinkId>& links = linksOf(group);
-      if (std::find(links.begin(), links.end(), link) == links.end()) continue;
-      if (!isAsked(link) || scratch_.ignored.collect(rungs_.ignored, carrierOf(group)))
-        return false;
-      return options_.fidelity == Fidelity::Ellipsoid ? spheroidTouchesAt(group, t)
-                                                      : lssTouchesAt(group, t);
-    }
-    return false;
   }
 
   [[nodiscard]] std::size_t numGroups() const {
@@ -81,7 +85,7 @@ class RungQuery {
   }
 
  private:
-  [[nodiscard]] bool byLimb() const { return options_.fidelity == Fidelity::Limb; }
+  [[nodiscard]] bool byLimb() const { return rung_ == Rung::Limb; }
   [[nodiscard]] const Limbs& limbs() const { return rungs_.volumes.limbs(); }
   [[nodiscard]] bool isAsked(LinkId link) const { return rungs_.isAsked[slotOf(link)] != 0; }
 
@@ -172,38 +176,7 @@ class RungQuery {
     }
   }
 
-  template <typename Touches>
-  [[nodiscard]] bool anyTouches(const Aabb& box, const Touches& touches) {
-    scratch_.found.clear();
-    std::uint64_t visited = 0;
-    scene_.parts().bvh.collect(box, scratch_.found, visited);
-    return std::any_of(scratch_.found.begin(), scratch_.found.end(), [&](TriangleId id) {
-      return !scratch_.ignored.has(scene_, id) && touches(scene_.triangle(id));
-    });
-  }
-
-  [[nodiscard]] bool lssTouchesAt(std::size_t group, double t) {
-    const Lss& lss = volumeOf(group);
-    const AxisEnds ends = axisEnds(lss, motion_.stateAt(carrierOf(group), t));
-    Aabb box;
-    box.add(ends.a);
-    box.add(ends.b);
-    box.grow(lss.radius);
-    return anyTouches(box, [&](const Triangle& triangle) {
-      return closestPoints(ends.a, ends.b, triangle).distance <= lss.radius;
-    });
-  }
-
-  [[nodiscard]] bool spheroidTouchesAt(std::size_t group, double t) {
-    const Spheroid spheroid = spheroidOf(group);
-    Aabb box;
-    box.add(spheroid.centerAt(t));
-    box.grow(spheroid.longest());
-    return anyTouches(box, [&](const Triangle& triangle) {
-      return SpheroidPair(spheroid, triangle).at(t).lower <= 0.0;
-    });
-  }
-
+  const Rung rung_;
   const QueryPlan& plan_;
   const Avatar& avatar_;
   const ChainMotion& motion_;
@@ -216,37 +189,40 @@ class RungQuery {
 
 }  // namespace
 
-void rungQuery(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
-               ScratchParts& scratch, StepContacts& step) {
-  RungQuery(plan, motion, meter, scratch).run(step);
-}
-
-bool rungTouchesAt(const QueryPlan& plan, const ChainMotion& motion, LinkId link, double t,
-                   ScratchParts& scratch) {
-  scratch.beginStep(motion);
-  return RungQuery(plan, motion, WorkMeter(plan.options), scratch).touchesAt(link, t);
+bool RungAnswerer::answers(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
+                           ScratchParts& scratch, StepContacts& step) const {
+  RungQuery(rung_, plan, motion, meter, scratch).run(step);
+  return true;
 }
 
 }  // namespace foretouch::internal
 
 namespace foretouch {
 
+const char* toString(Rung rung) {
+  switch (rung) {
+    case Rung::Limb: return "limb";
+    case Rung::Avatar: return "avatar";
+    case Rung::Ellipsoid: return "ellipsoid";
+  }
+  return "limb";
+}
+
 std::vector<RungVolume> rungVolumes(const Avatar& avatar, const ChainMotion& motion,
-                                    const Scene& scene, Fidelity rung) {
-  FORETOUCH_ASSERT(internal::isRung(rung) && motion.numLinks() == avatar.numLinks());
+                                    const Scene& scene, Rung rung) {
+  FORETOUCH_ASSERT(motion.numLinks() == avatar.numLinks());
   QueryScratch scratch;
-  QueryOptions options;
-  options.fidelity = rung;
+  const QueryOptions options;
   const auto plan = internal::QueryPlan::make(avatar, scene, options);
   const internal::WorkMeter meter(options);
-  internal::RungQuery query(plan.value(), motion, meter, scratch.parts());
+  internal::RungQuery query(rung, plan.value(), motion, meter, scratch.parts());
   QueryCounters counters;
   query.evaluate(counters);
   std::vector<RungVolume> volumes;
   for (std::size_t group = 0; group < query.numGroups(); ++group) {
     if (query.linksOf(group).empty()) continue;
     RungVolume volume{query.carrierOf(group), query.linksOf(group), query.volumeOf(group), {}};
-    if (rung == Fidelity::Ellipsoid) volume.spheroid = query.spheroidOf(group);
+    if (rung == Rung::Ellipsoid) volume.spheroid = query.spheroidOf(group);
     volumes.push_back(std::move(volume));
   }
   return volumes;

@@ -1,4 +1,4 @@
-// tests/middleware/ladder/random_step.h: bodies and steps for the rungs above the links: random
+// tests/middleware/reference/random_step.h: bodies and steps for the rungs above the links: random
 // trees with bare links and several roots, near half turns, drifting joints, far places.
 #pragma once
 
@@ -8,7 +8,7 @@
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
 #include "judge/plain_motion.h"
-#include "middleware/ladder/rungs.h"
+#include "tests/reference/rungs.h"
 #include "tests/support/random_geometry.h"
 #include "tests/support/random_motion.h"
 

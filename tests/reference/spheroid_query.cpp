@@ -1,4 +1,4 @@
-#include "middleware/query/spheroid_query.h"
+#include "tests/reference/spheroid_query.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,10 +53,10 @@ class Sweep {
   void collect(const Aabb& box) {
     found_.clear();
     query_.culler.collect(box, found_, counters_.nodes);
-    found_.erase(std::remove_if(
-                     found_.begin(), found_.end(),
-                     [this](TriangleId id) { return query_.ignored.has(query_.scene, id); }),
-                 found_.end());
+    found_.erase(
+        std::remove_if(found_.begin(), found_.end(),
+                       [this](TriangleId id) { return query_.ignored.has(query_.scene, id); }),
+        found_.end());
     counters_.candidates += found_.size();
   }
 

@@ -1,7 +1,7 @@
-#include "middleware/ladder/relative_points.h"
+#include "tests/reference/relative_points.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "middleware/ladder/relative_points.cpp"
+#define HWY_TARGET_INCLUDE "tests/reference/relative_points.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -1,7 +1,7 @@
 // The ellipsoid rung against an oracle of its own, in long double: in the space where the spheroid
 // is the unit ball, its centre moves straight, and the distance of a point on a straight way from a
 // triangle is a convex function of time: its least value and its first root are found by halving.
-#include "middleware/query/spheroid_query.h"
+#include "tests/reference/spheroid_query.h"
 
 #include <array>
 #include <optional>

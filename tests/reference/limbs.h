@@ -1,6 +1,5 @@
-// middleware/ladder/limbs.h: how an avatar's links are grouped for the rungs above its links. A
-// limb is a maximal chain of links between branchings; a tree is a root and all links below it. Not
-// installed.
+// tests/reference/limbs.h: how an avatar's links are grouped for the rungs above its links. A
+// limb is a maximal chain of links between branchings; a tree is a root and all links below it.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +10,6 @@
 #include "lss/index.h"
 
 namespace foretouch::internal {
-
-/// Per link: how many of its children count, that is, have LSS or a link below that has. Two or
-/// more make a branching.
-[[nodiscard]] std::vector<int> childrenThatCount(const Avatar& avatar);
 
 /// An end of an LSS's axis in its link's frame, with the LSS's radius: a ball. Metres.
 struct AxisPoint {

@@ -1,6 +1,6 @@
 // How links are grouped: chains between branchings, trees, bare links, and skeletons that are all
 // one chain.
-#include "middleware/ladder/limbs.h"
+#include "tests/reference/limbs.h"
 
 #include <string>
 

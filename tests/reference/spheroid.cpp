@@ -1,4 +1,4 @@
-#include "middleware/ladder/spheroid.h"
+#include "tests/reference/spheroid.h"
 
 #include <algorithm>
 #include <array>

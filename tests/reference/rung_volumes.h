@@ -1,7 +1,6 @@
-// middleware/ladder/rung_volumes.h: one step's volumes at the rungs above the links: one LSS per
+// tests/reference/rung_volumes.h: one step's volumes at the rungs above the links: one LSS per
 // limb, in the frame of the limb's first link, and one per tree, in the root's frame. Each contains
-// the volumes of the rung below at every t in [0,1]. Proof: middleware/ladder/rungs.md. Metres. Not
-// installed.
+// the volumes of the rung below at every t in [0,1]. Proof: tests/reference/rungs.md. Metres.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +12,8 @@
 #include "articulated/chain_nodes.h"
 #include "articulated/motion.h"
 #include "lss/lss.h"
-#include "middleware/ladder/limbs.h"
-#include "middleware/ladder/relative_points.h"
+#include "tests/reference/limbs.h"
+#include "tests/reference/relative_points.h"
 
 namespace foretouch::internal {
 

@@ -1,22 +1,11 @@
-#include "middleware/ladder/limbs.h"
+#include "tests/reference/limbs.h"
 
 #include "lss/index.h"
 #include "lss/rounding.h"
+#include "middleware/query/self_plan.h"
 
 namespace foretouch::internal {
 namespace {
-
-/// Per link: does it or anything below it have LSS?
-std::vector<std::uint8_t> linksThatCount(const Avatar& avatar) {
-  std::vector<std::uint8_t> counts(countOf(avatar.numLinks()), 0);
-  for (LinkId link = avatar.numLinks() - 1; link >= 0; --link) {
-    auto& mine = counts[slotOf(link)];
-    if (!avatar.lss(link).empty()) mine = 1;
-    const JointId parent = avatar.skeleton().parent(link);
-    if (mine != 0 && parent != kNoParent) counts[slotOf(parent)] = 1;
-  }
-  return counts;
-}
 
 void addPoints(const Avatar& avatar, LinkId link, std::vector<AxisPoint>& points) {
   for (const Lss& lss : avatar.lss(link)) {
@@ -28,28 +17,15 @@ void addPoints(const Avatar& avatar, LinkId link, std::vector<AxisPoint>& points
 
 }  // namespace
 
-std::vector<int> childrenThatCount(const Avatar& avatar) {
-  const std::vector<std::uint8_t> counts = linksThatCount(avatar);
-  std::vector<int> children(counts.size(), 0);
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    const JointId parent = avatar.skeleton().parent(link);
-    if (counts[slotOf(link)] != 0 && parent != kNoParent) {
-      ++children[slotOf(parent)];
-    }
-  }
-  return children;
-}
-
 Limbs::Limbs(const Avatar& avatar) {
-  const std::vector<std::uint8_t> counts = linksThatCount(avatar);
   const std::vector<int> children = childrenThatCount(avatar);
-  std::vector<std::int32_t> limbOf(counts.size(), -1);
-  isCarrier_.assign(counts.size(), 0);
+  std::vector<std::int32_t> limbOf(children.size(), -1);
+  isCarrier_.assign(children.size(), 0);
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     const auto i = slotOf(link);
     const JointId parent = avatar.skeleton().parent(link);
     if (parent == kNoParent) isCarrier_[i] = 1;
-    if (counts[i] == 0) continue;
+    if (avatar.lss(link).empty() && children[i] == 0) continue;
     const bool begins = parent == kNoParent || children[slotOf(parent)] > 1;
     if (parent == kNoParent) trees_.push_back({link, {}, {}});
     if (begins) {

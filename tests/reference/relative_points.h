@@ -1,5 +1,5 @@
-// middleware/ladder/relative_points.h: positions of other links' points in a carrier's frame at the
-// nodes of a span, in the processor's lanes. Metres. Not installed.
+// tests/reference/relative_points.h: positions of other links' points in a carrier's frame at the
+// nodes of a span, in the processor's lanes. Metres.
 #pragma once
 
 #include "articulated/chain_nodes.h"
@@ -11,7 +11,7 @@ struct alignas(64) RelativePoint {
   double y[3][kNodes];
 };
 
-/// Fills `point` for the point `p_L` of `link`. Rounding: middleware/ladder/rungs.md 3.
+/// Fills `point` for the point `p_L` of `link`. Rounding: tests/reference/rungs.md 3.
 void relativePoint(const LinkNodes& carrier, const LinkNodes& link, const double* p_L,
                    RelativePoint& point);
 
