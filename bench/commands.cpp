@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bench/cage_command.h"
+#include "bench/compare_command.h"
 #include "bench/deadline_command.h"
 #include "bench/documents_command.h"
 #include "bench/extremes_command.h"
@@ -25,6 +26,7 @@ namespace foretouch::tools {
 void addBenchCommands(CLI::App& program, ExitCode& exit) {
   addBenchLatencyCommand(program, exit);
   addBenchScalingCommand(program, exit);
+  addCommand(program, compareCommand(), exit);
   addBenchDocumentCommands(program, exit);
   addBenchMemoryCommand(program, exit);
   addBenchLeafCommand(program, exit);

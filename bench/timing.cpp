@@ -7,9 +7,9 @@
 #include "articulated/motion.h"
 #include "articulated/try.h"
 #include "bench/leaf_timing.h"
+#include "bench/ray_set.h"
 #include "lss/assert.h"
 #include "tools/progress.h"
-#include "tools/replay/ray_set.h"
 
 namespace foretouch::tools {
 namespace {

@@ -12,8 +12,6 @@
 
 namespace foretouch::internal {
 
-class EmbreeTriangles;
-
 struct SceneParts {
   std::vector<Triangle> triangles;  // vertices sorted; dropped ones unchanged
   std::vector<ObjectId> objectOf;
@@ -23,15 +21,11 @@ struct SceneParts {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   FlatBvh bvh;
 
-  /// Builds them on first use: most programs never need them. Where this library was built with
-  /// Embree.
-  [[nodiscard]] Result<const EmbreeTriangles*> embreeTriangles() const;
   /// Builds them on first use.
   [[nodiscard]] const FlatEdges& flatEdges() const;
 
  private:
   mutable std::mutex mutex_;
-  mutable std::shared_ptr<const EmbreeTriangles> embreeTriangles_;
   mutable std::unique_ptr<FlatEdges> flatEdges_;
 };
 

@@ -58,9 +58,6 @@ def bundled_cases():
                                       "{examples}/dancer.avatar.json .")],
                {"room.obj": normalise.plain, "dancer.bvh": normalise.plain,
                 "dancer.avatar.json": normalise.plain}, short=True)
-    yield Case("bundled/compare-rigid",
-               [foretouch(f"replay {BUNDLED} --compare-rigid --output contacts.jsonl", "figures")],
-               {"contacts.jsonl": normalise.results, "figures": normalise.figures}, short=True)
     yield Case("bundled/glb",
                [foretouch(f"replay {BUNDLED} --output contacts.jsonl --glb motion.glb"),
                 foretouch(f"replay {BUNDLED} --output contacts.jsonl --glb few.glb "

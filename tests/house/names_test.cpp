@@ -30,8 +30,7 @@ using Files = std::map<std::string, std::vector<DefinedName>>;  // what they def
 /// names.
 const std::set<std::string>& standIns() {
   static const std::set<std::string> files = {"no_import.cpp", "no_importer_place.cpp",
-                                              "no_ray_yardstick.cpp", "point_query_plain.cpp",
-                                              "system_files_windows.cpp"};
+                                              "point_query_plain.cpp", "system_files_windows.cpp"};
   return files;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "lss/index.h"
 #include "middleware/scene/flat_bvh_lanes.h"
@@ -40,8 +41,9 @@ Aabb boxAt(const BoxLanes& boxes, int i, const Eigen::Vector3d& origin) {
 
 }  // namespace
 
-PointQueryCuller::PointQueryCuller(const Scene& scene, const EmbreeTriangles* triangles)
-    : scene_(scene), triangles_(triangles), places_(scene.numTriangles()) {
+PointQueryCuller::PointQueryCuller(const Scene& scene,
+                                   std::shared_ptr<const EmbreeTriangles> triangles)
+    : scene_(scene), triangles_(std::move(triangles)), places_(scene.numTriangles()) {
   const FlatBvh& bvh = scene.parts().bvh;
   for (std::uint32_t i = 0; i < bvh.numLeaves(); ++i) {
     const BvhLeaf& leaf = bvh.leaf(i);

@@ -36,11 +36,11 @@ class PointQueryCuller final : public TriangleCuller {
     std::uint8_t triangle = 0;  ///< One bit.
   };
 
-  PointQueryCuller(const Scene& scene, const EmbreeTriangles* triangles);
+  PointQueryCuller(const Scene& scene, std::shared_ptr<const EmbreeTriangles> triangles);
 
   Scene scene_;
-  const EmbreeTriangles* triangles_;  // the scene's; null where Embree is not
-  std::vector<Place> places_;         // per triangle
+  std::shared_ptr<const EmbreeTriangles> triangles_;  // the scene's; null where Embree is not
+  std::vector<Place> places_;                         // per triangle
 };
 
 }  // namespace foretouch::internal

@@ -1,11 +1,12 @@
 // The point-query culler by Embree.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "articulated/try.h"
 #include "lss/rounding.h"
-#include "middleware/scene/embree_triangles.h"
 #include "middleware/scene/scene_parts.h"
+#include "tests/reference/embree_triangles.h"
 #include "tests/reference/point_query_culler.h"
 
 namespace foretouch::internal {
@@ -31,8 +32,8 @@ bool collectPrimitive(RTCPointQueryFunctionArguments* arguments) {
 }  // namespace
 
 Result<std::shared_ptr<const PointQueryCuller>> PointQueryCuller::build(const Scene& scene) {
-  FORETOUCH_TRY(const auto triangles, scene.parts().embreeTriangles());
-  return std::shared_ptr<const PointQueryCuller>(new PointQueryCuller(scene, triangles));
+  FORETOUCH_TRY(auto triangles, embreeTrianglesOf(scene));
+  return std::shared_ptr<const PointQueryCuller>(new PointQueryCuller(scene, std::move(triangles)));
 }
 
 void PointQueryCuller::collect(const Aabb& box, std::vector<TriangleId>& ids,

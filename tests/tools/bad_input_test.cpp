@@ -159,6 +159,11 @@ std::vector<BadInput> badOptions() {
                 "--culler: is gone: the answers never depended on it"),
       badOption("LeavesAreGone", {"--leaves", "cubics"},
                 "foretouch-bench latency --fidelity exact --leaves cubics"),
+      badOption("CompareRigidIsGone", {"--compare-rigid"},
+                "--compare-rigid: is gone: foretouch-bench compare counts that"),
+      badOption("CompareLinkIsGone", {"--compare-link"}, "--compare-link: is gone: "),
+      badOption("RaysAreGone", {"--rays"},
+                "--rays: is gone: foretouch-bench latency times rays beside steps"),
       badOption("LeavesAreGoneAlone", {"--leaves"}, "--leaves: is gone: "),
       badOption(
           "FidelityIsGone", {"--fidelity", "limb"},

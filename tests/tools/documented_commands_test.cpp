@@ -185,7 +185,7 @@ TEST(Documents, TellOnlyOfCommandsAndOptionsThatExist) {
 TEST(Documents, OptionsAreReadFromHelpTexts) {
   const Help replay = helpOf({"foretouch", "replay"});
   EXPECT_EQ(replay.options.count("--scene"), 1u);
-  EXPECT_EQ(replay.options.count("--compare-rigid"), 1u);
+  EXPECT_EQ(replay.options.count("--tolerance"), 1u);
   EXPECT_EQ(replay.options.count("--sceen"), 0u);
   const Help avatar = helpOf({"foretouch", "avatar"});
   EXPECT_EQ(avatar.subcommands.count("check"), 1u);

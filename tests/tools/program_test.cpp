@@ -46,13 +46,13 @@ TEST(Program, HelpsWithEverySubcommandAndGivesAnExample) {
   }
   const Ended replay = runForetouch({"replay", "--help"});
   for (const char* option :
-       {"--scene ",       "--avatar ", "--motion ",     "--animation ",     "--robot ",
-        "--package ",     "--rate ",   "--clip-scale ", "--clip-up ",       "--scene-up ",
-        "--scene-scale ", "--place ",  "--fidelity ",   "--tolerance ",     "--threads ",
-        "--ignore ",      "--map ",    "-o,--output ",  "--compare-rigid ", "--rays "}) {
+       {"--scene ", "--avatar ", "--motion ", "--animation ", "--robot ", "--package ", "--rate ",
+        "--clip-scale ", "--clip-up ", "--scene-up ", "--scene-scale ", "--place ", "--fidelity ",
+        "--tolerance ", "--threads ", "--ignore ", "--map ", "-o,--output "}) {
     EXPECT_TRUE(holds(replay.out, std::string("\n  ") + option)) << option;
   }
-  for (const char* gone : {"--culler", "--leaves", " --scale", " --motion-up", " --up"}) {
+  for (const char* gone :
+       {"--culler", "--leaves", "--compare-", "--rays", " --scale", " --motion-up", " --up"}) {
     EXPECT_FALSE(holds(replay.out, gone)) << gone;
   }
 }

@@ -9,7 +9,6 @@
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
-#include "middleware/scene/ray_yardstick.h"
 #include "tools/audit/audits.h"
 #include "tools/commands/open_page.h"
 #include "tools/commands/replay_command.h"
@@ -61,7 +60,7 @@ std::string details(const ReplayJob& job, const ReplaySummary& summary) {
   const AvatarAudit avatar = auditAvatar(inputs.avatar, restPose(inputs.avatar.skeleton()));
   return "\n" + job.request.scenePath + "\n" + describe(inputs.scene.audit()) + "\n" +
          job.request.avatarPath + "\n" + describe(avatar, "rest pose") + "\n" +
-         summary.text(job.options.threads) + missedOnes(summary);
+         summary.text(job.threads) + missedOnes(summary);
 }
 
 /// Beside the results, if they go to a file.
@@ -119,8 +118,6 @@ ExitCode runDemo(const AskedDemo& asked) {
   job.request.rateHz = kDemoRateHz;
   job.outputPath = asked.output;
   job.report.path = asked.report.empty() ? defaultReport(asked.output) : asked.report;
-  job.options.compareRigid = true;
-  job.options.rays = canCastRays();
   const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(job.report.path);
   const auto done = runReplay(job, [&](const ReplaySummary& summary) {
     const std::string text = inWords(summary) + "page:    " + job.report.path +

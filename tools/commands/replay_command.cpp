@@ -84,20 +84,12 @@ void addOutputSettings(Settings& settings, AskedReplay& asked) {
   settings.of("--json").help = "Print the summary as one line of JSON (docs/formats.md)";
 }
 
-void addComparisonSettings(Settings& settings, ReplayOptions& options) {
-  settings
-      .flag("--compare-rigid", options.compareRigid,
-            "Also count what a model that knows only each link's own two poses misses")
-      .in(kComparisonGroup)
-      .ofClips();
-  settings
-      .flag("--compare-link", options.compareLink,
-            "With --fidelity exact: also count the LSS contacts that the meshes refute")
-      .in(kComparisonGroup)
-      .ofClips();
-  settings.flag("--rays", options.rays, "Also time 16 occlusion rays per step, as a yardstick")
-      .in(kComparisonGroup)
-      .ofClips();
+/// What only compares is a benchmark's.
+void addGoneSettings(Settings& settings) {
+  for (const char* const option : {"--compare-rigid", "--compare-link"}) {
+    settings.gone(option, "is gone: foretouch-bench compare counts that");
+  }
+  settings.gone("--rays", "is gone: foretouch-bench latency times rays beside steps");
 }
 
 /// Settings of clips only.
@@ -143,7 +135,7 @@ Settings replaySettings(AskedReplay& asked) {
   addTouchSettings(settings, asked.job.request);
   addSolidReplaySettings(settings, asked.solid);
   addOutputSettings(settings, asked);
-  addComparisonSettings(settings, asked.job.options);
+  addGoneSettings(settings);
   settings.wholeOr("cores", "--threads", "N", asked.threads, kMaxThreads, "Threads")
       .in(kEffortGroup)
       .ofClips();
@@ -171,8 +163,8 @@ Result<Done> checkSelf(const WorldRequest& request) {
                        toString(request.query.scope) + ": own pairs are answered one by one");
 }
 
-/// What is not asked beyond the first contact. `compares`: with another model.
-Result<Done> checkBeyondFirst(const WorldRequest& request, bool compares) {
+/// What is not asked beyond the first contact.
+Result<Done> checkBeyondFirst(const WorldRequest& request) {
   if (request.query.scope == Scope::EveryObject) {
     FORETOUCH_CHECK(checkFidelity("--scope objects", request));
     if (request.budgetUs > 0) {
@@ -182,26 +174,13 @@ Result<Done> checkBeyondFirst(const WorldRequest& request, bool compares) {
     }
   }
   if (!request.query.passSeparating) return Done{};
-  FORETOUCH_CHECK(checkFidelity("--pass-separating", request));
-  if (!compares) return Done{};
-  return Error::in("--pass-separating", ErrorCode::Mismatch,
-                   "expected neither --compare-rigid nor --compare-link: each model would pass "
-                   "other contacts");
+  return checkFidelity("--pass-separating", request);
 }
 
 /// Options that are legal by themselves, but not together.
-Result<Done> checkTogether(const ReplayJob& job) {
-  const WorldRequest& request = job.request;
-  const bool compares = job.options.compareRigid || job.options.compareLink;
+Result<Done> checkTogether(const WorldRequest& request) {
   FORETOUCH_CHECK(checkSelf(request));
-  FORETOUCH_CHECK(checkBeyondFirst(request, compares));
-  if (request.budgetUs == 0) return Done{};
-  if (compares) {
-    return Error::in("--budget-us", ErrorCode::Mismatch,
-                     "expected none with --compare-rigid or --compare-link: what is undecided has "
-                     "nothing to compare");
-  }
-  return Done{};
+  return checkBeyondFirst(request);
 }
 
 /// Refuses a given option that makes no sense with this kind of motion.
@@ -232,12 +211,12 @@ ExitCode runClip(const AskedReplay& asked) {
   job.request.avatarPath = asked.avatars.front();
   const int cores = static_cast<int>(
       std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(kMaxThreads)));
-  job.options.threads = asked.threads == 0 ? cores : asked.threads;
+  job.threads = asked.threads == 0 ? cores : asked.threads;
   const std::string& report = job.report.path;
   const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(report) ||
                           isStandardOutput(job.glb.path);
   const auto done = runReplay(job, [&](const ReplaySummary& summary) {
-    const int threads = job.options.threads;
+    const int threads = job.threads;
     std::string text = asked.asJson ? summaryLine(summary, threads, job.outputPath, report)
                                     : summary.text(threads);
     if (!asked.asJson && !outIsTaken) text += placesOf(job.outputPath, report);
@@ -287,7 +266,7 @@ ExitCode run(const Settings& settings, AskedReplay& asked) {
     FORETOUCH_CHECK_OR(failed, checkSolidTogether(settings, asked.job.request));
     return runSolid(settings, asked);
   }
-  FORETOUCH_CHECK_OR(failed, checkTogether(asked.job));
+  FORETOUCH_CHECK_OR(failed, checkTogether(asked.job.request));
   return isLog ? runLog(asked) : runClip(asked);
 }
 
@@ -351,7 +330,7 @@ Result<Done> runReplay(const ReplayJob& job,
     FORETOUCH_TRY(auto file, PendingFile::create(job.outputPath));
     file.write(headerLine(inputs));
     ProgressBar progress("replay", inputs.steps.count);
-    const auto done = replay(inputs, job.options, [&](const ReplayedStep& step) {
+    const auto done = replay(inputs, job.threads, [&](const ReplayedStep& step) {
       file.write(step.line);
       summary.add(step);
       doubts.add(step.answer);

@@ -18,7 +18,7 @@ namespace foretouch::tools {
 /// A replay with checked options.
 struct ReplayJob {
   ReplayRequest request;
-  ReplayOptions options;
+  int threads = 1;
   std::string outputPath;
   ReportOptions report;
   GlbRequest glb;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -145,34 +147,22 @@ Result<Query> withOptions(Result<Query> built) {
 
 }  // namespace
 
-Result<Done> replay(const ReplayInputs& inputs, const ReplayOptions& options,
-                    const StepSink& sink) {
-  FORETOUCH_ASSERT(options.threads >= 1);
+Result<Done> replay(const ReplayInputs& inputs, int threads, const StepSink& sink) {
+  FORETOUCH_ASSERT(threads >= 1);
   FORETOUCH_TRY(const auto query,
                 withOptions(Query::build(inputs.avatar, inputs.scene, inputs.query)));
-  std::optional<RigidComparison> rigid;
-  if (options.compareRigid) {
-    FORETOUCH_TRY(rigid, RigidComparison::build(inputs.avatar, inputs.scene, inputs.query));
-  }
-  std::optional<Query> link;
-  if (options.compareLink) {
-    FORETOUCH_TRY(link, askLinks(query));
-  }
   const StepFormat format(inputs.avatar, inputs.scene, AskedLists::of(inputs.query));
-  const StepExtras extras{rigid ? &*rigid : nullptr, link ? &*link : nullptr, options.rays};
   std::vector<StepSolver> solvers;
-  for (int i = 0; i < options.threads; ++i) {
-    solvers.emplace_back(inputs, query, format, extras);
-  }
+  for (int i = 0; i < threads; ++i) solvers.emplace_back(inputs, query, format);
   // What the first query grows must not count in any step's latency. An error here recurs, and is
   // reported, at step 0.
   static_cast<void>(solvers.front().solve(0));
 
   const std::int64_t steps = inputs.steps.count;
   const std::int64_t size =
-      std::clamp<std::int64_t>(steps / (options.threads * kChunksAhead), 1, kMaxChunkSteps);
+      std::clamp<std::int64_t>(steps / (threads * kChunksAhead), 1, kMaxChunkSteps);
   const std::int64_t chunks = (steps + size - 1) / size;
-  Exchange exchange(chunks, options.threads * kChunksAhead);
+  Exchange exchange(chunks, threads * kChunksAhead);
   Workers workers(exchange);
   const auto started = workers.start(solvers, [&](StepSolver& solver, std::int64_t chunk) {
     return solveChunk(solver, chunk * size, std::min(steps, (chunk + 1) * size));

@@ -1,6 +1,5 @@
 #include "tools/replay/step_solver.h"
 
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -9,7 +8,6 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "tools/console.h"
-#include "tools/replay/ray_set.h"
 
 namespace foretouch::tools {
 namespace {
@@ -35,7 +33,6 @@ Result<ReplayedStep> StepSolver::solve(std::int64_t step) {
   replayed.answer = recorded(step, contacts, latencyUs);
   replayed.answer.missedByPoses = missedByPoses(motion, replayed.answer.contacts);
   findGround(motion, replayed.answer);
-  FORETOUCH_CHECK(inFile(addExtras(motion, contacts, replayed), inputs_.request.motionPath));
   replayed.line = format_.line(replayed.answer);
   return replayed;
 }
@@ -87,23 +84,6 @@ void StepSolver::findGround(const ChainMotion& motion, StepAnswer& answer) {
   for (const LinkContact& contact : isByObject ? answer.objects : answer.contacts) {
     answer.onGround.push_back(ground_.isGround(contact));
   }
-}
-
-Result<Done> StepSolver::addExtras(const ChainMotion& motion, const StepContacts& contacts,
-                                   ReplayedStep& replayed) {
-  if (extras_.rigid != nullptr) {
-    FORETOUCH_TRY(replayed.rigid, extras_.rigid->compare(motion, contacts, scratch_));
-  }
-  if (extras_.link != nullptr) {
-    replayed.link = compareWithLink(*extras_.link, motion, contacts, scratch_);
-  }
-  if (extras_.rays) {
-    const std::array<RaySegment, kRaysPerSet> rays = raysAlong(motion);
-    const Clock::time_point start = Clock::now();
-    FORETOUCH_CHECK(castRaySet(inputs_.scene, rays));
-    replayed.raySetUs = microsecondsSince(start);
-  }
-  return Done{};
 }
 
 }  // namespace foretouch::tools

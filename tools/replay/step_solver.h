@@ -3,16 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 
 #include "articulated/motion.h"
 #include "articulated/result.h"
 #include "middleware/query/query.h"
 #include "tools/inputs/replay_inputs.h"
-#include "tools/replay/fidelity_comparison.h"
 #include "tools/replay/results_writer.h"
-#include "tools/replay/rigid_comparison.h"
 #include "tools/touches/ground.h"
 
 namespace foretouch::tools {
@@ -20,28 +17,16 @@ namespace foretouch::tools {
 struct ReplayedStep {
   StepAnswer answer;
   std::string line;  ///< Of the results file.
-  std::optional<RigidCounts> rigid;
-  std::optional<FidelityCounts> link;
-  std::optional<double> raySetUs;
-};
-
-/// Extra work beside the query, for comparison.
-struct StepExtras {
-  const RigidComparison* rigid = nullptr;  ///< Null: no comparison.
-  const Query* link = nullptr;             ///< The same question at link fidelity; null: not asked.
-  bool rays = false;  ///< Also time a set of rays (middleware/scene/ray_yardstick.h).
 };
 
 /// Answers single steps, in any order; one per thread. Its arguments must outlive it.
 class StepSolver {
  public:
   /// `query`: of the inputs.
-  StepSolver(const ReplayInputs& inputs, const Query& query, const StepFormat& format,
-             const StepExtras& extras)
+  StepSolver(const ReplayInputs& inputs, const Query& query, const StepFormat& format)
       : inputs_(inputs),
         query_(query),
         format_(format),
-        extras_(extras),
         ground_(inputs.avatar, inputs.scene, inputs.request.ground) {}
 
   [[nodiscard]] Result<ReplayedStep> solve(std::int64_t step);
@@ -53,13 +38,10 @@ class StepSolver {
   [[nodiscard]] std::vector<LinkId> missedByPoses(const ChainMotion& motion,
                                                   const std::vector<LinkContact>& contacts);
   void findGround(const ChainMotion& motion, StepAnswer& answer);
-  [[nodiscard]] Result<Done> addExtras(const ChainMotion& motion, const StepContacts& contacts,
-                                       ReplayedStep& replayed);
 
   const ReplayInputs& inputs_;
   const Query& query_;
   const StepFormat& format_;
-  StepExtras extras_;
   GroundTest ground_;
   QueryScratch scratch_;
   std::int64_t frame_ = -1;  // whose pose pose_ is

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "lss/index.h"
-#include "middleware/scene/ray_yardstick.h"
 
 namespace foretouch::tools {
 namespace {
@@ -109,15 +108,6 @@ void ReplaySummary::add(const ReplayedStep& step) {
   stepsWithContact_ += touches ? 1 : 0;
   countObjects(answer);
   countPairs(answer);
-  if (step.rigid) {
-    if (!rigid_) rigid_.emplace();
-    rigid_->add(*step.rigid);
-  }
-  if (step.link) {
-    if (!link_) link_.emplace();
-    link_->add(*step.link);
-  }
-  if (step.raySetUs) raySetsUs_.push_back(static_cast<float>(*step.raySetUs));
   work_.nodes += answer.counters.nodes;
   work_.candidates += answer.counters.candidates;
   work_.advancements += answer.counters.advancements;
@@ -158,7 +148,7 @@ double ReplaySummary::latencyUs(double share) const {
 
 std::string ReplaySummary::text(int threads) const {
   return head(threads) + headline() + touchTable(inputs_.avatar.skeleton(), touchesOfLink_) +
-         verdicts() + byLink() + byObject() + ownPairs() + rigid() + link() + cost();
+         verdicts() + byLink() + byObject() + ownPairs() + cost();
 }
 
 std::string ReplaySummary::head(int threads) const {
@@ -240,42 +230,13 @@ std::string ReplaySummary::ownPairs() const {
                           [&](LinkId other) { return skeleton.name(other); });
 }
 
-std::string ReplaySummary::rigid() const {
-  if (!rigid_) return "";
-  return fmt::format(
-      "\nrigid model (each link told only its own two poses): of {} contacts it misses {} ({}),\n"
-      "reports {} late and {} early by more than 1 mm of motion; false contacts: {}; not compared: "
-      "{}\n",
-      rigid_->contacts, rigid_->missed, shareOf(rigid_->missed, rigid_->contacts), rigid_->late,
-      rigid_->early, rigid_->falseContacts, rigid_->undecided);
-}
-
-std::string ReplaySummary::link() const {
-  if (!link_) return "";
-  return fmt::format(
-      "\nlink fidelity finds {} contacts; the meshes refute {} ({}) and delay {} ({});\n"
-      "earlier than the LSS, or where they are clear: {}; not compared: {}; its mean latency: "
-      "{:.1f} us\n",
-      link_->lssContacts, link_->refuted, shareOf(link_->refuted, link_->lssContacts), link_->later,
-      shareOf(link_->later, link_->lssContacts), link_->broken, link_->undecided,
-      link_->lssUs / static_cast<double>(std::max<std::int64_t>(1, steps_)));
-}
-
 std::string ReplaySummary::cost() const {
   std::vector<float> latencies = latenciesUs_;
-  const double median = percentile(latencies, 0.5);
   std::string text = fmt::format(
       "\nlatency of a step, us    mean {:.1f}   p50 {:.1f}   p90 {:.1f}   p99 {:.1f}   max "
       "{:.1f}\n",
-      mean(latenciesUs_), median, percentile(latencies, 0.9), percentile(latencies, 0.99),
-      percentile(latencies, 1.0));
-  if (!raySetsUs_.empty()) {
-    std::vector<float> raySets = raySetsUs_;
-    const double raySet = percentile(raySets, 0.5);
-    text += fmt::format(
-        "{} occlusion rays, us    p50 {:.2f}   (a median step costs {:.1f} times this)\n",
-        kRaysPerSet, raySet, median / raySet);
-  }
+      mean(latenciesUs_), percentile(latencies, 0.5), percentile(latencies, 0.9),
+      percentile(latencies, 0.99), percentile(latencies, 1.0));
   const auto aStep = [&](std::uint64_t work) {
     return static_cast<double>(work) / static_cast<double>(std::max<std::int64_t>(1, steps_));
   };

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +11,6 @@
 #include "middleware/query/query.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/replay/replay_touches.h"
-#include "tools/replay/rigid_comparison.h"
 #include "tools/replay/step_solver.h"
 #include "tools/replay/touch_words.h"
 
@@ -57,8 +55,6 @@ class ReplaySummary {
   [[nodiscard]] const Counts& totalOfObjects() const { return objects_; }
   [[nodiscard]] std::int64_t stepsWithPairs() const { return stepsWithPairs_; }
   [[nodiscard]] std::int64_t stepsWithContact() const { return stepsWithContact_; }
-  /// Nothing if the replay was not compared with it.
-  [[nodiscard]] const std::optional<RigidCounts>& rigidCounts() const { return rigid_; }
   /// The latency within which this share of the steps was answered.
   [[nodiscard]] double latencyUs(double share) const;
 
@@ -71,8 +67,6 @@ class ReplaySummary {
   [[nodiscard]] std::string byLink() const;
   [[nodiscard]] std::string byObject() const;
   [[nodiscard]] std::string ownPairs() const;
-  [[nodiscard]] std::string rigid() const;
-  [[nodiscard]] std::string link() const;
   [[nodiscard]] std::string cost() const;
 
   const ReplayInputs& inputs_;
@@ -84,10 +78,8 @@ class ReplaySummary {
   TouchCounts touches_;
   std::vector<LinkTouches> touchesOfLink_;
   std::vector<ReportedContact> firstMissed_;
-  std::optional<RigidCounts> rigid_;
-  std::optional<FidelityCounts> link_;
   QueryCounters work_;
-  std::vector<float> latenciesUs_, raySetsUs_;
+  std::vector<float> latenciesUs_;
 };
 
 }  // namespace foretouch::tools

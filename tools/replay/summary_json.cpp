@@ -35,18 +35,6 @@ void writeByLink(const ReplaySummary& summary, JsonWriter& out) {
   out.endArray();
 }
 
-void writeRigid(const RigidCounts& rigid, JsonWriter& out) {
-  out.key("rigid");
-  out.beginObject();
-  out.field("contacts", rigid.contacts);
-  out.field("missed", rigid.missed);
-  out.field("late", rigid.late);
-  out.field("early", rigid.early);
-  out.field("false_contacts", rigid.falseContacts);
-  out.field("undecided", rigid.undecided);
-  out.endObject();
-}
-
 void writeLatency(const ReplaySummary& summary, JsonWriter& out) {
   out.key("latency_us");
   out.beginObject();
@@ -80,7 +68,6 @@ std::string summaryLine(const ReplaySummary& summary, int threads, const std::st
     writeCounts("by_object", summary.totalOfObjects(), out);
   }
   if (inputs.query.self) writeCounts("own_links", summary.totalOfPairs(), out);
-  if (summary.rigidCounts()) writeRigid(*summary.rigidCounts(), out);
   writeLatency(summary, out);
   out.field("threads", threads);
   out.field("output", output);

@@ -100,11 +100,6 @@ std::vector<ViewRow> ReplayReport::rowsOf(const ReplaySummary& summary) {
     rows.push_back({"start in own contact", text(own.startsInContact), ""});
     rows.push_back({"own pairs undecided", text(own.undecided), ""});
   }
-  if (const auto& rigid = summary.rigidCounts()) {
-    rows.push_back(
-        {"rigid model misses", text(rigid->missed),
-         fmt::format("of {} contacts: told only each link's own two poses", rigid->contacts)});
-  }
   return rows;
 }
 

@@ -18,7 +18,6 @@ inline constexpr char kInputGroup[] = "Input";
 inline constexpr char kUnitsGroup[] = "Units, axes and place";
 inline constexpr char kTouchGroup[] = "What touches";
 inline constexpr char kOutputGroup[] = "Output";
-inline constexpr char kComparisonGroup[] = "Comparison";
 inline constexpr char kEffortGroup[] = "Effort";
 inline constexpr char kStreamGroup[] = "Stream";
 inline constexpr char kNetworkGroup[] = "Network";

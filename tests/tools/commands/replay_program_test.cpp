@@ -239,19 +239,6 @@ TEST(ReplayProgram, SaysWhereExactFidelityIsLinkFidelity) {
   EXPECT_EQ(steps[0], steps[1]);
 }
 
-TEST(ReplayProgram, RefusesABudgetBesideWhatCannotKeepIt) {
-  const SmallWorld world;
-  for (const std::vector<std::string>& options :
-       {std::vector<std::string>{"--compare-rigid"}, {"--compare-link", "--fidelity", "exact"}}) {
-    std::vector<std::string> arguments = options;
-    arguments.insert(arguments.end(), {"--budget-us", "5", "--output", world.folder / "x.jsonl"});
-    const Ended ended = runForetouch(world.replay(arguments));
-    EXPECT_EQ(ended.exitCode, 2);
-    EXPECT_EQ(ended.err.find("foretouch: --budget-us: expected none with "), 0u) << ended.err;
-    EXPECT_NE(ended.err.find(options[0]), std::string::npos) << ended.err;
-  }
-}
-
 TEST(ReplayProgram, ObeysRateScalePlaceIgnoreAndUp) {
   const SmallWorld world;
   world.folder.write("long.bvh", clipAlongX({-75, -50, -25, 25, 50, 75, 90}));
@@ -330,9 +317,8 @@ TEST(ReplayProgram, LeavesNothingWhenInterrupted) {
   world.folder.write("long.bvh", clipAlongX(toAndFro(400'000)));
   const auto before = world.folder.names();
   for (const int signal : {SIGINT, SIGTERM}) {
-    ProgramRun run(
-        world.replay({"--threads", "2", "--compare-rigid", "--output", world.folder / "out.jsonl"},
-                     "wall.obj", "man.json", "long.bvh"));
+    ProgramRun run(world.replay({"--threads", "2", "--output", world.folder / "out.jsonl"},
+                                "wall.obj", "man.json", "long.bvh"));
     // Once its unfinished file is there, and stays there, the replay is under way. (The trial that
     // comes before is there for less than a millisecond.)
     int seen = 0;

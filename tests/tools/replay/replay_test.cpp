@@ -20,9 +20,9 @@ std::vector<double> manyPlaces(int frames) {
   return places;
 }
 
-std::vector<std::string> linesOf(const ReplayInputs& inputs, const ReplayOptions& options) {
+std::vector<std::string> linesOf(const ReplayInputs& inputs, int threads) {
   std::vector<std::string> lines;
-  const auto done = replay(inputs, options, [&](const ReplayedStep& step) {
+  const auto done = replay(inputs, threads, [&](const ReplayedStep& step) {
     EXPECT_EQ(step.answer.step, static_cast<std::int64_t>(lines.size()));
     lines.push_back(withoutLatency(step.line));
     return true;
@@ -34,7 +34,7 @@ std::vector<std::string> linesOf(const ReplayInputs& inputs, const ReplayOptions
 TEST(Replay, FindsTheWallThatNoPoseTouches) {
   const ReplayInputs inputs = smallInputs({-0.75, -0.25, 0.25, 0.75});
   std::vector<ReplayedStep> steps;
-  ASSERT_TRUE(replay(inputs, {}, [&](const ReplayedStep& step) {
+  ASSERT_TRUE(replay(inputs, 1, [&](const ReplayedStep& step) {
                 steps.push_back(step);
                 return true;
               }).ok());
@@ -61,7 +61,7 @@ TEST(Replay, FindsTheWallThatNoPoseTouches) {
 TEST(Replay, DoesNotCallAContactMissedThatAPoseShows) {
   const ReplayInputs inputs = smallInputs({-0.5, -0.05});  // ends inside
   int contacts = 0;
-  ASSERT_TRUE(replay(inputs, {}, [&](const ReplayedStep& step) {
+  ASSERT_TRUE(replay(inputs, 1, [&](const ReplayedStep& step) {
                 for (const LinkContact& contact : step.answer.contacts) {
                   contacts += contact.verdict == Verdict::Contact ? 1 : 0;
                 }
@@ -73,18 +73,17 @@ TEST(Replay, DoesNotCallAContactMissedThatAPoseShows) {
 
 TEST(Replay, GivesTheSameLinesForAnyNumberOfThreads) {
   const ReplayInputs inputs = smallInputs(manyPlaces(400));
-  const std::vector<std::string> expected = linesOf(inputs, {});
+  const std::vector<std::string> expected = linesOf(inputs, 1);
   ASSERT_EQ(expected.size(), 399u);
   for (const int threads : {2, 3, 4, 16}) {
-    EXPECT_EQ(linesOf(inputs, {threads, false}), expected) << threads;
+    EXPECT_EQ(linesOf(inputs, threads), expected) << threads;
   }
-  EXPECT_EQ(linesOf(inputs, {4, true}), expected);
 }
 
 TEST(Replay, EndsWhenTheSinkHasEnough) {
   const ReplayInputs inputs = smallInputs(manyPlaces(1000));
   int taken = 0;
-  EXPECT_TRUE(replay(inputs, {4, false}, [&](const ReplayedStep&) { return ++taken < 7; }).ok());
+  EXPECT_TRUE(replay(inputs, 4, [&](const ReplayedStep&) { return ++taken < 7; }).ok());
   EXPECT_EQ(taken, 7);
 }
 
@@ -95,7 +94,7 @@ TEST(Replay, ReportsTheEarliestStepThatFails) {
   const ReplayInputs inputs = smallInputs(places, {5e6, 0, 0});
   for (const int threads : {1, 4}) {
     int taken = 0;
-    const auto done = replay(inputs, {threads, false}, [&](const ReplayedStep&) {
+    const auto done = replay(inputs, threads, [&](const ReplayedStep&) {
       ++taken;
       return true;
     });
@@ -103,20 +102,6 @@ TEST(Replay, ReportsTheEarliestStepThatFails) {
     EXPECT_EQ(done.error().file, "some/clip.bvh");
     EXPECT_NE(done.error().message.find("frame 200:"), std::string::npos) << done.error().message;
     EXPECT_EQ(taken, 199);
-  }
-}
-
-TEST(Replay, MeasuresTheYardstickOnlyWhereAsked) {
-  const ReplayInputs inputs = smallInputs({0, 1, 2});
-  for (const bool rays : {false, true}) {
-    ReplayOptions options;
-    options.rays = rays;
-    int measured = 0;
-    ASSERT_TRUE(replay(inputs, options, [&](const ReplayedStep& step) {
-                  measured += step.raySetUs.has_value() ? 1 : 0;
-                  return true;
-                }).ok());
-    EXPECT_EQ(measured, rays ? 2 : 0);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "tools/replay/fidelity_comparison.h"
+#include "bench/fidelity_comparison.h"
 
 #include <chrono>
 

@@ -1,8 +1,8 @@
-#include "middleware/scene/ray_yardstick.h"
+#include "bench/ray_set.h"
 
 #include <gtest/gtest.h>
 
-namespace foretouch {
+namespace foretouch::tools {
 namespace {
 
 using Eigen::Vector3d;
@@ -19,4 +19,4 @@ TEST(CastRaySet, CountsTheRaysThatHit) {
 }
 
 }  // namespace
-}  // namespace foretouch
+}  // namespace foretouch::tools

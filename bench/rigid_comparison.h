@@ -1,4 +1,4 @@
-// tools/replay/rigid_comparison.h: the answer of the usual model of motion: each link moves alone
+// bench/rigid_comparison.h: the answer of the usual model of motion: each link moves alone
 // between its two end poses in the world, on a straight line while it turns.
 #pragma once
 

@@ -1,4 +1,4 @@
-// tools/replay/fidelity_comparison.h: compares the answer of the links' meshes with that of their
+// bench/fidelity_comparison.h: compares the answer of the links' meshes with that of their
 // LSS alone: how many contacts exactness refutes.
 #pragma once
 

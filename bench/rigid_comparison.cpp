@@ -1,4 +1,4 @@
-#include "tools/replay/rigid_comparison.h"
+#include "bench/rigid_comparison.h"
 
 #include <utility>
 
