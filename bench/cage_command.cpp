@@ -1,52 +1,44 @@
-#include "bench/cage_command.h"
-
 #include <memory>
 #include <string>
-
-#include <CLI/CLI.hpp>
+#include <utility>
 
 #include "articulated/try.h"
 #include "bench/cage.h"
+#include "bench/commands.h"
 #include "bench/machine.h"
 #include "bench/options.h"
-#include "tools/arguments.h"
-#include "tools/settling.h"
 
 namespace foretouch::tools {
 namespace {
 
-struct CageTexts {
-  std::string triangles = "100000", repeat = "15", json, csv;
+struct AskedCage {
+  CageRequest request;
+  std::string json, csv;
 };
 
-ExitCode runCage(const CageTexts& texts) {
-  CageRequest request;
-  Settling settle;
-  settle.into(request.triangles, parseCount("--triangles", texts.triangles, kMaxBenchTriangles));
-  settle.into(request.repeats, parseCount("--repeat", texts.repeat, kMaxBenchRepeats));
-  if (settle.error()) return failed(*settle.error());
-  request.command = ownCommandLine();
-  FORETOUCH_TRY_OR(failed, const auto report, measureCage(request));
-  FORETOUCH_CHECK_OR(failed, writeReport(report, texts.json, report.tables.front(), texts.csv));
+ExitCode run(AskedCage& asked) {
+  asked.request.command = ownCommandLine();
+  FORETOUCH_TRY_OR(failed, const auto report, measureCage(asked.request));
+  FORETOUCH_CHECK_OR(failed, writeReport(report, asked.json, report.tables.front(), asked.csv));
   printOut(reportText(report));
   return ExitCode::Done;
 }
 
 }  // namespace
 
-void addBenchCageCommand(CLI::App& bench, ExitCode& exit) {
-  const auto texts = std::make_shared<CageTexts>();
-  CLI::App* const command =
-      bench.add_subcommand("cage", "What the importer's cage costs an import, and what it bounds");
-  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
-    command->add_option(name, text, help)->type_name(type)->capture_default_str();
-  };
-  option("--triangles", texts->triangles, "N", "Of the file that is imported");
-  option("--repeat", texts->repeat, "N", "Pairs of imports, without and with the cage");
-  option("--json", texts->json, "FILE", "Also write the figures to a file");
-  option("--csv", texts->csv, "FILE", "Also write the first table to a file");
-  command->footer("Example:\n  foretouch-bench cage --triangles 100000 --json cage.json");
-  command->callback([texts, &exit] { exit = runCage(*texts); });
+Command cageCommand() {
+  const auto asked = std::make_shared<AskedCage>();
+  Settings settings;
+  settings.whole("--triangles", "N", asked->request.triangles, 1, kMaxBenchTriangles,
+                 "Of the file that is imported");
+  settings.whole("--repeat", "N", asked->request.repeats, 1, kMaxBenchRepeats,
+                 "Pairs of imports, without and with the cage");
+  addFigures(settings, asked->json, asked->csv, "Also write the first table to a file");
+  Command command{"cage", "What the importer's cage costs an import, and what it bounds",
+                  "Example:\n  foretouch-bench cage --triangles 100000 --json cage.json",
+                  std::move(settings)};
+  command.run = [asked](const Settings&) { return run(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -1,9 +1,30 @@
 // bench/commands.h: all commands of `foretouch-bench`.
 #pragma once
 
-#include "tools/program.h"
+#include "tools/settings/command_line.h"
 
 namespace foretouch::tools {
+
+[[nodiscard]] Command cageCommand();
+[[nodiscard]] Command compareCommand();
+[[nodiscard]] Command deadlineCommand();
+[[nodiscard]] Command extremesCommand();
+[[nodiscard]] Command instructionsCommand();
+[[nodiscard]] Command latencyCommand();
+[[nodiscard]] Command leafCommand();
+[[nodiscard]] Command memoryCommand();
+[[nodiscard]] Command peersCommand();
+[[nodiscard]] Command performanceCommand();  ///< `report`.
+[[nodiscard]] Command scalingCommand();
+[[nodiscard]] Command soakCommand();
+[[nodiscard]] Command solidBenchCommand();
+[[nodiscard]] Command streamCommand();
+[[nodiscard]] Command tradeCommand();
+[[nodiscard]] Command treesCommand();
+[[nodiscard]] Command trustCommand();
+[[nodiscard]] Command tuneCommand();
+[[nodiscard]] Command viewBenchCommand();
+[[nodiscard]] Command worldBenchCommand();
 
 void addBenchCommands(CLI::App& program, ExitCode& exit);
 

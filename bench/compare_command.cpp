@@ -1,10 +1,9 @@
-#include "bench/compare_command.h"
-
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "articulated/try.h"
+#include "bench/commands.h"
 #include "bench/compare.h"
 #include "tools/inputs/policy_rules.h"
 #include "tools/results_output.h"

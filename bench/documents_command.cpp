@@ -1,13 +1,11 @@
-#include "bench/documents_command.h"
-
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
-
-#include <CLI/CLI.hpp>
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
+#include "bench/commands.h"
 #include "bench/documents.h"
 
 namespace foretouch::tools {
@@ -37,64 +35,62 @@ ExitCode runReport(const std::vector<std::string>& files, const std::string& out
   return written.ok() ? ExitCode::Done : failed(inFile(written.error(), output));
 }
 
-struct InstructionTexts {
+struct AskedInstructions {
   std::string callgrind, latency, recorded;
   bool record = false;
 };
 
-Result<BenchReport> countedNow(const InstructionTexts& texts) {
-  FORETOUCH_TRY(const auto profile, readWholeFile(texts.callgrind, kMaxCallgrindBytes));
-  FORETOUCH_TRY(const auto instructions, callgrindInstructions(profile, texts.callgrind));
-  FORETOUCH_TRY(const auto latency, readReport(texts.latency));
+Result<BenchReport> countedNow(const AskedInstructions& asked) {
+  FORETOUCH_TRY(const auto profile, readWholeFile(asked.callgrind, kMaxCallgrindBytes));
+  FORETOUCH_TRY(const auto instructions, callgrindInstructions(profile, asked.callgrind));
+  FORETOUCH_TRY(const auto latency, readReport(asked.latency));
   auto now = instructionReport(latency, instructions);
-  if (!now.ok()) return inFile(now.error(), texts.latency);
+  if (!now.ok()) return inFile(now.error(), asked.latency);
   return now;
 }
 
-ExitCode runInstructions(const InstructionTexts& texts) {
-  FORETOUCH_TRY_OR(failed, const auto now, countedNow(texts));
-  if (texts.record) {
-    FORETOUCH_CHECK_OR(failed, writeText(texts.recorded, reportJson(now)));
+ExitCode runInstructions(const AskedInstructions& asked) {
+  FORETOUCH_TRY_OR(failed, const auto now, countedNow(asked));
+  if (asked.record) {
+    FORETOUCH_CHECK_OR(failed, writeText(asked.recorded, reportJson(now)));
     printOut(reportText(now));
     return ExitCode::Done;
   }
-  FORETOUCH_TRY_OR(failed, const auto recorded, readReport(texts.recorded));
+  FORETOUCH_TRY_OR(failed, const auto recorded, readReport(asked.recorded));
   printOut(tableText(movedTable(recorded, now)));
   return ExitCode::Done;
 }
 
 }  // namespace
 
-void addBenchDocumentCommands(CLI::App& bench, ExitCode& exit) {
-  struct ReportTexts {
+Command performanceCommand() {
+  struct AskedReport {
     std::vector<std::string> files;
     std::string output;
   };
-  const auto report = std::make_shared<ReportTexts>();
-  CLI::App* const reportCommand =
-      bench.add_subcommand("report", "Make docs/performance.md of the files of --json");
-  reportCommand->add_option("files", report->files, "Files that --json wrote")
-      ->type_name("FILE...")
-      ->required();
-  reportCommand->add_option("--output", report->output, "Where to; standard output if not given")
-      ->type_name("FILE");
-  reportCommand->callback([report, &exit] { exit = runReport(report->files, report->output); });
+  const auto asked = std::make_shared<AskedReport>();
+  Settings settings;
+  settings.list("files", "FILE...", asked->files, "Files that --json wrote")
+      .required("files that --json wrote");
+  settings.path("--output", "FILE", asked->output, "Where to; standard output if not given");
+  Command command{"report", "Make docs/performance.md of the files of --json", "",
+                  std::move(settings)};
+  command.run = [asked](const Settings&) { return runReport(asked->files, asked->output); };
+  return command;
+}
 
-  const auto texts = std::make_shared<InstructionTexts>();
-  CLI::App* const instructions = bench.add_subcommand(
-      "instructions", "Compare callgrind's count of a latency run with the recorded one");
-  instructions->add_option("--callgrind", texts->callgrind, "callgrind.out of the run")
-      ->type_name("FILE")
-      ->required();
-  instructions->add_option("--latency", texts->latency, "What --json wrote in the run")
-      ->type_name("FILE")
-      ->required();
-  instructions->add_option("--recorded", texts->recorded, "The record")
-      ->type_name("FILE")
-      ->required();
-  instructions->add_flag("--record", texts->record, "Write the record instead of comparing");
-  instructions->footer("`./run instructions` does the whole.");
-  instructions->callback([texts, &exit] { exit = runInstructions(*texts); });
+Command instructionsCommand() {
+  const auto asked = std::make_shared<AskedInstructions>();
+  Settings settings;
+  settings.path("--callgrind", "FILE", asked->callgrind, "callgrind.out of the run").required();
+  settings.path("--latency", "FILE", asked->latency, "What --json wrote in the run").required();
+  settings.path("--recorded", "FILE", asked->recorded, "The record").required();
+  settings.flag("--record", asked->record, "Write the record instead of comparing");
+  Command command{"instructions",
+                  "Compare callgrind's count of a latency run with the recorded one",
+                  "`./run instructions` does the whole.", std::move(settings)};
+  command.run = [asked](const Settings&) { return runInstructions(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

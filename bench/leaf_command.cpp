@@ -1,15 +1,14 @@
-#include "bench/leaf_command.h"
-
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
+#include "bench/commands.h"
 #include "bench/generated_queries.h"
 #include "bench/leaf.h"
 #include "tests/reference/rigid_query.h"
@@ -20,9 +19,10 @@ namespace {
 constexpr std::int64_t kMaxRepeat = 1'000'000, kMaxGenerated = 10'000'000;
 constexpr double kRigidBand = 1e-3;  // metres; a common tolerance
 
-struct LeafTexts {
+struct AskedLeaves {
   std::vector<std::string> folders;
-  std::int64_t repeat = 5, generated = 0;
+  int repeat = 5;
+  std::size_t generated = 0;
   std::uint64_t seed = 1;
   std::string json;
 };
@@ -52,39 +52,26 @@ void addGenerated(LeafBench& bench) {
   bench.sets.push_back(std::move(rigid));
 }
 
-Result<Done> check(const LeafTexts& texts) {
-  if (texts.folders.empty() && texts.generated == 0) {
-    return Error::in("bench leaf", ErrorCode::Empty, "expected --queries or --generated");
-  }
-  if (texts.repeat < 1 || texts.repeat > kMaxRepeat) {
-    return Error::in("--repeat", ErrorCode::OutOfRange,
-                     fmt::format("expected 1 to {}, found {}", kMaxRepeat, texts.repeat));
-  }
-  if (texts.generated < 0 || texts.generated > kMaxGenerated) {
-    return Error::in("--generated", ErrorCode::OutOfRange,
-                     fmt::format("expected 0 to {}, found {}", kMaxGenerated, texts.generated));
-  }
-  return Done{};
-}
-
 Result<Done> writeJson(const std::string& path, const LeafBench& bench) {
   FORETOUCH_TRY(auto file, PendingFile::create(path));
   file.write(leafJson(bench));
   return file.commit();
 }
 
-ExitCode run(const LeafTexts& texts) {
-  FORETOUCH_CHECK_OR(failed, check(texts));
+ExitCode run(const AskedLeaves& asked) {
+  if (asked.folders.empty() && asked.generated == 0) {
+    return failed(Error::in("bench leaf", ErrorCode::Empty, "expected --queries or --generated"));
+  }
   LeafBench bench;
-  bench.repeat = static_cast<int>(texts.repeat);
-  bench.seed = texts.seed;
-  bench.generated = static_cast<std::size_t>(texts.generated);
+  bench.repeat = asked.repeat;
+  bench.seed = asked.seed;
+  bench.generated = asked.generated;
   bench.overheadUs = clockOverheadUs();
-  FORETOUCH_TRY_OR(failed, const auto sets, readQuerySets(texts.folders));
+  FORETOUCH_TRY_OR(failed, const auto sets, readQuerySets(asked.folders));
   for (const QuerySet& set : sets) bench.sets.push_back(timed(set, bench.repeat, true));
   if (bench.generated > 0) addGenerated(bench);
-  if (!texts.json.empty()) {
-    FORETOUCH_CHECK_OR(failed, writeJson(texts.json, bench));
+  if (!asked.json.empty()) {
+    FORETOUCH_CHECK_OR(failed, writeJson(asked.json, bench));
   }
   printOut(leafTable(bench));
   const std::size_t wrong = wrongAnswers(bench);
@@ -95,27 +82,25 @@ ExitCode run(const LeafTexts& texts) {
 
 }  // namespace
 
-void addBenchLeafCommand(CLI::App& program, ExitCode& exit) {
-  const auto texts = std::make_shared<LeafTexts>();
-  CLI::App* const leaf = program.add_subcommand(
-      "leaf", "Answer and time exact leaf queries; exit code 1 where an answer is not its label");
-  leaf->add_option("--queries", texts->folders,
-                   "Folders with query sets: CSV files in folders named vertex-face or edge-edge")
-      ->type_name("FOLDER...");
-  leaf->add_option("--generated", texts->generated,
-                   "So many made-up queries of each kind, rigid pairs too")
-      ->type_name("N")
-      ->capture_default_str();
-  leaf->add_option("--seed", texts->seed, "Of the made-up queries")
-      ->type_name("S")
-      ->capture_default_str();
-  leaf->add_option("--repeat", texts->repeat, "Passes over each set; a query's least time counts")
-      ->type_name("N")
-      ->capture_default_str();
-  leaf->add_option("--json", texts->json, "Also write the figures to a file")->type_name("FILE");
-  leaf->footer(
-      "Example:\n  foretouch-bench leaf --queries sample-queries --repeat 10 --json leaf.json");
-  leaf->callback([texts, &exit] { exit = run(*texts); });
+Command leafCommand() {
+  const auto asked = std::make_shared<AskedLeaves>();
+  Settings settings;
+  settings.list("--queries", "FOLDER", asked->folders,
+                "Folder with query sets: CSV files in folders named vertex-face or edge-edge; may "
+                "be repeated");
+  settings.whole("--generated", "N", asked->generated, 0, kMaxGenerated,
+                 "So many made-up queries of each kind, rigid pairs too");
+  settings.whole("--seed", "S", asked->seed, 0, std::numeric_limits<std::int64_t>::max(),
+                 "Of the made-up queries");
+  settings.whole("--repeat", "N", asked->repeat, 1, kMaxRepeat,
+                 "Passes over each set; a query's least time counts");
+  settings.output("--json", "FILE", asked->json, "Also write the figures to a file");
+  Command command{
+      "leaf", "Answer and time exact leaf queries; exit code 1 where an answer is not its label",
+      "Example:\n  foretouch-bench leaf --queries sample-queries --repeat 10 --json leaf.json",
+      std::move(settings)};
+  command.run = [asked](const Settings&) { return run(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

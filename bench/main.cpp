@@ -1,5 +1,6 @@
 // bench/main.cpp: the `foretouch-bench` program.
 #include "bench/commands.h"
+#include "tools/program.h"
 
 int main(int argc, char** argv) {
   using namespace foretouch::tools;

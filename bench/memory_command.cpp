@@ -1,10 +1,9 @@
-#include "bench/memory_command.h"
-
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "articulated/try.h"
+#include "bench/commands.h"
 #include "bench/memory.h"
 #include "tools/inputs/policy_rules.h"
 #include "tools/settings/command_line.h"
@@ -19,6 +18,8 @@ ExitCode run(MemoryRequest request) {
   printOut(memoryTable(bench));
   return ExitCode::Done;
 }
+
+}  // namespace
 
 Command memoryCommand() {
   const auto request = std::make_shared<MemoryRequest>();
@@ -40,12 +41,6 @@ Command memoryCommand() {
                   std::move(settings)};
   command.run = [request](const Settings&) { return run(*request); };
   return command;
-}
-
-}  // namespace
-
-void addBenchMemoryCommand(CLI::App& bench, ExitCode& exit) {
-  addCommand(bench, memoryCommand(), exit);
 }
 
 }  // namespace foretouch::tools

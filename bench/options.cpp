@@ -1,11 +1,9 @@
 #include "bench/options.h"
 
-#include <algorithm>
-#include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "articulated/try.h"
@@ -15,42 +13,22 @@
 #include "bench/scene.h"
 #include "bench/surface.h"
 #include "lss/index.h"
-#include "tools/arguments.h"
-#include "tools/console.h"
 #include "tools/inputs/skin_file.h"
-#include "tools/settling.h"
+#include "tools/settings/clip_settings.h"
+#include "tools/settings/frame_settings.h"
+#include "tools/settings/words.h"
 
 namespace foretouch::tools {
 namespace {
 
-template <typename Value, typename Parse>
-Result<std::vector<Value>> parseEach(const std::string& text, const Parse& parse) {
-  std::vector<Value> values;
-  for (const std::string& part : splitAtCommas(text)) {
-    FORETOUCH_TRY(const auto value, parse(part));
-    values.push_back(value);
-  }
-  return values;
-}
+constexpr NumberRange kMetres{-kMaxCoordinate, kMaxCoordinate, "metres", "m"};
 
-/// One of two words, as toString() has them.
+/// Of a few values, as toString() has them.
 template <typename Value>
-Result<Value> parseWord(const std::string& option, const std::string& text,
-                        const std::array<Value, 2>& values) {
-  for (const Value value : values) {
-    if (text == toString(value)) return value;
-  }
-  return Error::in(option, ErrorCode::UnknownName,
-                   std::string("expected ") + toString(values[0]) + " or " + toString(values[1]) +
-                       ", found " + inQuotes(text));
-}
-
-/// Of volumes that only the reference room asks.
-std::optional<Rung> rungNamed(const std::string& word) {
-  for (const Rung rung : {Rung::Limb, Rung::Avatar, Rung::Ellipsoid}) {
-    if (word == toString(rung)) return rung;
-  }
-  return std::nullopt;
+Words<Value> wordsOf(std::initializer_list<Value> values) {
+  Words<Value> words;
+  for (const Value value : values) words.emplace_back(toString(value), value);
+  return words;
 }
 
 std::string nameOf(const std::string& path) {
@@ -64,157 +42,161 @@ bool hasMeshes(const Avatar& avatar) {
   return false;
 }
 
-void settleFiles(const BenchTexts& texts, Settling& settle, BenchFiles& files) {
-  files.scenePath = texts.scene;
-  files.motionPath = texts.motion;
-  files.avatarPath = texts.avatar;
-  files.mapPath = texts.map;
-  settle.into(files.sceneScale, parsePositive("--scene-scale", texts.sceneScale));
-  settle.into(files.motionScale, parsePositive("--clip-scale", texts.scale));
-  settle.into(files.sceneUp, parseUpAxis("--scene-up", texts.up));
-  settle.into(files.motionUp, parseUpAxis("--clip-up", texts.motionUp));
+/// The words of volumes that only the reference room asks, and those of fidelities.
+Words<std::string> touchingWords() {
+  Words<std::string> words;
+  for (const Rung rung : {Rung::Ellipsoid, Rung::Avatar, Rung::Limb}) {
+    words.emplace_back(toString(rung), toString(rung));
+  }
+  for (const auto& [word, unused] : fidelityWords()) words.emplace_back(word, word);
+  return words;
 }
 
-void settleWorkload(const BenchTexts& texts, Settling& settle, WorkloadRequest& workload) {
-  constexpr int kMaxSeed = 1'000'000'000;
-  int steps = 0, seed = 1;
-  settle.into(steps, parseCount("--steps", texts.steps, kMaxBenchSteps));
-  settle.into(seed, parseCount("--seed", texts.seed, kMaxSeed));
-  if (texts.choice == "mix") {
-    workload.choice = StepChoice::Mix;
-  } else if (texts.choice != "busy") {
-    settle.require(
-        Result<Done>(Error::in("--choice", ErrorCode::OutOfRange,
-                               "expected busy or mix, found " + inQuotes(texts.choice))));
+void takeTouching(BenchOptions& options) {
+  for (const Rung rung : {Rung::Ellipsoid, Rung::Avatar, Rung::Limb}) {
+    if (options.touching == toString(rung)) options.reference.rung = rung;
   }
-  settle.into(workload.mostPlacements, parseCount("--places", texts.places, kMaxBenchSteps));
-  settle.into(workload.floorY, parseNumber("--floor", texts.floor));
-  settle.into(workload.liftM, parseNumber("--lift", texts.lift));
-  workload.steps = countOf(steps);
-  workload.seed = static_cast<std::uint64_t>(seed);
-  if (texts.place.empty()) return;
-  Placement place;
-  settle.into(place, parsePlacement("--place", texts.place));
-  workload.place = place;
+  for (const auto& [word, fidelity] : fidelityWords()) {
+    if (options.touching == word) options.fidelity = fidelity;
+  }
+}
+
+/// Instead of a choice of places.
+void addOnePlace(Settings& settings, std::optional<Placement>& place) {
+  settings.parsed(
+      "--place", "X,Y,Z[,YAW]",
+      [&place](const std::string& text) -> Result<Done> {
+        FORETOUCH_TRY(place, placementFrom(text));
+        return Done{};
+      },
+      [] { return std::string(); },
+      "Every step at this one place, as replay has it, instead of a choice");
+}
+
+void addWorkload(Settings& settings, WorkloadRequest& workload) {
+  constexpr int kMaxSeed = 1'000'000'000;
+  addOnePlace(settings, workload.place);
+  settings.word("--choice", "busy|mix", workload.choice,
+                wordsOf({StepChoice::BusyPlaces, StepChoice::Mix}),
+                "All steps at busy places, or a mix of which hardly a step is easy");
+  settings.whole("--places", "N", workload.mostPlacements, 1, kMaxBenchSteps,
+                 "Places tried at most");
+  addFloor(settings, workload);
+  settings.whole("--steps", "N", workload.steps, 1, kMaxBenchSteps, "Steps, if so many are found");
+  settings.whole("--seed", "N", workload.seed, 1, kMaxSeed,
+                 "Of the places, and of the choice among their steps");
+}
+
+void addWays(Settings& settings, ReferenceOptions& reference) {
+  settings.word("--descent", "straight|by-need", reference.descent,
+                wordsOf({Descent::Straight, Descent::ByNeed}),
+                "Whether a query first checks if anything is within the avatar's reach");
+  settings.word("--leaves", "advancement|cubics", reference.leafMethod,
+                wordsOf({LeafMethod::Advancement, LeafMethod::Cubics}),
+                "How exact fidelity tests pairs of triangles; both keep the promise");
+  settings.word("--culler", "flat|point-query", reference.culler,
+                wordsOf({Culler::FlatBvh, Culler::PointQuery}),
+                "How to cull; both give the same answers");
 }
 
 }  // namespace
 
-Result<std::vector<double>> parsePositives(const std::string& option, const std::string& text) {
-  return parseEach<double>(text, [&](const auto& part) { return parsePositive(option, part); });
+void addBenchFiles(Settings& settings, BenchFiles& files) {
+  settings.path("--scene", "FILE", files.scenePath, "Scene; the bundled room if not given");
+  settings.path("--motion", "CLIP", files.motionPath, "Clip; the bundled one if not given");
+  settings.path("--avatar", "FILE", files.avatarPath,
+                "Avatar; one LSS a bone of the clip if not given");
+  settings.path("--map", "FILE", files.mapPath, "Joint names that differ, as for replay");
+  const Words<UpAxis> axes{{"y", UpAxis::Y}, {"z", UpAxis::Z}};
+  settings
+      .number("--clip-scale", "S", files.motionScale, kMetresPerUnit, "Metres per unit of the clip")
+      .formerly("--scale");
+  settings.word("--clip-up", "y|z", files.motionUp, axes, "Which axis of the clip points up")
+      .formerly("--motion-up");
+  settings.number("--scene-scale", "S", files.sceneScale, kMetresPerUnit,
+                  "Metres per unit of the scene");
+  settings.word("--scene-up", "y|z", files.sceneUp, axes, "Which axis of the scene points up")
+      .formerly("--up");
 }
 
-Result<std::vector<double>> parseTolerances(const std::string& option, const std::string& text) {
-  return parseEach<double>(text, [&](const auto& part) { return parseTolerance(option, part); });
+void addFigures(Settings& settings, std::string& json, std::string& csv, const char* inCsv) {
+  settings.output("--json", "FILE", json, "Also write the figures to a file");
+  settings.output("--csv", "FILE", csv, inCsv);
 }
 
-Result<std::vector<int>> parseCounts(const std::string& option, const std::string& text, int most) {
-  return parseEach<int>(text, [&](const auto& part) { return parseCount(option, part, most); });
+void addFloor(Settings& settings, WorkloadRequest& workload) {
+  settings.number("--floor", "Y", workload.floorY, kMetres, "Height (m) of the scene's floor");
+  settings.number("--lift", "M", workload.liftM, kMetres,
+                  "The clip's lowest point stays so far (m) above the floor");
 }
 
-Result<int> parseOwnOrCount(const std::string& option, const std::string& text, int most) {
-  return text == "own" ? Result<int>(0) : parseCount(option, text, most);
+void addProcessor(Settings& settings, std::optional<int>& processor) {
+  constexpr std::int64_t kMostProcessors = 4096;
+  settings.parsed(
+      "--processor", "N",
+      [&processor](const std::string& text) -> Result<Done> {
+        std::int64_t number = 0;
+        if (text == "any") {
+          processor.reset();
+        } else if (readNumber(text, number) && number >= 0 && number <= kMostProcessors) {
+          processor = static_cast<int>(number);
+        } else {
+          return Error::of(ErrorCode::OutOfRange,
+                           "expected a processor's number or any, found " + inQuotes(text));
+        }
+        return Done{};
+      },
+      [&processor] { return processor ? std::to_string(*processor) : "any"; },
+      "Keep to this processor");
 }
 
-Result<std::vector<Simd>> parseSimds(const std::string& option, const std::string& text) {
-  std::vector<Simd> supported = supportedSimd();
-  if (text == "widest") return std::vector<Simd>{supported.back()};
-  if (text == "all") {
-    std::reverse(supported.begin(), supported.end());
-    return supported;
-  }
-  return parseEach<Simd>(text, [&](const std::string& part) -> Result<Simd> {
-    const auto simd = simdFromName(part);
-    if (simd && std::find(supported.begin(), supported.end(), *simd) != supported.end()) {
-      return *simd;
-    }
-    std::string names;
-    for (const Simd one : supported) names += std::string(toString(one)) + ", ";
-    return Error::in(option, ErrorCode::UnknownName,
-                     "expected " + names + "all or widest, found " + inQuotes(part));
-  });
+Result<Done> keepTo(const std::optional<int>& processor) {
+  if (!processor || pinToProcessor(*processor)) return Done{};
+  return Error::in("--processor", ErrorCode::OutOfRange,
+                   "expected a processor that this process may use, found " +
+                       inQuotes(std::to_string(*processor)));
 }
 
-void addBenchOptions(CLI::App& command, BenchTexts& texts) {
-  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
-    command.add_option(name, text, help)->type_name(type)->capture_default_str();
-  };
-  option("--scene", texts.scene, "FILE", "Scene; the bundled room if not given");
-  option("--motion", texts.motion, "CLIP", "Clip; the bundled one if not given");
-  option("--avatar", texts.avatar, "FILE", "Avatar; one LSS a bone of the clip if not given");
-  option("--map", texts.map, "FILE", "Joint names that differ, as for replay");
-  option("--clip-scale,--scale", texts.scale, "S", "Metres per unit of the clip");
-  option("--clip-up,--motion-up", texts.motionUp, "y|z", "Which axis of the clip points up");
-  option("--scene-scale", texts.sceneScale, "S", "Metres per unit of the scene");
-  option("--scene-up,--up", texts.up, "y|z", "Which axis of the scene points up");
-  option("--place", texts.place, "X,Y,Z[,YAW]",
-         "Every step at this one place, as replay has it, instead of a choice");
-  option("--choice", texts.choice, "busy|mix",
-         "All steps at busy places, or a mix of which hardly a step is easy");
-  option("--places", texts.places, "N", "Places tried at most");
-  option("--floor", texts.floor, "Y", "Height (m) of the scene's floor");
-  option("--lift", texts.lift, "M", "The clip's lowest point stays so far (m) above the floor");
-  option("--steps", texts.steps, "N", "Steps, if so many are found");
-  option("--seed", texts.seed, "N", "Of the places, and of the choice among their steps");
-  option("--repeat", texts.repeat, "N", "How often to ask each step");
-  option("--processor", texts.processor, "N", "Keep to this processor");
-  option("--fidelity", texts.fidelity, "RUNG",
-         "What touches: ellipsoid, avatar, limb, link, exact or skinned");
-  option("--skin", texts.skin, "FILE",
-         "At skinned fidelity: the model that the avatar was made of");
-  option("--descent", texts.descent, "straight|by-need",
-         "Whether a query first checks if anything is within the avatar's reach");
-  option("--leaves", texts.leaves, "advancement|cubics",
-         "How exact fidelity tests pairs of triangles; both keep the promise");
-  option("--culler", texts.culler, "flat|point-query", "How to cull; both give the same answers");
-  option("--surface-triangles", texts.surfaceTriangles, "N",
-         "Of an avatar without meshes, at exact fidelity: the skins of its LSS");
-  option("--json", texts.json, "FILE", "Also write the figures to a file");
-  option("--csv", texts.csv, "FILE", "Also write one line per step to a file");
+void addLinks(Settings& settings, const char* option, int& links) {
+  settings.wholeOr("own", option, "N|own", links, kMaxBenchLinks,
+                   "Links: fewer are cut off, more are grown");
 }
 
-Result<BenchOptions> settled(const BenchTexts& texts) {
-  BenchOptions options;
-  Settling settle;
-  settleFiles(texts, settle, options.files);
-  settleWorkload(texts, settle, options.workload);
-  settle.into(options.timing.repeats, parseCount("--repeat", texts.repeat, kMaxBenchRepeats));
-  options.reference.rung = rungNamed(texts.fidelity);
-  if (!options.reference.rung) {
-    settle.into(options.fidelity, parseFidelity("--fidelity", texts.fidelity));
-  }
-  settle.into(options.reference.descent,
-              parseWord<Descent>("--descent", texts.descent, {Descent::Straight, Descent::ByNeed}));
-  settle.into(options.reference.leafMethod,
-              parseWord<LeafMethod>("--leaves", texts.leaves,
-                                    {LeafMethod::Advancement, LeafMethod::Cubics}));
-  settle.into(options.reference.culler,
-              parseWord<Culler>("--culler", texts.culler, {Culler::FlatBvh, Culler::PointQuery}));
-  int surfaceTriangles = 0;
-  settle.into(surfaceTriangles,
-              parseCount("--surface-triangles", texts.surfaceTriangles, kMaxBenchTriangles));
-  options.surfaceTriangles = static_cast<std::size_t>(surfaceTriangles);
-  if (texts.processor != "any") {
-    constexpr double kMostProcessors = 4096.0;
-    double processor = 0.0;
-    settle.into(processor, parseNumber("--processor", texts.processor));
-    options.processor = static_cast<int>(std::clamp(processor, -1.0, kMostProcessors));
-  }
-  options.jsonPath = texts.json;
-  options.csvPath = texts.csv;
+void addTriangles(Settings& settings, const char* option, std::size_t& triangles) {
+  settings.wholeOr("own", option, "N|own", triangles, kMaxBenchTriangles,
+                   "Triangles that the scene is divided into");
+}
+
+void addBenchOptions(Settings& settings, BenchOptions& options) {
+  addBenchFiles(settings, options.files);
+  addWorkload(settings, options.workload);
+  settings.whole("--repeat", "N", options.timing.repeats, 1, kMaxBenchRepeats,
+                 "How often to ask each step");
+  addProcessor(settings, options.processor);
+  settings.word("--fidelity", "NAME", options.touching, touchingWords(),
+                "What touches: link, exact or skinned; or volumes around several links, which only "
+                "benchmarks ask: ellipsoid, avatar or limb");
+  settings.path("--skin", "FILE", options.skinPath,
+                "At skinned fidelity: the model that the avatar was made of");
+  addWays(settings, options.reference);
+  settings.whole("--surface-triangles", "N", options.surfaceTriangles, 1, kMaxBenchTriangles,
+                 "Of an avatar without meshes, at exact fidelity: the skins of its LSS");
+  addFigures(settings, options.jsonPath, options.csvPath, "Also write one line per step to a file");
+}
+
+Result<Done> complete(BenchOptions& options) {
   options.command = ownCommandLine();
-  if (settle.error()) return *settle.error();
-  options.skinPath = texts.skin;
-  if ((options.fidelity == Fidelity::Skinned) == texts.skin.empty()) {
+  takeTouching(options);
+  if ((options.fidelity == Fidelity::Skinned) == options.skinPath.empty()) {
     return Error::in("--skin", ErrorCode::Mismatch,
                      "expected a model at skinned fidelity, and none at others");
   }
-  if (options.processor && !pinToProcessor(*options.processor)) {
-    return Error::in(
-        "--processor", ErrorCode::OutOfRange,
-        "expected a processor that this process may use, found " + inQuotes(texts.processor));
-  }
-  return options;
+  return keepTo(options.processor);
+}
+
+std::string usualData() {
+  const char* const fromEnvironment = std::getenv("FORETOUCH_DATA");
+  return fromEnvironment != nullptr ? fromEnvironment : "../shared/data";
 }
 
 Result<QueryOptions> queryFor(const BenchInputs& inputs, const BenchBody& body,

@@ -1,4 +1,4 @@
-// bench/options.h: the options that `foretouch-bench latency` and `scaling` share.
+// bench/options.h: what several commands of `foretouch-bench` are asked alike.
 #pragma once
 
 #include <optional>
@@ -9,31 +9,18 @@
 #include "bench/report.h"
 #include "bench/timing.h"
 #include "bench/workload.h"
-#include "lss/simd.h"
 #include "middleware/query/query.h"
 #include "tests/reference/reference_query.h"
-
-namespace CLI {
-class App;
-}
+#include "tools/settings/settings.h"
 
 namespace foretouch::tools {
 
-/// Values as typed in.
-struct BenchTexts {
-  std::string scene, motion, avatar, map, skin, place, json, csv;
-  std::string sceneScale = "1", scale = "1", up = "y", motionUp = "y", floor = "0", lift = "0.05";
-  std::string steps = "500", seed = "1", places = "1000", repeat = "9", processor = "any",
-              choice = "busy";
-  std::string fidelity = "link", descent = "straight", leaves = "advancement", culler = "flat",
-              surfaceTriangles = "20000";
-};
-
-/// The same, checked.
+/// What a benchmark of queries is about.
 struct BenchOptions {
   BenchFiles files;
   WorkloadRequest workload;
   TimingOptions timing;
+  std::string touching = "link";  ///< As named; complete() makes it the next two.
   Fidelity fidelity = Fidelity::Link;
   ReferenceOptions reference;
   std::size_t surfaceTriangles = 20'000;
@@ -46,23 +33,26 @@ struct BenchOptions {
 inline constexpr int kMaxBenchSteps = 1'000'000, kMaxBenchRepeats = 10'000;
 inline constexpr int kMaxBenchTriangles = 50'000'000, kMaxBenchAvatars = 10'000;
 
-void addBenchOptions(CLI::App& command, BenchTexts& texts);
-/// Errors name the option.
-[[nodiscard]] Result<BenchOptions> settled(const BenchTexts& texts);
+/// All of them; `options` outlives the settings. Then complete() them.
+void addBenchOptions(Settings& settings, BenchOptions& options);
+/// Fills in the command line and keeps to the processor. Errors name the option.
+[[nodiscard]] Result<Done> complete(BenchOptions& options);
 
-/// Comma-separated values, each by its own rule; at least one.
-[[nodiscard]] Result<std::vector<double>> parsePositives(const std::string& option,
-                                                         const std::string& text);
-[[nodiscard]] Result<std::vector<double>> parseTolerances(const std::string& option,
-                                                          const std::string& text);
-[[nodiscard]] Result<std::vector<int>> parseCounts(const std::string& option,
-                                                   const std::string& text, int most);
-/// A whole number from 1 to `most`, or 0 for the word "own".
-[[nodiscard]] Result<int> parseOwnOrCount(const std::string& option, const std::string& text,
-                                          int most);
-/// Names of lss/simd.h, "all" (widest first) or "widest". Refuses those that this processor lacks.
-[[nodiscard]] Result<std::vector<Simd>> parseSimds(const std::string& option,
-                                                   const std::string& text);
+/// --scene, --motion, --avatar, --map, and their units and axes.
+void addBenchFiles(Settings& settings, BenchFiles& files);
+/// --json and --csv.
+void addFigures(Settings& settings, std::string& json, std::string& csv, const char* inCsv);
+/// --floor and --lift.
+void addFloor(Settings& settings, WorkloadRequest& workload);
+/// --processor; then keepTo() it.
+void addProcessor(Settings& settings, std::optional<int>& processor);
+[[nodiscard]] Result<Done> keepTo(const std::optional<int>& processor);
+/// --links and --triangles of the scene: 0 for the word "own".
+void addLinks(Settings& settings, const char* option, int& links);
+void addTriangles(Settings& settings, const char* option, std::size_t& triangles);
+
+/// $FORETOUCH_DATA, else ../shared/data.
+[[nodiscard]] std::string usualData();
 
 /// The options of a body's query for the fidelity: at exact fidelity with its triangles, from the
 /// avatar file if the body is that avatar and it has some, else the skins of its LSS; at skinned

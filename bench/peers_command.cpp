@@ -1,94 +1,69 @@
-#include "bench/peers_command.h"
-
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "articulated/try.h"
 #include "assets/import/scene_import.h"
 #include "assets/text_file.h"
+#include "bench/commands.h"
 #include "bench/inputs.h"
+#include "bench/lists.h"
 #include "bench/machine.h"
+#include "bench/options.h"
 #include "bench/peers.h"
 #include "bench/report.h"
 #include "bench/scene.h"
 #include "lss/index.h"
-#include "tools/arguments.h"
 #include "tools/inputs/example_folder.h"
 #include "tools/progress.h"
+#include "tools/results_output.h"
+#include "tools/settings/frame_settings.h"
 
 namespace foretouch::tools {
 namespace {
 
 constexpr int kMostMotions = 1'000'000, kMostRounds = 1'000, kMostTriangles = 5'000'000;
 
-struct PeersTexts {
-  std::string scene, sceneScale = "1", up = "y", triangles = "330000";
-  std::string motions = "1000", rounds = "3", peerRounds = "1";
-  std::vector<std::string> sets;
-  std::uint64_t seed = 1;
+struct PeersRequest {
+  PeersPlan plan;
+  std::vector<std::string> sets;  ///< Empty: all.
+  std::string scenePath;
+  double sceneScale = 1.0;
+  UpAxis sceneUp = UpAxis::Y;
+  std::size_t triangles = 330'000;
   std::string json, csv;
 };
 
-struct PeersRequest {
-  PeersPlan plan;
-  std::string scenePath;
-  SceneImportOptions import;
-  std::size_t triangles = 0;
-};
-
-Result<std::vector<MotionSetKind>> setsNamed(const std::vector<std::string>& names) {
-  if (names.empty()) return std::vector<MotionSetKind>(kMotionSets.begin(), kMotionSets.end());
-  std::vector<MotionSetKind> kinds;
-  for (const std::string& name : names) {
-    const std::size_t before = kinds.size();
-    for (const MotionSetKind& kind : kMotionSets) {
-      if (name == kind.name) kinds.push_back(kind);
-    }
-    if (kinds.size() == before) {
-      return Error::in("--sets", ErrorCode::UnknownName,
-                       "expected S1, S2 or S5, found " + inQuotes(name));
-    }
-  }
-  return kinds;
+std::vector<std::string> setNames() {
+  std::vector<std::string> names;
+  for (const MotionSetKind& kind : kMotionSets) names.emplace_back(kind.name);
+  return names;
 }
 
-Result<Done> parseScene(const PeersTexts& texts, PeersRequest& request) {
-  FORETOUCH_TRY(const auto scale, parsePositive("--scene-scale", texts.sceneScale));
-  FORETOUCH_TRY(const auto up, parseUpAxis("--scene-up", texts.up));
-  FORETOUCH_TRY(const auto triangles, parseCount("--triangles", texts.triangles, kMostTriangles));
-  request.import = importOf(scale, up);
-  request.triangles = countOf(triangles);
-  request.scenePath = texts.scene;
-  if (!texts.scene.empty()) return Done{};
+Result<Done> complete(PeersRequest& request) {
+  for (const std::string& output : {request.json, request.csv}) {
+    FORETOUCH_CHECK(checkIsNoInput(output, {request.scenePath}));
+  }
+  const std::vector<std::string> names = request.sets.empty() ? setNames() : request.sets;
+  for (const std::string& name : names) {
+    for (const MotionSetKind& kind : kMotionSets) {
+      if (name == kind.name) request.plan.sets.push_back(kind);
+    }
+  }
+  if (!request.scenePath.empty()) return Done{};
   FORETOUCH_TRY(const auto folder, exampleFolder());
   request.scenePath = folder + "/room.obj";
   return Done{};
 }
 
-Result<PeersRequest> parse(const PeersTexts& texts) {
-  PeersRequest request;
-  for (const std::string& output : {texts.json, texts.csv}) {
-    FORETOUCH_CHECK(checkIsNoInput(output, {texts.scene}));
-  }
-  FORETOUCH_TRY(auto sets, setsNamed(texts.sets));
-  FORETOUCH_TRY(const auto motions, parseCount("--motions", texts.motions, kMostMotions));
-  const auto rounds = parseCount("--rounds", texts.rounds, kMostRounds);
-  if (!rounds.ok()) return rounds.error();
-  FORETOUCH_TRY(const auto peerRounds, parseCount("--peer-rounds", texts.peerRounds, kMostRounds));
-  FORETOUCH_CHECK(parseScene(texts, request));
-  request.plan = {
-      std::move(sets), static_cast<std::size_t>(motions), texts.seed, {rounds.value(), peerRounds}};
-  return request;
-}
-
 Result<Scene> loadScene(const PeersRequest& request) {
-  FORETOUCH_TRY(auto imported, importScene(request.scenePath, request.import));
+  FORETOUCH_TRY(auto imported,
+                importScene(request.scenePath, importOf(request.sceneScale, request.sceneUp)));
   auto scene = Scene::build(subdivided(std::move(imported.scene), request.triangles));
   if (!scene.ok()) return inFile(scene.error(), request.scenePath);
   return scene;
@@ -116,14 +91,14 @@ BenchReport reportOf(const PeersRequest& request, const Scene& scene,
   return report;
 }
 
-ExitCode run(const PeersTexts& texts) {
+ExitCode run(PeersRequest& request) {
   if (!hasPeers()) {
     printError(
         "bench peers: this program was built without FCL and Bullet; install libfcl-dev and "
         "libbullet-dev and build again with -DFORETOUCH_PEERS=ON");
     return ExitCode::BadInput;
   }
-  FORETOUCH_TRY_OR(failed, const auto request, parse(texts));
+  FORETOUCH_CHECK_OR(failed, complete(request));
   FORETOUCH_TRY_OR(failed, const auto scene, loadScene(request));
   std::unique_ptr<ProgressBar> bar;
   const auto sets = comparePeers(scene, request.plan, [&](std::int64_t done, std::int64_t total) {
@@ -134,7 +109,7 @@ ExitCode run(const PeersTexts& texts) {
   if (!sets.ok()) return failed(inFile(sets.error(), request.scenePath));
   const BenchReport report = reportOf(request, scene, sets.value());
   FORETOUCH_CHECK_OR(failed,
-                     writeReport(report, texts.json, rawPeerTable(sets.value()), texts.csv));
+                     writeReport(report, request.json, rawPeerTable(sets.value()), request.csv));
   printOut(reportText(report));
   const std::size_t broken = brokenPromises(sets.value());
   if (broken == 0) return ExitCode::Done;
@@ -142,41 +117,44 @@ ExitCode run(const PeersTexts& texts) {
   return ExitCode::CheckSaysNo;
 }
 
-void addOptions(CLI::App& command, PeersTexts& texts) {
-  const auto option = [&](const char* name, std::string& value, const char* help,
-                          const char* type) {
-    command.add_option(name, value, help)->type_name(type)->capture_default_str();
-  };
-  option("--scene", texts.scene, "Scene instead of the bundled room", "FILE");
-  option("--scene-scale", texts.sceneScale, "Metres per unit of the scene", "M");
-  option("--scene-up,--up", texts.up, "Which axis of the scene is up: y or z", "AXIS");
-  option("--triangles", texts.triangles, "Split the scene's longest edges until it has so many",
-         "N");
-  command
-      .add_option("--sets", texts.sets,
-                  "Sets of motions, default all: S1 a forearm that moves and turns, S2 one that "
-                  "only moves, S5 a finger that moves and turns")
-      ->type_name("NAME...");
-  option("--motions", texts.motions, "Motions of a set, half of them colliding", "N");
-  command.add_option("--seed", texts.seed, "Of the motions")->type_name("S")->capture_default_str();
-  option("--rounds", texts.rounds, "Rounds of Foretouch; a motion's median time counts", "N");
-  option("--peer-rounds", texts.peerRounds, "The same of the peers, which are slower", "N");
-  option("--json", texts.json, "Also write the tables to a file", "FILE");
-  option("--csv", texts.csv, "Also write every motion and solver to a file", "FILE");
+Settings settingsOf(PeersRequest& request) {
+  Settings settings;
+  settings.path("--scene", "FILE", request.scenePath, "Scene instead of the bundled room");
+  settings.number("--scene-scale", "M", request.sceneScale, kMetresPerUnit,
+                  "Metres per unit of the scene");
+  settings
+      .word("--scene-up", "y|z", request.sceneUp, {{"y", UpAxis::Y}, {"z", UpAxis::Z}},
+            "Which axis of the scene is up")
+      .formerly("--up");
+  settings.whole("--triangles", "N", request.triangles, 1, kMostTriangles,
+                 "Split the scene's longest edges until it has so many");
+  addWords(settings, "--sets", "NAME,...", request.sets, setNames(),
+           "Sets of motions; all if not given: S1 a forearm that moves and turns, S2 one that only "
+           "moves, S5 a finger that moves and turns");
+  settings.whole("--motions", "N", request.plan.motions, 1, kMostMotions,
+                 "Motions of a set, half of them colliding");
+  settings.whole("--seed", "S", request.plan.seed, 0, std::numeric_limits<std::int64_t>::max(),
+                 "Of the motions");
+  settings.whole("--rounds", "N", request.plan.rounds.own, 1, kMostRounds,
+                 "Rounds of Foretouch; a motion's median time counts");
+  settings.whole("--peer-rounds", "N", request.plan.rounds.peers, 1, kMostRounds,
+                 "The same of the peers, which are slower");
+  addFigures(settings, request.json, request.csv, "Also write every motion and solver to a file");
+  return settings;
 }
 
 }  // namespace
 
-void addBenchPeersCommand(CLI::App& bench, ExitCode& exit) {
-  const auto texts = std::make_shared<PeersTexts>();
-  CLI::App* const peers = bench.add_subcommand(
+Command peersCommand() {
+  const auto request = std::make_shared<PeersRequest>();
+  Command command{
       "peers",
       "Foretouch beside FCL and Bullet on the same motions; exit code 1 where Foretouch misses a "
-      "contact or reports it late");
-  addOptions(*peers, *texts);
-  peers->footer(
-      "Takes a few minutes.\nExample:\n  foretouch-bench peers --json peers.json --csv peers.csv");
-  peers->callback([texts, &exit] { exit = run(*texts); });
+      "contact or reports it late",
+      "Takes a few minutes.\nExample:\n  foretouch-bench peers --json peers.json --csv peers.csv",
+      settingsOf(*request)};
+  command.run = [request](const Settings&) { return run(*request); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -1,54 +1,48 @@
-#include "bench/trade_command.h"
-
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
+#include "bench/commands.h"
+#include "bench/lists.h"
 #include "bench/machine.h"
 #include "bench/options.h"
 #include "bench/trade.h"
 #include "bench/trade/trade_page.h"
 #include "bench/trade/trade_tables.h"
-#include "tools/arguments.h"
-#include "tools/settling.h"
+#include "tools/results_output.h"
+#include "tools/settings/frame_settings.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 namespace {
 
-struct TradeTexts {
-  std::string scenes, clips, sceneScales = "1", scales = "1", sceneUps = "y", clipUps = "y";
-  std::string tolerances, rates, seconds, places, passes, judged = "40";
-  std::string floor = "0", lift = "0.05", seed = "1", processor = "any";
-  std::string surfaceTriangles = "20000";
+struct AskedTrade {
+  TradeRequest request;
+  std::vector<std::string> scenes, clips;  ///< Empty: the bundled one.
+  std::vector<double> sceneScales{1.0}, clipScales{1.0};
+  std::vector<UpAxis> sceneUps{UpAxis::Y}, clipUps{UpAxis::Y};
+  std::optional<int> processor;
   std::string json, csv, html, markdown;
   bool quick = false;
 };
 
-/// Short lists for a quick run.
-void fillIn(TradeTexts& texts) {
-  const auto usual = [&](std::string& text, const char* full, const char* quick) {
-    if (text.empty()) text = texts.quick ? quick : full;
+/// Short lists where the command line has none.
+void makeQuick(const Settings& settings, TradeRequest& request) {
+  const auto quick = [&](const char* option, auto& place, auto value) {
+    if (!settings.isGiven(option)) place = std::move(value);
   };
-  usual(texts.tolerances, "0.1,0.01,0.001,0.0001,0.00001,0.000001,0.0000001", "0.01,0.001,0.00001");
-  usual(texts.rates, "1,5,10,30,60,120", "5,30");
-  usual(texts.seconds, "4", "2");
-  usual(texts.places, "3", "1");
-  usual(texts.passes, "3", "2");
-}
-
-/// The comma-separated files; by default the bundled one.
-Result<std::vector<std::string>> parseFiles(const std::string& option, const std::string& names) {
-  std::vector<std::string> files =
-      names.empty() ? std::vector<std::string>{""} : splitAtCommas(names);
-  if (names.empty() || std::find(files.begin(), files.end(), "") == files.end()) return files;
-  return Error::in(option, ErrorCode::Empty, "expected a file between every two commas");
+  quick("--tolerance", request.tolerances, std::vector<double>{1e-2, 1e-3, 1e-5});
+  quick("--rate", request.ratesHz, std::vector<double>{5, 30});
+  quick("--seconds", request.seconds, 2.0);
+  quick("--places", request.places, 1);
+  quick("--passes", request.passes, 2);
 }
 
 /// One value for all of `count` files, or one per file.
@@ -62,22 +56,6 @@ Result<std::vector<T>> oneEach(const std::string& option, std::vector<T> values,
                                values.size()));
 }
 
-Result<std::vector<double>> parseScales(const std::string& option, const std::string& text,
-                                        std::size_t count) {
-  FORETOUCH_TRY(auto scales, parsePositives(option, text));
-  return oneEach(option, std::move(scales), count);
-}
-
-Result<std::vector<UpAxis>> parseUpAxes(const std::string& option, const std::string& text,
-                                        std::size_t count) {
-  std::vector<UpAxis> axes;
-  for (const std::string& word : splitAtCommas(text)) {
-    FORETOUCH_TRY(const auto axis, parseUpAxis(option, word));
-    axes.push_back(axis);
-  }
-  return oneEach(option, std::move(axes), count);
-}
-
 /// The one of `values` nearest to `wanted` by ratio.
 double nearestOf(const std::vector<double>& values, double wanted) {
   return *std::min_element(values.begin(), values.end(), [&](double x, double y) {
@@ -85,17 +63,15 @@ double nearestOf(const std::vector<double>& values, double wanted) {
   });
 }
 
-void settleWorlds(const TradeTexts& texts, Settling& settle, TradeRequest& request) {
-  std::vector<std::string> scenes, clips;
-  std::vector<double> sceneScales, clipScales;
-  std::vector<UpAxis> sceneUps, clipUps;
-  settle.into(scenes, parseFiles("--scenes", texts.scenes));
-  settle.into(clips, parseFiles("--clips", texts.clips));
-  settle.into(sceneScales, parseScales("--scene-scales", texts.sceneScales, scenes.size()));
-  settle.into(sceneUps, parseUpAxes("--scene-ups", texts.sceneUps, scenes.size()));
-  settle.into(clipScales, parseScales("--clip-scales", texts.scales, clips.size()));
-  settle.into(clipUps, parseUpAxes("--clip-ups", texts.clipUps, clips.size()));
-  if (settle.error()) return;
+Result<Done> addWorlds(AskedTrade& asked) {
+  std::vector<std::string> scenes = asked.scenes, clips = asked.clips;
+  if (scenes.empty()) scenes = {""};
+  if (clips.empty()) clips = {""};
+  FORETOUCH_TRY(const auto sceneScales,
+                oneEach("--scene-scales", asked.sceneScales, scenes.size()));
+  FORETOUCH_TRY(const auto sceneUps, oneEach("--scene-ups", asked.sceneUps, scenes.size()));
+  FORETOUCH_TRY(const auto clipScales, oneEach("--clip-scales", asked.clipScales, clips.size()));
+  FORETOUCH_TRY(const auto clipUps, oneEach("--clip-ups", asked.clipUps, clips.size()));
   for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
     for (std::size_t clip = 0; clip < clips.size(); ++clip) {
       BenchFiles files;
@@ -105,9 +81,10 @@ void settleWorlds(const TradeTexts& texts, Settling& settle, TradeRequest& reque
       files.motionPath = clips[clip];
       files.motionScale = clipScales[clip];
       files.motionUp = clipUps[clip];
-      request.worlds.push_back(std::move(files));
+      asked.request.worlds.push_back(std::move(files));
     }
   }
+  return Done{};
 }
 
 Result<Done> checkTolerances(const std::vector<double>& tolerances) {
@@ -120,37 +97,24 @@ Result<Done> checkTolerances(const std::vector<double>& tolerances) {
   return Done{};
 }
 
-Result<TradeRequest> settledTrade(TradeTexts texts) {
-  constexpr int kMaxSeed = 1'000'000'000, kMostPlaces = 1000, kMostJudged = 100'000;
+Result<Done> complete(const Settings& settings, AskedTrade& asked) {
   constexpr std::size_t kWorkloadSteps = 60;
   constexpr int kWorkloadPlaces = 200;
   constexpr double kBaseTolerance = 1e-3, kBaseRateHz = 5.0;
-  fillIn(texts);
-  TradeRequest request;
-  Settling settle;
-  settleWorlds(texts, settle, request);
-  settle.into(request.tolerances, parseTolerances("--tolerance", texts.tolerances));
-  settle.require(checkTolerances(request.tolerances));
-  settle.into(request.ratesHz, parsePositives("--rate", texts.rates));
-  settle.into(request.seconds, parsePositive("--seconds", texts.seconds));
-  settle.into(request.places, parseCount("--places", texts.places, kMostPlaces));
-  settle.into(request.passes, parseCount("--passes", texts.passes, kMaxBenchRepeats));
-  settle.into(request.judged, parseCount("--judged", texts.judged, kMostJudged));
-  settle.into(request.workload.floorY, parseNumber("--floor", texts.floor));
-  settle.into(request.workload.liftM, parseNumber("--lift", texts.lift));
-  int seed = 1, surfaceTriangles = 0;
-  settle.into(seed, parseCount("--seed", texts.seed, kMaxSeed));
-  settle.into(surfaceTriangles,
-              parseCount("--surface-triangles", texts.surfaceTriangles, kMaxBenchTriangles));
-  if (settle.error()) return *settle.error();
-  request.surfaceTriangles = static_cast<std::size_t>(surfaceTriangles);
-  request.workload.seed = static_cast<std::uint64_t>(seed);
+  TradeRequest& request = asked.request;
+  if (asked.quick) makeQuick(settings, request);
+  FORETOUCH_CHECK(addWorlds(asked));
+  FORETOUCH_CHECK(checkTolerances(request.tolerances));
+  for (const std::string& output : {asked.json, asked.csv, asked.html, asked.markdown}) {
+    FORETOUCH_CHECK(checkIsNoInput(output, asked.scenes));
+    FORETOUCH_CHECK(checkIsNoInput(output, asked.clips));
+  }
   request.workload.steps = kWorkloadSteps;
   request.workload.mostPlacements = kWorkloadPlaces;
   request.baseTolerance = nearestOf(request.tolerances, kBaseTolerance);
   request.baseRateHz = nearestOf(request.ratesHz, kBaseRateHz);
   request.command = ownCommandLine();
-  return request;
+  return keepTo(asked.processor);
 }
 
 Result<Done> writeText(const std::string& path, const std::string& text) {
@@ -160,47 +124,58 @@ Result<Done> writeText(const std::string& path, const std::string& text) {
   return written.ok() ? written : inFile(written.error(), path);
 }
 
-Result<Done> writeAll(const TradeTexts& texts, const MeasuredTrade& bench) {
+Result<Done> writeAll(const AskedTrade& asked, const MeasuredTrade& bench) {
   const BenchTable raw = tradeTable(bench.rows, "rows", "Everything that was measured");
   BenchReport whole = bench.report;
   whole.tables.push_back(raw);
-  Settling settle;
-  settle.require(writeReport(whole, texts.json, raw, texts.csv));
-  if (!texts.html.empty()) settle.require(writeText(texts.html, tradePage(bench)));
-  if (!texts.markdown.empty()) {
-    settle.require(writeText(texts.markdown, reportMarkdown(bench.report)));
-  }
-  if (settle.error()) return *settle.error();
-  return Done{};
+  FORETOUCH_CHECK(writeReport(whole, asked.json, raw, asked.csv));
+  if (!asked.html.empty()) FORETOUCH_CHECK(writeText(asked.html, tradePage(bench)));
+  if (asked.markdown.empty()) return Done{};
+  return writeText(asked.markdown, reportMarkdown(bench.report));
 }
 
-Result<Done> checkOutputs(const TradeTexts& texts, const TradeRequest& request) {
-  std::vector<std::string> inputs;
-  for (const BenchFiles& files : request.worlds) {
-    inputs.push_back(files.scenePath);
-    inputs.push_back(files.motionPath);
-  }
-  for (const std::string& output : {texts.json, texts.csv, texts.html, texts.markdown}) {
-    FORETOUCH_CHECK(checkIsNoInput(output, inputs));
-  }
-  return Done{};
-}
-
-ExitCode run(const TradeTexts& texts) {
-  FORETOUCH_TRY_OR(failed, const auto request, settledTrade(texts));
-  FORETOUCH_CHECK_OR(failed, checkOutputs(texts, request));
-  if (texts.processor != "any") {
-    const auto processor = parseNumber("--processor", texts.processor);
-    if (!processor.ok() || !pinToProcessor(static_cast<int>(processor.value()))) {
-      return failed(Error::in(
-          "--processor", ErrorCode::OutOfRange,
-          "expected a processor that this process may use, found " + inQuotes(texts.processor)));
-    }
-  }
-  FORETOUCH_TRY_OR(failed, const auto bench, measureTrade(request));
-  FORETOUCH_CHECK_OR(failed, writeAll(texts, bench));
+ExitCode run(const Settings& settings, AskedTrade& asked) {
+  FORETOUCH_CHECK_OR(failed, complete(settings, asked));
+  FORETOUCH_TRY_OR(failed, const auto bench, measureTrade(asked.request));
+  FORETOUCH_CHECK_OR(failed, writeAll(asked, bench));
   printOut(reportText(bench.report));
   return ExitCode::Done;
+}
+
+void addFiles(Settings& settings, AskedTrade& asked) {
+  addWords(settings, "--scenes", "FILE,...", asked.scenes, {},
+           "Scenes; the bundled room if not given");
+  addWords(settings, "--clips", "FILE,...", asked.clips, {}, "Clips; the bundled one if not given");
+  addNumbers(settings, "--scene-scales", "S,...", asked.sceneScales, kMetresPerUnit,
+             "Metres per unit, one for all or one each");
+  addNumbers(settings, "--clip-scales", "S,...", asked.clipScales, kMetresPerUnit,
+             "Of the clips, one for all or one each")
+      .formerly("--scales");
+  addUpAxes(settings, "--scene-ups", "y|z,...", asked.sceneUps,
+            "Up axes of scenes, one for all or one each");
+  addUpAxes(settings, "--clip-ups", "y|z,...", asked.clipUps,
+            "Up axes of clips, one for all or one each")
+      .formerly("--ups");
+}
+
+void addEffort(Settings& settings, TradeRequest& request) {
+  constexpr int kMaxSeed = 1'000'000'000, kMostPlaces = 1000, kMostJudged = 100'000;
+  request.tolerances = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
+  request.ratesHz = {1, 5, 10, 30, 60, 120};
+  addNumbers(settings, "--tolerance", "M,...", request.tolerances, kToleranceRange,
+             "Tolerances (m)");
+  addNumbers(settings, "--rate", "HZ,...", request.ratesHz, kAboveZero, "Poses a second");
+  settings.number("--seconds", "S", request.seconds, kAboveZero, "Of the clip at each place");
+  settings.whole("--places", "N", request.places, 1, kMostPlaces,
+                 "Places with contacts in each scene");
+  settings.whole("--passes", "N", request.passes, 1, kMaxBenchRepeats,
+                 "Of every strategy; a step's least time counts");
+  settings.whole("--judged", "N", request.judged, 1, kMostJudged,
+                 "Links per scene and clip that an independent judge checks");
+  addFloor(settings, request.workload);
+  settings.whole("--seed", "N", request.workload.seed, 1, kMaxSeed, "Of the places");
+  settings.whole("--surface-triangles", "N", request.surfaceTriangles, 1, kMaxBenchTriangles,
+                 "Of an avatar without meshes, at exact fidelity: the skins of its LSS");
 }
 
 constexpr char kFooter[] =
@@ -212,40 +187,22 @@ Examples:
 
 }  // namespace
 
-void addBenchTradeCommand(CLI::App& bench, ExitCode& exit) {
-  const auto texts = std::make_shared<TradeTexts>();
-  CLI::App* const command = bench.add_subcommand(
-      "trade", "What speed costs in accuracy: strategies, tolerances and rates against the truth");
-  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
-    command->add_option(name, text, help)->type_name(type)->capture_default_str();
-  };
-  option("--scenes", texts->scenes, "FILE,...", "Scenes; the bundled room if not given");
-  option("--clips", texts->clips, "FILE,...", "Clips; the bundled one if not given");
-  option("--scene-scales", texts->sceneScales, "S,...", "Metres per unit, one for all or one each");
-  option("--clip-scales,--scales", texts->scales, "S,...", "Of the clips, one for all or one each");
-  option("--scene-ups", texts->sceneUps, "y|z,...", "Up axes of scenes, one for all or one each");
-  option("--clip-ups,--ups", texts->clipUps, "y|z,...",
-         "Up axes of clips, one for all or one each");
-  option("--tolerance", texts->tolerances, "M,...", "Tolerances (m)");
-  option("--rate", texts->rates, "HZ,...", "Poses a second");
-  option("--seconds", texts->seconds, "S", "Of the clip at each place");
-  option("--places", texts->places, "N", "Places with contacts in each scene");
-  option("--passes", texts->passes, "N", "Of every strategy; a step's least time counts");
-  option("--judged", texts->judged, "N",
-         "Links per scene and clip that an independent judge checks");
-  option("--floor", texts->floor, "Y", "Height (m) of the scene's floor");
-  option("--lift", texts->lift, "M", "The clip's lowest point stays so far (m) above the floor");
-  option("--seed", texts->seed, "N", "Of the places");
-  option("--processor", texts->processor, "N", "Keep to this processor");
-  option("--surface-triangles", texts->surfaceTriangles, "N",
-         "Of an avatar without meshes, at exact fidelity: the skins of its LSS");
-  option("--json", texts->json, "FILE", "Also write the figures to a file");
-  option("--csv", texts->csv, "FILE", "Also write one line per setting to a file");
-  option("--html", texts->html, "FILE", "Also write a page with plots, which needs nothing else");
-  option("--markdown", texts->markdown, "FILE", "Also write the tables as Markdown");
-  command->add_flag("--quick", texts->quick, "Few values and steps: a trial of seconds");
-  command->footer(kFooter);
-  command->callback([texts, &exit] { exit = run(*texts); });
+Command tradeCommand() {
+  const auto asked = std::make_shared<AskedTrade>();
+  Settings settings;
+  addFiles(settings, *asked);
+  addEffort(settings, asked->request);
+  addProcessor(settings, asked->processor);
+  addFigures(settings, asked->json, asked->csv, "Also write one line per setting to a file");
+  settings.output("--html", "FILE", asked->html,
+                  "Also write a page with plots, which needs nothing else");
+  settings.output("--markdown", "FILE", asked->markdown, "Also write the tables as Markdown");
+  settings.flag("--quick", asked->quick, "Few values and steps: a trial of seconds");
+  Command command{
+      "trade", "What speed costs in accuracy: strategies, tolerances and rates against the truth",
+      kFooter, std::move(settings)};
+  command.run = [asked](const Settings& given) { return run(given, *asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

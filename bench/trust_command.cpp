@@ -1,36 +1,30 @@
-#include "bench/trust_command.h"
-
 #include <memory>
 #include <string>
-
-#include <CLI/CLI.hpp>
+#include <utility>
 
 #include "articulated/try.h"
+#include "bench/commands.h"
+#include "bench/crowds.h"
 #include "bench/machine.h"
+#include "bench/options.h"
 #include "bench/private_network.h"
 #include "bench/trust.h"
-#include "tools/arguments.h"
-#include "tools/settling.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 namespace {
 
-struct TrustTexts {
-  std::string seconds = "5", place = "0,0,0,0", hardened, json, csv;
+struct AskedTrust {
+  TrustRequest request;
+  std::string json, csv;
 };
 
-ExitCode runTrust(const TrustTexts& texts) {
-  TrustRequest request;
-  Settling settle;
-  settle.into(request.seconds, parsePositive("--seconds", texts.seconds));
-  settle.into(request.place, parsePlacement("--place", texts.place));
-  if (settle.error()) return failed(*settle.error());
-  request.hardened = texts.hardened;
-  request.command = ownCommandLine();
+ExitCode run(AskedTrust& asked) {
+  asked.request.command = ownCommandLine();
   FORETOUCH_CHECK_OR(failed, enterPrivateNetwork());
-  FORETOUCH_TRY_OR(failed, const auto bench, measureTrust(request));
+  FORETOUCH_TRY_OR(failed, const auto bench, measureTrust(asked.request));
   const BenchReport& report = bench.report;
-  FORETOUCH_CHECK_OR(failed, writeReport(report, texts.json, report.tables.front(), texts.csv));
+  FORETOUCH_CHECK_OR(failed, writeReport(report, asked.json, report.tables.front(), asked.csv));
   printOut(reportText(report));
   if (bench.lost == 0) return ExitCode::Done;
   printError("true poses were lost beside a flood: see the first table");
@@ -39,25 +33,22 @@ ExitCode runTrust(const TrustTexts& texts) {
 
 }  // namespace
 
-void addBenchTrustCommand(CLI::App& bench, ExitCode& exit) {
-  const auto texts = std::make_shared<TrustTexts>();
-  CLI::App* const command = bench.add_subcommand(
-      "trust",
-      "Floods, slow clients and refused poses beside a true sender; exit code 1 where a "
-      "true pose is lost");
-  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
-    command->add_option(name, text, help)->type_name(type)->capture_default_str();
-  };
-  option("--seconds", texts->seconds, "S", "Of each row");
-  option("--place", texts->place, "X,Y,Z[,YAW]", "Where the bundled dancer stands in the room");
-  option("--hardened", texts->hardened, "FOLDER",
-         "A hardened build, build/packages say: also what that costs queries and services");
-  option("--json", texts->json, "FILE", "Also write the figures to a file");
-  option("--csv", texts->csv, "FILE", "Also write the first table to a file");
-  command->footer(
-      "Examples:\n  foretouch-bench trust --seconds 5 --json trust.json\n"
-      "  foretouch-bench trust --hardened build/packages");
-  command->callback([texts, &exit] { exit = runTrust(*texts); });
+Command trustCommand() {
+  const auto asked = std::make_shared<AskedTrust>();
+  Settings settings;
+  settings.number("--seconds", "S", asked->request.seconds, kAboveZero, "Of each row");
+  addDancerPlace(settings, asked->request.place);
+  settings.path("--hardened", "FOLDER", asked->request.hardened,
+                "A hardened build, build/packages say: also what that costs queries and services");
+  addFigures(settings, asked->json, asked->csv, "Also write the first table to a file");
+  Command command{"trust",
+                  "Floods, slow clients and refused poses beside a true sender; exit code 1 where "
+                  "a true pose is lost",
+                  "Examples:\n  foretouch-bench trust --seconds 5 --json trust.json\n"
+                  "  foretouch-bench trust --hardened build/packages",
+                  std::move(settings)};
+  command.run = [asked](const Settings&) { return run(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

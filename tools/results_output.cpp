@@ -7,10 +7,20 @@
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
-#include "tools/arguments.h"
 #include "tools/interrupt.h"
 
 namespace foretouch::tools {
+
+Result<Done> checkIsNoInput(const std::string& output, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code missing;
+    if (!input.empty() && std::filesystem::equivalent(output, input, missing)) {
+      return Error::in(output, ErrorCode::FileUnwritable,
+                       "is an input as well; expected another file to write");
+    }
+  }
+  return Done{};
+}
 
 Result<Done> checkOutput(const std::string& output, const std::vector<std::string>& inputs) {
   FORETOUCH_CHECK(checkIsNoInput(output, inputs));

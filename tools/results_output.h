@@ -8,6 +8,10 @@
 
 namespace foretouch::tools {
 
+/// Refuses an output that is one of the inputs. Skips empty paths.
+[[nodiscard]] Result<Done> checkIsNoInput(const std::string& output,
+                                          const std::vector<std::string>& inputs);
+
 /// Refuses an output that is one of the inputs, or is not writable, before any work.
 [[nodiscard]] Result<Done> checkOutput(const std::string& output,
                                        const std::vector<std::string>& inputs);

@@ -14,7 +14,6 @@
 #include "assets/import/model_import.h"
 #include "assets/model/model_avatar.h"
 #include "assets/text_file.h"
-#include "tools/arguments.h"
 #include "tools/audit/audits.h"
 #include "tools/audit/avatar_files.h"
 #include "tools/audit/surface_audit.h"

@@ -20,7 +20,6 @@
 #include "assets/json_writer.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
-#include "tools/arguments.h"
 #include "tools/audit/audits.h"
 #include "tools/inputs/joint_map.h"
 #include "tools/inputs/motion_file.h"

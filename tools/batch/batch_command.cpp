@@ -16,7 +16,6 @@
 #include "articulated/try.h"
 #include "assets/json_writer.h"
 #include "assets/text_file.h"
-#include "tools/arguments.h"
 #include "tools/batch/batch.h"
 #include "tools/batch/batch_report.h"
 #include "tools/batch/batch_table.h"

@@ -10,7 +10,6 @@
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
-#include "tools/arguments.h"
 #include "tools/commands/replay_log_command.h"
 #include "tools/commands/solid_replay.h"
 #include "tools/inputs/file_roles.h"

@@ -6,7 +6,6 @@
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
-#include "tools/arguments.h"
 #include "tools/console.h"
 #include "tools/glb/solid_glb.h"
 #include "tools/interrupt.h"

@@ -9,12 +9,12 @@
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
-#include "tools/arguments.h"
 #include "tools/commands/open_page.h"
 #include "tools/console.h"
 #include "tools/glb/world_glb.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
+#include "tools/report/document_parts.h"
 #include "tools/report/report_file.h"
 #include "tools/report/world_report.h"
 #include "tools/results_output.h"

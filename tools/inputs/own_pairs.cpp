@@ -14,9 +14,9 @@
 #include "assets/near_names.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
-#include "tools/arguments.h"
 #include "tools/inputs/joint_map.h"
 #include "tools/inputs/name_pattern.h"
+#include "tools/settings/setting.h"
 
 namespace foretouch::tools {
 namespace {

@@ -15,7 +15,6 @@
 #include "assets/json_writer.h"
 #include "assets/text_file.h"
 #include "network/log/event_log.h"
-#include "tools/arguments.h"
 #include "tools/inputs/file_roles.h"
 #include "tools/interrupt.h"
 #include "tools/log/log_inspection.h"

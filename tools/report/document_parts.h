@@ -16,6 +16,9 @@
 
 namespace foretouch::tools {
 
+/// Most scene triangles that a user may request in a report.
+inline constexpr int kMostReportTriangles = 10'000'000;
+
 struct ReportOptions {
   std::string path;  ///< Empty: no report.
   std::size_t maxTriangles = kDefaultViewTriangles;

@@ -6,18 +6,33 @@
 
 #include "articulated/try.h"
 #include "assets/json_writer.h"
-#include "tools/arguments.h"
+#include "assets/text_file.h"
 #include "tools/settings/frame_settings.h"
 #include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
-namespace {
 
-void addPlaceSetting(Settings& settings, Placement& place) {
+Result<Placement> placementFrom(const std::string& text) {
+  const std::vector<std::string> parts = splitAtCommas(text);
+  double numbers[4] = {0.0, 0.0, 0.0, 0.0};
+  bool isLegal = parts.size() == 3 || parts.size() == 4;
+  for (std::size_t i = 0; isLegal && i < parts.size(); ++i) {
+    isLegal = readNumber(parts[i], numbers[i]);
+  }
+  Placement placement;
+  placement.origin = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
+  placement.yawDeg = numbers[3];
+  if (isLegal && placement.origin.cwiseAbs().maxCoeff() <= kMaxCoordinate) return placement;
+  return Error::of(ErrorCode::OutOfRange,
+                   "expected x,y,z or x,y,z,yaw: finite metres within 1e7, and degrees, found " +
+                       inQuotes(text));
+}
+
+Setting& addPlaceSetting(Settings& settings, Placement& place, const char* help) {
   Setting& setting = settings.parsed(
       "--place", "X,Y,Z[,YAW]",
       [&place](const std::string& text) -> Result<Done> {
-        FORETOUCH_TRY(const auto parsed, parsePlacement("", text));
+        FORETOUCH_TRY(const auto parsed, placementFrom(text));
         place.origin = parsed.origin;
         place.yawDeg = parsed.yawDeg;
         return Done{};
@@ -26,7 +41,7 @@ void addPlaceSetting(Settings& settings, Placement& place) {
         return fmt::format("{},{},{},{}", place.origin.x(), place.origin.y(), place.origin.z(),
                            place.yawDeg);
       },
-      "Where the clip's origin stands in the scene: metres, and degrees about +Y");
+      help);
   setting.json = [&place] {
     return fmt::format("[{},{},{},{}]", numberText(place.origin.x()), numberText(place.origin.y()),
                        numberText(place.origin.z()), numberText(place.yawDeg));
@@ -35,8 +50,10 @@ void addPlaceSetting(Settings& settings, Placement& place) {
     return fmt::format("{}, {}, {} m, turned by {} degrees", place.origin.x(), place.origin.y(),
                        place.origin.z(), place.yawDeg);
   };
-  setting.in(kUnitsGroup).inConfig("clip", "place").inHeader("place").inReport("placed at");
+  return setting;
 }
+
+namespace {
 
 void addSourceSettings(Settings& settings, ClipRequest& request) {
   settings
@@ -121,7 +138,12 @@ void addClipReadingSettings(Settings& settings, ClipRequest& request) {
 
 void addClipSettings(Settings& settings, ClipRequest& request) {
   addClipReadingSettings(settings, request);
-  addPlaceSetting(settings, request.placement);
+  addPlaceSetting(settings, request.placement,
+                  "Where the clip's origin stands in the scene: metres, and degrees about +Y")
+      .in(kUnitsGroup)
+      .inConfig("clip", "place")
+      .inHeader("place")
+      .inReport("placed at");
 }
 
 }  // namespace foretouch::tools

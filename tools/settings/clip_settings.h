@@ -30,6 +30,11 @@ inline constexpr char kClipEndings[] = "bvh glb gltf fbx dae x csv";
 inline constexpr char kClipHelp[] =
     "BVH clip, animated model (glb, gltf, fbx, dae, x) or joint positions (csv)";
 
+/// "x,y,z" or "x,y,z,yaw": metres within kMaxCoordinate, and degrees. Errors name no option.
+[[nodiscard]] Result<Placement> placementFrom(const std::string& text);
+/// --place; `place` keeps its motionUpZ.
+Setting& addPlaceSetting(Settings& settings, Placement& place, const char* help);
+
 /// The motion itself; `option`: its option.
 Setting& addMotionSetting(Settings& settings, ClipRequest& request, const char* option,
                           const char* value, const char* help = kClipHelp);

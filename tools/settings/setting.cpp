@@ -25,8 +25,8 @@ bool readTyped(const Setting& setting, GivenValue& given) {
   const auto& words = setting.words;
   const std::string& text = given.texts.front();
   if (std::find(words.begin(), words.end(), text) != words.end()) return true;
-  if (setting.kind == ValueKind::Number) return isNumber(text, given.number);
-  if (setting.kind == ValueKind::Whole) return isNumber(text, given.whole);
+  if (setting.kind == ValueKind::Number) return readNumber(text, given.number);
+  if (setting.kind == ValueKind::Whole) return readNumber(text, given.whole);
   return true;
 }
 
@@ -116,6 +116,26 @@ Setting& Setting::only(std::vector<std::string> some) {
     return error;
   };
   return *this;
+}
+
+bool readNumber(const std::string& text, double& number) {
+  return isNumber(text, number);
+}
+
+bool readNumber(const std::string& text, std::int64_t& whole) {
+  return isNumber(text, whole);
+}
+
+std::vector<std::string> splitAtCommas(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
 }
 
 Result<Done> takeTyped(Setting& setting, const std::vector<std::string>& texts) {

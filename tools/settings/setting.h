@@ -106,6 +106,13 @@ struct Setting {
   Setting& only(std::vector<std::string> some);
 };
 
+/// A finite decimal number, or a whole one, and nothing else: no "nan", "inf", hexadecimal, unit or
+/// space.
+[[nodiscard]] bool readNumber(const std::string& text, double& number);
+[[nodiscard]] bool readNumber(const std::string& text, std::int64_t& whole);
+/// "a,,b" has three parts, the second of them empty.
+[[nodiscard]] std::vector<std::string> splitAtCommas(const std::string& text);
+
 /// Reads the command line's texts. Errors name the option.
 [[nodiscard]] Result<Done> takeTyped(Setting& setting, const std::vector<std::string>& texts);
 

@@ -116,20 +116,18 @@ Setting& Settings::wholeAt(const char* option, const char* value, std::int64_t l
   return setting;
 }
 
-Setting& Settings::wholeOr(const char* word, const char* option, const char* value, int& place,
-                           std::int64_t most, const char* help) {
-  const std::string none = word;
-  Setting& setting = whole(option, value, place, 1, most, help);
-  setting.words = {none};
-  setting.legal += " or " + none;
-  setting.take = [&place, none, most,
+Setting& Settings::orWord(std::string word, Setting& setting, std::function<void()> putNone) {
+  setting.words = {word};
+  setting.legal += " or " + word;
+  setting.take = [take = setting.take, word, putNone = std::move(putNone),
                   legal = setting.legal](const GivenValue& given) -> Result<Done> {
-    const bool isNone = given.texts.front() == none;
-    if (!isNone && (given.whole < 1 || given.whole > most)) return notLegal(legal, given);
-    place = isNone ? 0 : static_cast<int>(given.whole);
+    if (given.texts.front() != word) {
+      return take(given).ok() ? Result<Done>(Done{}) : notLegal(legal, given);
+    }
+    putNone();
     return Done{};
   };
-  setting.shown = [&place, none] { return place == 0 ? none : std::to_string(place); };
+  setting.shown = [shown = setting.shown, word] { return shown() == "0" ? word : shown(); };
   return setting;
 }
 

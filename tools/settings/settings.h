@@ -32,6 +32,9 @@ struct NumberRange {
 template <typename Value>
 using Words = std::vector<std::pair<std::string, Value>>;
 
+/// Most threads: a larger number is a typing error.
+inline constexpr int kMaxThreads = 256;
+
 /// Where "-" leads: PendingFile writes there what others write into a file.
 inline constexpr char kStandardOutput[] = "/dev/stdout";
 
@@ -63,9 +66,12 @@ class Settings {
     setting.shown = setting.json = setting.told = [&place] { return std::to_string(place); };
     return setting;
   }
-  /// The same with a word for 0.
-  Setting& wholeOr(const char* word, const char* option, const char* value, int& place,
-                   std::int64_t most, const char* help);
+  /// The same, from 1, with a word for 0.
+  template <typename Whole>
+  Setting& wholeOr(const char* word, const char* option, const char* value, Whole& place,
+                   std::int64_t most, const char* help) {
+    return orWord(word, whole(option, value, place, 1, most, help), [&place] { place = 0; });
+  }
   template <typename Value>
   Setting& word(const char* option, const char* value, Value& place, Words<Value> words,
                 const char* help) {
@@ -118,6 +124,7 @@ class Settings {
   Setting& add(const char* option, const char* value, ValueKind kind, const char* help);
   Setting& wholeAt(const char* option, const char* value, std::int64_t least, std::int64_t most,
                    std::function<void(std::int64_t)> put, const char* help);
+  static Setting& orWord(std::string word, Setting& setting, std::function<void()> putNone);
   Setting& wordAt(const char* option, const char* value, std::vector<std::string> words,
                   std::function<void(std::size_t)> put, std::function<std::string()> shown,
                   const char* help);

@@ -12,7 +12,6 @@
 
 #include "articulated/try.h"
 #include "assets/json_writer.h"
-#include "tools/arguments.h"
 #include "tools/inputs/file_roles.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/interrupt.h"

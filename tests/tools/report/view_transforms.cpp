@@ -18,17 +18,16 @@
 #include "articulated/motion.h"
 #include "assets/json_writer.h"
 #include "tests/support/random_geometry.h"
-#include "tools/arguments.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/inputs/replay_inputs.h"
-#include "tools/settling.h"
 
 namespace foretouch::tools {
 namespace {
 
 struct Texts {
-  std::string avatar, motion, rate = "all", scale = "1", motionUp = "y", place = "0,0,0,0";
+  std::string avatar, motion, motionUp = "y", place = "0,0,0,0";
+  double scale = 1.0, rate = 0.0;  // a rate of 0: every frame
   int times = 100;
   std::uint64_t seed = 1;
   std::string timesFile;
@@ -45,21 +44,13 @@ Result<ReplayRequest> settled(const Texts& texts) {
   ReplayRequest request;
   request.avatarPath = texts.avatar;
   request.motionPath = texts.motion;
-  Settling settle;
-  settle.into(request.placement, parsePlacement("--place", texts.place));
-  UpAxis motionUp = UpAxis::Y;
-  settle.into(motionUp, parseUpAxis("--motion-up", texts.motionUp));
-  request.placement.motionUpZ = motionUp == UpAxis::Z;
-  if (motionUp == UpAxis::Z) request.motionUp = motionUp;
-  double motionScale = 1.0;
-  settle.into(motionScale, parsePositive("--scale", texts.scale));
-  if (motionScale != 1.0) request.motionScale = motionScale;
-  if (texts.rate != "all") {
-    double rateHz = 0.0;
-    settle.into(rateHz, parsePositive("--rate", texts.rate));
-    request.rateHz = rateHz;
-  }
-  if (settle.error()) return *settle.error();
+  auto place = placementFrom(texts.place);
+  if (!place.ok()) return place.error();
+  request.placement = std::move(place).value();
+  request.placement.motionUpZ = texts.motionUp == "z";
+  if (texts.motionUp == "z") request.motionUp = UpAxis::Z;
+  if (texts.scale != 1.0) request.motionScale = texts.scale;
+  if (texts.rate > 0.0) request.rateHz = texts.rate;
   return request;
 }
 
@@ -145,9 +136,9 @@ int run(int argc, const char* const* argv) {
   CLI::App app("Where the library has each link of a played clip at random times");
   app.add_option("--avatar", texts.avatar)->required();
   app.add_option("--motion", texts.motion)->required();
-  app.add_option("--rate", texts.rate);
-  app.add_option("--scale", texts.scale);
-  app.add_option("--motion-up", texts.motionUp);
+  app.add_option("--rate", texts.rate)->check(CLI::PositiveNumber);
+  app.add_option("--scale", texts.scale)->check(CLI::PositiveNumber);
+  app.add_option("--motion-up", texts.motionUp)->check(CLI::IsMember({"y", "z"}));
   app.add_option("--place", texts.place);
   app.add_option("--times", texts.times);
   app.add_option("--seed", texts.seed);
