@@ -26,9 +26,6 @@ class RelativeChain {
   [[nodiscard]] const Skeleton& skeleton() const { return skeleton_; }
   /// The link here that is `original`; the frame's own never moves.
   [[nodiscard]] LinkId linkOf(LinkId original) const { return linkOf_[slotOf(original)]; }
-  [[nodiscard]] std::int32_t numOriginals() const {
-    return static_cast<std::int32_t>(linkOf_.size());
-  }
 
   /// The pose here of a pose of the original skeleton, exact but for one rounding per coordinate of
   /// the roots' places relative to each other, which the motion's bounds on rounding include.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <random>
 #include <tuple>
 #include <utility>
 
@@ -16,23 +15,11 @@
 #include "middleware/query/query.h"
 #include "tools/console.h"
 #include "tools/inputs/step_selection.h"
+#include "tools/portable_random.h"
 #include "tools/progress.h"
 
 namespace foretouch::tools {
 namespace {
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  std::uint64_t next() { return engine_(); }
-  /// In [low, high); the standard's distributions differ between libraries.
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 Avatar grownBy(const Avatar& avatar, double margin) {
   std::vector<std::vector<Lss>> lss;
@@ -117,7 +104,7 @@ Eigen::Vector3d holdOf(const BenchInputs& inputs) {
 
 /// A place drawn in the scene's box, for the clip's middle.
 Placement drawnPlace(const BenchInputs& inputs, const WorkloadRequest& request,
-                     const Eigen::Vector3d& hold, Random& random) {
+                     const Eigen::Vector3d& hold, PortableRandom& random) {
   const SceneAudit& box = inputs.scene.audit();
   Placement placement;
   const double x = random.uniform(box.boxMin.x(), box.boxMax.x());
@@ -262,7 +249,7 @@ bool hasEnough(const Workload& workload) {
 Result<Done> search(const BenchInputs& inputs, std::int64_t steps, Classifier& classifier,
                     Workload& workload) {
   const WorkloadRequest& request = workload.request;
-  Random places(request.seed), lots(request.seed);
+  PortableRandom places(request.seed), lots(request.seed);
   const Eigen::Vector3d hold = holdOf(inputs);
   std::vector<FoundStep> found;
   std::vector<Place> others;

@@ -43,9 +43,6 @@ struct Separation {
   Eigen::Vector3d featureNormal = Eigen::Vector3d::Zero();  ///< As ClosestPoints::featureNormal.
   int numOne = 0, numOther = 0;                             ///< Their points.
 
-  [[nodiscard]] double clearanceOf(std::size_t i, std::size_t j) const {
-    return clearance[i] + spare[j];
-  }
   [[nodiscard]] double lower() const {
     const double least = std::min(clearance[0], clearance[1]);
     return numOne == 3 ? std::min(least, clearance[2]) : least;

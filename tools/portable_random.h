@@ -12,6 +12,7 @@ class PortableRandom {
  public:
   explicit PortableRandom(std::uint64_t seed) : engine_(seed) {}
 
+  std::uint64_t next() { return engine_(); }
   /// In [low, high); the standard's distributions differ between libraries.
   double uniform(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);

@@ -98,7 +98,6 @@ class AvatarSax final : public internal::MarkedSax {
 
   bool number(double value);
   bool parent(const std::string& name);
-  bool endLink();
   bool enter(Place place);
   bool valueDone() {
     field_ = nullptr;

@@ -28,8 +28,6 @@ class PiecesApart {
   PiecesApart(const std::vector<Lss>& moved, const Scene& scene, double rounding)
       : moved_(moved), scene_(&scene), rounding_(rounding) {}
 
-  [[nodiscard]] std::size_t numMoved() const { return moved_.size(); }
-
   /// Appends every pair that may have a common point after the move, or come within `margin` (m) of
   /// one: their boxes meet. By the moved piece, then by the other.
   void collect(const Eigen::Vector3d& move, double margin, std::vector<PiecePair>& pairs);

@@ -48,7 +48,6 @@ class MovingSides {
   void setScene(const Scene& scene, ObjectId object);
 
   [[nodiscard]] LinkId link() const { return one_.link; }
-  [[nodiscard]] LinkId otherLink() const { return other_.link; }
   [[nodiscard]] bool isScene() const { return scene_ != nullptr; }
   [[nodiscard]] const Scene& scene() const { return *scene_; }
 

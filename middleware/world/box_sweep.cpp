@@ -93,7 +93,6 @@ void BoxSweep::sort(const std::vector<BodyBox>& boxes) {
              std::make_tuple(boxes[slotOf(y)].lower[0], y);
     });
   }
-  swaps_ = 0;
   for (std::size_t i = 1; i < order_.size(); ++i) {
     const std::int32_t moved = order_[i];
     const float begin = boxes[slotOf(moved)].lower[0];
@@ -103,7 +102,6 @@ void BoxSweep::sort(const std::vector<BodyBox>& boxes) {
       const float beginBefore = boxes[slotOf(before)].lower[0];
       if (beginBefore < begin || (beginBefore == begin && before < moved)) break;
       order_[k] = before;
-      ++swaps_;
     }
     order_[k] = moved;
   }

@@ -58,8 +58,6 @@ class BoxSweep {
   /// All pairs of boxes that meet, by a, then by b: the same whatever came before. Typically O(n +
   /// pairs along x) divided by 16; O(n^2) at worst.
   void collect(const std::vector<BodyBox>& boxes, std::vector<MeetingBodies>& meeting);
-  /// How many neighbours the last sort exchanged.
-  [[nodiscard]] std::uint64_t swaps() const { return swaps_; }
 
  private:
   void sort(const std::vector<BodyBox>& boxes);
@@ -70,8 +68,7 @@ class BoxSweep {
   // Of the boxes in that order, with room for a vector beyond: lower and upper along y and z, and
   // lower along x.
   std::vector<float> rows_[5];
-  std::size_t count_ = 0;  // not empty
-  std::uint64_t swaps_ = 0;
+  std::size_t count_ = 0;           // not empty
   std::vector<std::int32_t> ends_;  // per a, of its pairs so far
   std::vector<MeetingBodies> sorted_;
 };

@@ -98,10 +98,6 @@ class EventLogReader {
   /// Bytes read so far, for progress.
   [[nodiscard]] std::uint64_t position() const;
   [[nodiscard]] std::uint64_t size() const;
-  /// Makes the next event the first one at or after `utimeUs`, in a log whose stamps grow and whose
-  /// blocks are in order; by the index if there are check sums, else from the start. Resets the
-  /// counts.
-  [[nodiscard]] Result<Done> seek(std::int64_t utimeUs);
 
  private:
   friend struct EventLogReaderAccess;  // network/log/event_log_reader_access.h

@@ -80,12 +80,4 @@ struct LogKind {
 /// files, one after the other) does not count; the reader meets it after them.
 [[nodiscard]] LogKind findKind(LogWindow& window);
 
-/// Where to start reading to meet every event at or after `utimeUs`, by the block events from the
-/// last one backwards; nothing if one of them is not intact or not in its place.
-struct BlockPlace {
-  std::uint64_t offset = 0, number = 0;
-};
-[[nodiscard]] std::optional<BlockPlace> findBlockOf(LogWindow& window, std::uint64_t logId,
-                                                    std::int64_t utimeUs);
-
 }  // namespace foretouch

@@ -26,12 +26,9 @@ struct EventLogReader::Impl {
         window(std::move(bytes)),
         blocks(window, counts, options) {}
 
-  /// Reads from the start again.
-  void restart() {
-    counts = LogCounts{};
-    pending.reset();
+  /// Reads from the start.
+  void begin() {
     isChecked = counts.hasCheckSums = kind.hasCheckSums && !options.ignoreCheckSums;
-    position = 0;
     if (isChecked) blocks.start(0, kind.logId);
   }
 
@@ -80,11 +77,6 @@ struct EventLogReader::Impl {
   CheckedBlocks blocks;
   bool isChecked = false;
   std::uint64_t position = 0;  ///< In the events without check sums.
-  struct Pending {
-    LogEvent event;
-    bool isUnchecked = false;
-  };
-  std::optional<Pending> pending;  ///< Found by seek().
 };
 
 EventLogReader::EventLogReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -102,7 +94,7 @@ Result<EventLogReader> EventLogReaderAccess::open(std::unique_ptr<LogBytes> byte
     return Error::in(name, ErrorCode::Empty,
                      "no event of an LCM log in it (expected ED A1 DA 01 and a whole event)");
   }
-  impl->restart();
+  impl->begin();
   return EventLogReader(std::move(impl));
 }
 
@@ -113,16 +105,9 @@ Result<EventLogReader> EventLogReader::open(const std::string& path,
 }
 
 Result<bool> EventLogReader::next(LogEvent& event) {
-  bool isUnchecked = false, isFound = false;
-  if (impl_->pending) {
-    std::swap(event, impl_->pending->event);
-    isUnchecked = impl_->pending->isUnchecked;
-    impl_->pending.reset();
-    isFound = true;
-  } else {
-    isFound = impl_->read(event, isUnchecked);
-    if (impl_->window.failure()) return *impl_->window.failure();
-  }
+  bool isUnchecked = false;
+  const bool isFound = impl_->read(event, isUnchecked);
+  if (impl_->window.failure()) return *impl_->window.failure();
   if (!isFound) return false;
   ++impl_->counts.events;
   if (isUnchecked) ++impl_->counts.uncheckedEvents;
@@ -139,22 +124,6 @@ std::uint64_t EventLogReader::position() const {
 
 std::uint64_t EventLogReader::size() const {
   return impl_->window.size();
-}
-
-Result<Done> EventLogReader::seek(std::int64_t utimeUs) {
-  impl_->restart();
-  if (impl_->kind.logId) {
-    const auto place = findBlockOf(impl_->window, *impl_->kind.logId, utimeUs);
-    if (place) impl_->blocks.start(place->offset, impl_->kind.logId, place->number);
-  }
-  Impl::Pending found;
-  while (impl_->read(found.event, found.isUnchecked)) {
-    if (found.event.utimeUs < utimeUs) continue;
-    impl_->pending = std::move(found);
-    break;
-  }
-  if (impl_->window.failure()) return *impl_->window.failure();
-  return Done{};
 }
 
 }  // namespace foretouch

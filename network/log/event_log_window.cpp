@@ -52,19 +52,6 @@ class FileBytes : public LogBytes {
   std::uint64_t size_;
 };
 
-class MemoryBytes : public LogBytes {
- public:
-  explicit MemoryBytes(Bytes bytes) : bytes_(std::move(bytes)) {}
-  [[nodiscard]] std::uint64_t size() const override { return bytes_.size(); }
-  Result<Done> read(std::uint64_t offset, std::uint8_t* bytes, std::size_t count) override {
-    std::memcpy(bytes, bytes_.data() + offset, count);
-    return Done{};
-  }
-
- private:
-  Bytes bytes_;
-};
-
 }  // namespace
 
 Result<std::unique_ptr<LogBytes>> openLogFile(const std::string& path) {
@@ -88,10 +75,6 @@ Result<std::unique_ptr<LogBytes>> openLogFile(const std::string& path) {
   }
   return std::unique_ptr<LogBytes>(
       std::make_unique<FileBytes>(path, file, static_cast<std::uint64_t>(status.st_size)));
-}
-
-std::unique_ptr<LogBytes> logInMemory(Bytes bytes) {
-  return std::make_unique<MemoryBytes>(std::move(bytes));
 }
 
 LogWindow::LogWindow(std::unique_ptr<LogBytes> bytes)

@@ -23,7 +23,6 @@ class LogBytes {
 
 /// Errors: not found, no regular file, not readable.
 [[nodiscard]] Result<std::unique_ptr<LogBytes>> openLogFile(const std::string& path);
-[[nodiscard]] std::unique_ptr<LogBytes> logInMemory(Bytes bytes);
 
 /// An event as its header frames it.
 struct Frame {

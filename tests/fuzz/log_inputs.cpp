@@ -9,6 +9,7 @@
 #include "network/log/event_log_format.h"
 #include "network/log/event_log_reader_access.h"
 #include "tests/fuzz/promise.h"
+#include "tests/support/log_in_memory.h"
 
 namespace foretouch::fuzz {
 namespace {
@@ -48,7 +49,7 @@ bool read(const Bytes& log, bool keepTail, Read& read) {
       reported += finding.bytes;
     }
   };
-  auto reader = EventLogReaderAccess::open(logInMemory(log), "input", options);
+  auto reader = EventLogReaderAccess::open(test::logInMemory(log), "input", options);
   if (!reader.ok()) {
     require(reader.error().file == "input", "an error names its file");
     require(!reader.error().message.empty(), "an error says what is wrong");
@@ -74,30 +75,6 @@ void checkStandsInLog(const Bytes& log, const std::vector<LogEvent>& events) {
     const auto found = std::search(from, log.end(), bytes.begin(), bytes.end());
     require(found != log.end(), "what is given out stands in the log");
     from = found + static_cast<std::ptrdiff_t>(bytes.size());
-  }
-}
-
-/// The index is a log's own: where blocks are missing or out of order, it leads into the order in
-/// which they were written, and reading from the start may have met a later one first.
-void checkSeek(const Bytes& log, const Read& all) {
-  const std::vector<LogEvent>& events = all.events;
-  const bool isGrowing =
-      all.counts.badBlocks + all.counts.missingBlocks == 0 &&
-      std::is_sorted(events.begin(), events.end(),
-                     [](const LogEvent& a, const LogEvent& b) { return a.utimeUs < b.utimeUs; });
-  auto reader = EventLogReaderAccess::open(logInMemory(log), "input");
-  for (const std::int64_t utimeUs :
-       {std::numeric_limits<std::int64_t>::min(), events[events.size() / 2].utimeUs}) {
-    require(reader.value().seek(utimeUs).ok(), "memory can be read");
-    const std::vector<LogEvent> found = rest(reader.value());
-    require(found.empty() || found.front().utimeUs >= utimeUs, "seek finds no earlier event");
-    checkStandsInLog(log, found);
-    if (!isGrowing) continue;
-    const auto first = std::find_if(events.begin(), events.end(), [&](const LogEvent& event) {
-      return event.utimeUs >= utimeUs;
-    });
-    require(std::equal(first, events.end(), found.begin(), found.end(), isSame),
-            "seek finds what reading finds");
   }
 }
 
@@ -182,7 +159,6 @@ bool feedLog(const std::uint8_t* data, std::size_t size) {
   require(kept.events.size() >= checked.events.size() &&
               kept.events.size() <= checked.events.size() + checked.counts.tailEvents,
           "a tail adds its events");
-  if (!checked.events.empty()) checkSeek(log, checked);
   return !checked.events.empty();
 }
 

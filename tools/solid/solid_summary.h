@@ -45,8 +45,6 @@ class SolidSummary {
   [[nodiscard]] std::int64_t certified() const { return certified_; }
   /// Proven lower bound on the separation on all certified ways (m); 0 without any.
   [[nodiscard]] double leastClearance() const;
-  /// How far the first place is from its tracked pose (m, of any joint's origin).
-  [[nodiscard]] double placingShift() const { return placingShift_; }
   [[nodiscard]] double latencyUs(double share) const;
 
  private:

@@ -56,27 +56,5 @@ TEST(BoxSweep, FindsEveryPairAtEveryWidthWhateverCameBefore) {
 }
 
 // A crowd that moves a little hardly changes its order.
-TEST(BoxSweep, KeepsTheOrderFromCallToCall) {
-  Random random(1);
-  std::vector<BodyBox> boxes(1000);
-  for (BodyBox& box : boxes) {
-    for (int k = 0; k < 3; ++k) {
-      box.lower[k] = static_cast<float>(random.uniform(0.0, 50.0));
-      box.upper[k] = box.lower[k] + 1.0F;
-    }
-  }
-  BoxSweep sweep;
-  std::vector<MeetingBodies> meeting;
-  sweep.collect(boxes, meeting);
-  for (BodyBox& box : boxes) {
-    const auto step = static_cast<float>(random.uniform(-0.02, 0.02));
-    box.lower[0] += step;
-    box.upper[0] += step;
-  }
-  sweep.collect(boxes, meeting);
-  EXPECT_GT(sweep.swaps(), 0u);
-  EXPECT_LT(sweep.swaps(), 1000u);
-}
-
 }  // namespace
 }  // namespace foretouch::internal

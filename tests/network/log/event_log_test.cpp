@@ -188,41 +188,5 @@ TEST(EventLog, LiblcmWritesWhatWeRead) {
   EXPECT_TRUE(readBytes(bytesOf(path)).events == events);
 }
 
-TEST(EventLog, SeekAgreesWithALinearSearch) {
-  int later = 0;
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
-    SCOPED_TRACE(seed);
-    std::mt19937_64 random(seed);
-    std::vector<LogEvent> events = randomEvents(random, 150);
-    std::sort(events.begin(), events.end(),
-              [](const LogEvent& a, const LogEvent& b) { return a.utimeUs < b.utimeUs; });
-    LogWriteOptions options;
-    options.blockBytes = 1 + random() % (32u << 10);
-    for (std::size_t i = 0; i < events.size(); ++i) events[i].number = static_cast<std::int64_t>(i);
-    Bytes bytes = seed % 3 == 0 ? foreignLog(events) : ownLog(events, options);
-    if (seed % 5 == 0) bytes[bytes.size() / 2] ^= 0x10;  // the index may be broken
-    auto reader = EventLogReaderAccess::open(logInMemory(bytes), "log");
-    ASSERT_TRUE(reader.ok());
-    const std::vector<LogEvent> all = readBytes(bytes).events;
-    for (int i = 0; i < 40; ++i) {
-      const std::int64_t utimeUs =
-          i == 0 ? 0
-                 : events[random() % events.size()].utimeUs + static_cast<int>(random() % 3) - 1;
-      ASSERT_TRUE(reader.value().seek(utimeUs).ok());
-      const auto expected = std::find_if(
-          all.begin(), all.end(), [&](const LogEvent& event) { return event.utimeUs >= utimeUs; });
-      std::vector<LogEvent> rest;
-      for (LogEvent event; reader.value().next(event).value();) rest.push_back(event);
-      EXPECT_TRUE(rest == std::vector<LogEvent>(expected, all.end()));
-      EXPECT_EQ(reader.value().counts().events, rest.size());
-      later += expected != all.begin() && expected != all.end() ? 1 : 0;
-    }
-    ASSERT_TRUE(reader.value().seek(std::numeric_limits<std::int64_t>::max()).ok());
-    LogEvent none;
-    EXPECT_FALSE(reader.value().next(none).value());
-  }
-  EXPECT_GT(later, 600);
-}
-
 }  // namespace
 }  // namespace foretouch::test

@@ -14,6 +14,7 @@
 
 #include "network/log/event_log.h"
 #include "network/log/event_log_reader_access.h"
+#include "tests/support/log_in_memory.h"
 #include "tests/support/temp_folder.h"
 
 namespace foretouch {
