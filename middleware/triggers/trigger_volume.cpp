@@ -1,11 +1,11 @@
 #include "middleware/triggers/trigger_volume.h"
 
-#include <array>
 #include <string>
 #include <utility>
 
 #include "articulated/skeleton.h"
 #include "articulated/try.h"
+#include "middleware/scene/box_triangles.h"
 #include "middleware/triggers/volume_parts.h"
 
 namespace foretouch {
@@ -20,31 +20,14 @@ Result<Done> checkedExtent(double extent, const char* name) {
                                               std::to_string(extent));
 }
 
-/// The twelve triangles of a box.
-RawScene boxOf(const Vector3d& half) {
-  const auto corner = [&](int i) {
-    return Vector3d((i & 1) != 0 ? half.x() : -half.x(), (i & 2) != 0 ? half.y() : -half.y(),
-                    (i & 4) != 0 ? half.z() : -half.z());
-  };
-  constexpr std::array<std::array<int, 4>, 6> kSides{
-      {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
-  RawScene raw;
-  raw.objectNames = {"box"};
-  for (const auto& side : kSides) {
-    raw.triangles.push_back({{corner(side[0]), corner(side[1]), corner(side[2])}});
-    raw.triangles.push_back({{corner(side[0]), corner(side[2]), corner(side[3])}});
-  }
-  raw.objectOf.assign(raw.triangles.size(), 0);
-  return raw;
-}
-
 }  // namespace
 
 Result<TriggerVolume> TriggerVolume::box(const Vector3d& halfExtents) {
   for (int axis = 0; axis < 3; ++axis) {
     FORETOUCH_CHECK(checkedExtent(halfExtents[axis], "half extent"));
   }
-  FORETOUCH_TRY(const Scene scene, Scene::build(boxOf(halfExtents)));
+  FORETOUCH_TRY(const Scene scene,
+                Scene::build(internal::boxTriangles(-halfExtents, halfExtents, "box")));
   return mesh(scene);
 }
 

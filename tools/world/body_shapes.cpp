@@ -1,7 +1,6 @@
 #include "tools/world/body_shapes.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "assets/avatar/avatar_file.h"
 #include "assets/import/scene_import.h"
 #include "assets/mesh/link_mesh.h"
+#include "middleware/scene/box_triangles.h"
 #include "tools/console.h"
 
 namespace foretouch::tools {
@@ -19,24 +19,6 @@ Result<Skeleton> oneJoint(const std::string& name) {
   RawSkeleton raw;
   raw.joints = {{name, kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
   return Skeleton::build(raw);
-}
-
-/// Twelve triangles, from corner to corner.
-RawScene boxOf(const std::array<Eigen::Vector3d, 2>& corners, const std::string& name) {
-  RawScene raw;
-  raw.objectNames = {name};
-  const auto corner = [&](int i) {
-    return Eigen::Vector3d(corners[i & 1].x(), corners[i >> 1 & 1].y(), corners[i >> 2 & 1].z());
-  };
-  constexpr std::array<std::array<int, 4>, 6> kFaces{
-      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
-  for (const auto& face : kFaces) {
-    const Eigen::Vector3d first = corner(face[0]), across = corner(face[2]);
-    raw.triangles.push_back({{first, corner(face[1]), across}});
-    raw.triangles.push_back({{first, across, corner(face[3])}});
-  }
-  raw.objectOf.assign(raw.triangles.size(), 0);
-  return raw;
 }
 
 /// The triangles of one node, in its frame.
@@ -140,7 +122,8 @@ Result<BodyShape> ShapeLoader::load(const FileBody& body, const std::string& wor
     return BodyShape{std::nullopt, std::nullopt, std::move(mesh.scene), std::move(skeleton),
                      std::move(mesh.triangles)};
   }
-  FORETOUCH_TRY_OR(inWorld, auto box, meshFrom(boxOf(*shape.box, body.name)));
+  const auto& [low, high] = *shape.box;
+  FORETOUCH_TRY_OR(inWorld, auto box, meshFrom(internal::boxTriangles(low, high, body.name)));
   return BodyShape{std::nullopt, std::nullopt, std::move(box.scene), std::move(skeleton),
                    std::move(box.triangles)};
 }
