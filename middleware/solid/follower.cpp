@@ -28,6 +28,8 @@ constexpr double kWithinPace = 0.99;
 constexpr int kDoublings = 3, kCorrections = 2;
 /// What is not proven but wished for may be missed by so much in a step (m).
 constexpr double kSoft = 5e-3;
+/// A row holds what is shown within this share of the skin.
+constexpr double kHolds = 1.25;
 /// Two faces are of one plane: a cosine, and metres, as where near features are reduced.
 constexpr double kSamePlane = 1.0 - 1e-6, kInPlane = 1e-4;
 
@@ -472,6 +474,12 @@ void Follower::keepHot() {
     if (!(row.push > 0.0)) continue;
     hotFor_[slotOf(row.link)] = kHotTicks;
     if (row.other != kNoParent) hotFor_[slotOf(row.other)] = kHotTicks;
+  }
+}
+
+void Follower::letGo() {
+  for (ContactRow& row : rows_) {
+    if (row.gap + row.slack > kHolds * options_.skin) row.push = 0.0;
   }
 }
 

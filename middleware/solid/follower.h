@@ -37,6 +37,9 @@ class Follower {
   /// it is clear, and shown. If false, follow() goes on from there.
   [[nodiscard]] bool goStraight(const Pose& target, Certifier& certifier, Pose& shown,
                                 SolidTick& tick);
+  /// Of the rows, only those push from now on that hold the shown pose: a step may have been cut
+  /// short of what would have stopped the whole of it.
+  void letGo();
   /// Forgets contacts.
   void reset();
 

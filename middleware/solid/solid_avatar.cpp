@@ -121,6 +121,7 @@ class SolidAvatar::Parts {
     if (!isPlaced_) place(tick);
     if (isPlaced_) move(given.dtS, tick);
     lift_.remember(follower_.rows());
+    follower_.letGo();
     finish(given.dtS, tick);
     return Done{};
   }

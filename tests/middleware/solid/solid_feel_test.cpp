@@ -167,6 +167,37 @@ TEST(SolidFeel, CatchingUpGathersAndLosesSpeed) {
   }
 }
 
+/// A step ends where the pace does: what would have stopped the whole of it is not touched yet.
+TEST(SolidFeel, WhatIsToldAsSlidingTouchesSomething) {
+  SolidOptions options;
+  options.catchUp = 0.2;
+  int sliding = 0, following = 0;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    Random random(seed);
+    SolidRunner run(wallAt(-0.45), options);
+    Pose to = run.rest();
+    for (int i = 0; i < 360; ++i) {
+      if (i % 45 == 0) to = randomPose(run, random, 1.5, 0.5);
+      const SolidTick& tick = run.follow(to);
+      for (const SolidContact& contact : tick.contacts) {
+        EXPECT_LE(contact.gap, 1.25 * options.skin + 1e-9) << seed << ", tick " << i;
+      }
+      const bool isSliding = tick.state == SolidState::Sliding;
+      if (isSliding) {
+        const bool holdsItself =
+            std::any_of(tick.contacts.begin(), tick.contacts.end(),
+                        [](const SolidContact& contact) { return contact.other != kNoParent; });
+        EXPECT_TRUE(holdsItself || !run.isFree(tick.shown, 1.25 * options.skin))
+            << seed << ", tick " << i;
+      }
+      sliding += isSliding;
+      following += tick.state == SolidState::Following;
+    }
+  }
+  EXPECT_GT(sliding, 100);
+  EXPECT_GT(following, 100);
+}
+
 /// Behind a closed wall, where no way leads.
 RawScene wallAcross() {
   RawScene raw;
