@@ -337,7 +337,7 @@ void ChainNodes::extendWeights(std::size_t terms) {
 
 /// Bound on the distance of the roots from `origin` at any t.
 double ChainNodes::rootReach(const ChainMotion& motion) const {
-  const auto stride = static_cast<std::size_t>(numLinks_);
+  const auto stride = static_cast<std::size_t>(motion.numLinks());
   double square = 0.0;
   for (std::size_t j = 0; j < stride; ++j) {
     if (motion.parents_[j] != kNoParent) continue;
@@ -356,18 +356,21 @@ double ChainNodes::rootReach(const ChainMotion& motion) const {
 }
 
 // articulated/chain_nodes.md 3.
-void ChainNodes::boundRoundings(const ChainMotion& motion) {
-  const ChainSums& largest = motion.largestSums();
-  const double depth = largest.depth, arm = largest.armReach;
+void ChainNodes::boundRoundings(const ChainMotion& motion, const ChainMotion& beside) {
+  const ChainSums &own = motion.largestSums(), &others = beside.largestSums();
+  const double depth = std::max(own.depth, others.depth);
+  const double arm = std::max(own.armReach, others.armReach);
   const double rotation = 4.0 * depth * kQuaternion + kMatrix;
-  bounds_.reach = (rootReach(motion) + arm) * kNodeInflation;
+  double root = rootReach(motion);
+  if (&beside != &motion) root = std::max(root, rootReach(beside));
+  bounds_.reach = (root + arm) * kNodeInflation;
   bounds_.rotationRounding = rotation * kNodeInflation;
   bounds_.positionRounding =
       ((rotation + kArm) * arm + depth * kSum * bounds_.reach) * kNodeInflation;
 }
 
 void ChainNodes::evaluate(const ChainMotion& motion, double begin, double end,
-                          const Eigen::Vector3d& origin) {
+                          const Eigen::Vector3d& origin, const ChainMotion* beside) {
   FORETOUCH_ASSERT(0.0 <= begin && begin < end && end <= 1.0);
   numLinks_ = motion.numLinks();
   origin_ = origin;
@@ -375,7 +378,8 @@ void ChainNodes::evaluate(const ChainMotion& motion, double begin, double end,
   if (nodes_.size() < n) nodes_.resize(n);
   if (n == 0) return;
   setInstants(begin, end);
-  const std::size_t terms = termsFor(motion.largestVersine());
+  const ChainMotion& second = beside != nullptr ? *beside : motion;
+  const std::size_t terms = termsFor(std::max(motion.largestVersine(), second.largestVersine()));
   extendWeights(terms);
   const bool isWhole = begin == 0.0 && end == 1.0;
   // Only read.
@@ -383,7 +387,7 @@ void ChainNodes::evaluate(const ChainMotion& motion, double begin, double end,
   HWY_DYNAMIC_DISPATCH(evaluateLinks)
   (arcs, motion.parents_.data(), isWhole ? nullptr : weights_.from[0].at, weights_.to[0].at,
    static_cast<int>(terms), instants_, origin_.data(), nodes_.data());
-  boundRoundings(motion);
+  boundRoundings(motion, second);
 }
 
 }  // namespace foretouch

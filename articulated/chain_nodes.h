@@ -38,8 +38,10 @@ struct NodeBounds {
 class ChainNodes {
  public:
   /// Frames at the nodes of [begin, end], 0 <= begin < end <= 1; subtracts `origin` (in W) from
-  /// positions, in double. O(links).
-  void evaluate(const ChainMotion& motion, double begin, double end, const Eigen::Vector3d& origin);
+  /// positions, in double. `beside`: another chain's motion, whose places are compared with these:
+  /// its turns count for the frames' error, and its bounds for both; or null. O(links).
+  void evaluate(const ChainMotion& motion, double begin, double end, const Eigen::Vector3d& origin,
+                const ChainMotion* beside = nullptr);
 
   [[nodiscard]] std::int32_t numLinks() const { return numLinks_; }
   [[nodiscard]] double begin() const { return begin_; }
@@ -74,7 +76,7 @@ class ChainNodes {
   void setInstants(double begin, double end);
   void extendWeights(std::size_t terms);
   [[nodiscard]] double rootReach(const ChainMotion& motion) const;
-  void boundRoundings(const ChainMotion& motion);
+  void boundRoundings(const ChainMotion& motion, const ChainMotion& beside);
 
   std::int32_t numLinks_ = 0;
   double begin_ = 0.0, end_ = 0.0;  // an empty span: no instants yet

@@ -95,6 +95,9 @@ struct StepContacts {
   /// True: own links were asked, and every asked pair that `pairs` does not list is proven clear.
   /// False: `pairs` is empty and claims nothing.
   bool arePairsAnswered = false;
+  /// As long as a link, or a pair, is free, it stays at least so far from what it is asked about
+  /// (m). Less than a share of the tolerance only where somebody begins nearer and leaves.
+  double provenClearance = 0.0;
   QueryCounters counters;
 };
 

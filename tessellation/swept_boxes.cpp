@@ -210,8 +210,9 @@ class Growth {
 };
 
 void computeBoxes(const LssTable& table, const ChainNodes& nodes, const double* growths,
-                  SweptBoxes& boxes, NodeEnds* ends) {
+                  SweptBoxes& boxes, NodeEnds* ends, const NodeEnds* beside = nullptr) {
   if (ends != nullptr) ends->placeAround(table, nodes);
+  if (ends != nullptr && beside != nullptr) std::copy_n(beside->origin, 3, ends->origin);
   HWY_DYNAMIC_DISPATCH(boxesOf)
   (table.data(), table.size(), &nodes.link(0), growths, boxes.lower, boxes.upper,
    ends != nullptr ? ends->origin : nullptr, ends != nullptr ? ends->axes.data() : nullptr);
@@ -280,7 +281,7 @@ void SweptBoxes::emptyFrom(std::int32_t first) {
 }
 
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
-                double margin, SweptBoxes& boxes, NodeEnds* ends) {
+                double margin, SweptBoxes& boxes, NodeEnds* ends, const NodeEnds* beside) {
   FORETOUCH_ASSERT(table.numLinks() == nodes.numLinks() && nodes.numLinks() == motion.numLinks());
   boxes.makeRoom(table.size());
   if (table.size() == 0) return;
@@ -288,7 +289,7 @@ void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNod
   const double whole = growth.wholeMargin(margin);
   double* const growths = boxes.growths_.data();
   for (std::int32_t i = 0; i < table.size(); ++i) growths[i] = growth.of(table[i], whole);
-  computeBoxes(table, nodes, growths, boxes, ends);
+  computeBoxes(table, nodes, growths, boxes, ends, beside);
   boxes.emptyFrom(table.size());
   if (ends != nullptr) boundEnds(table, nodes, boxes, *ends);
 }

@@ -32,7 +32,7 @@ struct SweptBoxes {
     float lanes[kPadding];
   };
   friend void sweptBoxes(const LssTable&, const ChainMotion&, const ChainNodes&, double,
-                         SweptBoxes&, NodeEnds*);
+                         SweptBoxes&, NodeEnds*, const NodeEnds*);
   friend void sweptBoxes(const LssTable&, const ChainMotion&, const ChainNodes&,
                          const std::vector<double>&, SweptBoxes&, NodeEnds*);
   /// As resize(), but leaves the lanes as they are.
@@ -48,10 +48,11 @@ struct SweptBoxes {
 [[nodiscard]] double widestGap(const ChainNodes& nodes);
 
 /// The float box of every LSS over the whole span of `nodes`, grown by `margin` (m), relative to
-/// the origin of the nodes, rounded outward. `ends`: if not null, gets what the boxes are made of.
-/// O(LSS).
+/// the origin of the nodes, rounded outward. `ends`: if not null, gets what the boxes are made of;
+/// `beside`: whose origin they then share, if it is not null. O(LSS).
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
-                double margin, SweptBoxes& boxes, NodeEnds* ends = nullptr);
+                double margin, SweptBoxes& boxes, NodeEnds* ends = nullptr,
+                const NodeEnds* beside = nullptr);
 /// The same with a margin per link: `margins[link]` (m). As many as links (asserted).
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
                 const std::vector<double>& margins, SweptBoxes& boxes, NodeEnds* ends = nullptr);

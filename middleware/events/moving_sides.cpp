@@ -16,35 +16,38 @@ constexpr std::uint64_t kLookWork = 40, kBoxWork = 4, kTreeWork = 50;
 
 }  // namespace
 
-void MovingSides::begin(MotionEvaluator& evaluator, LinkId frame) {
-  evaluator_ = &evaluator;
+void MovingSides::begin(LinkId frame) {
   frame_ = frame;
-  self_ = nullptr;
+  asked_ = nullptr;
   scene_ = nullptr;
   states_.t = std::numeric_limits<double>::quiet_NaN();
 }
 
-void MovingSides::setSide(LinkSide& side, LinkId link, const std::vector<Lss>& lss) {
+void MovingSides::setSide(LinkSide& side, MotionEvaluator& evaluator, LinkId link,
+                          const std::vector<Lss>& lss) {
+  side.evaluator = &evaluator;
   side.link = link;
   side.lss = &lss;
   side.first = 0;
-  const MotionBounds bounds = evaluator_->motion().sumsIn(frame_, link).bounds();
+  side.frame = frame_;
+  side.inFrame = evaluator.motion().sumsIn(frame_, link).bounds();
   side.bounds.clear();
-  for (const Lss& one : lss) side.bounds.push_back(axisBounds(one, bounds));
+  for (const Lss& one : lss) side.bounds.push_back(axisBounds(one, side.inFrame));
   states_.t = std::numeric_limits<double>::quiet_NaN();
 }
 
-void MovingSides::setLink(LinkId link, const std::vector<Lss>& lss) {
-  setSide(one_, link, lss);
+void MovingSides::setLink(MotionEvaluator& evaluator, LinkId link, const std::vector<Lss>& lss) {
+  setSide(one_, evaluator, link, lss);
 }
 
-void MovingSides::setOther(LinkId link, const std::vector<Lss>& lss) {
-  setSide(other_, link, lss);
+void MovingSides::setOther(MotionEvaluator& evaluator, LinkId link, const std::vector<Lss>& lss) {
+  setSide(other_, evaluator, link, lss);
   scene_ = nullptr;
 }
 
-void MovingSides::setShares(const SelfPlan* self, std::int32_t first, std::int32_t firstOfOther) {
-  self_ = self;
+void MovingSides::setShares(const PairsAsked& asked, std::int32_t first,
+                            std::int32_t firstOfOther) {
+  asked_ = &asked;
   one_.first = first;
   other_.first = firstOfOther;
 }
@@ -57,8 +60,8 @@ void MovingSides::setScene(const Scene& scene, ObjectId object) {
 
 const MovingSides::States& MovingSides::statesAt(double t) {
   if (t == states_.t) return states_;
-  states_.one = evaluator_->stateIn(frame_, one_.link, t);
-  if (scene_ == nullptr) states_.other = evaluator_->stateIn(frame_, other_.link, t);
+  states_.one = one_.side().stateAt(t);
+  if (scene_ == nullptr) states_.other = other_.side().stateAt(t);
   states_.t = t;
   return states_;
 }
@@ -67,17 +70,14 @@ MovingPair MovingSides::at(const SidesPair& pair, double t) {
   ++looks;
   work += kLookWork;
   const States& now = statesAt(t);
-  const auto sideOf = [](const LinkSide& side, std::int32_t lss, const LinkState& state) {
-    return MovingHull::of((*side.lss)[slotOf(lss)], side.bounds[slotOf(lss)], state);
-  };
-  MovingHull one = sideOf(one_, pair.lss, now.one);
+  MovingHull one = one_.side().hullAt(pair.lss, Part::whole(), now.one);
   if (scene_ != nullptr) {
     return movingPair(one, MovingHull::still(scene_->triangle(pair.other)));
   }
-  MovingHull other = sideOf(other_, pair.other, now.other);
-  if (self_ != nullptr) {
+  MovingHull other = other_.side().hullAt(pair.other, Part::whole(), now.other);
+  if (asked_ != nullptr) {
     const std::int32_t i = one_.first + pair.lss, j = other_.first + pair.other;
-    const double share = self_->radiusShare(std::min(i, j), std::max(i, j));
+    const double share = asked_->radiusShare(std::min(i, j), std::max(i, j));
     one.radius *= share;
     other.radius *= share;
   }

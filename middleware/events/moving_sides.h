@@ -9,8 +9,8 @@
 
 #include "articulated/motion.h"
 #include "lss/lss.h"
-#include "middleware/query/moving_pair.h"
-#include "middleware/query/self_plan.h"
+#include "middleware/query/pairs_asked.h"
+#include "middleware/query/side.h"
 #include "middleware/scene/scene.h"
 #include "tessellation/swept_lss.h"
 
@@ -27,27 +27,34 @@ struct SidesPair {
   return x.lss == y.lss && x.other == y.other;
 }
 
-/// One side that moves with a link.
+/// One side that moves with a link, and what it refers to.
 struct LinkSide {
+  MotionEvaluator* evaluator = nullptr;
   LinkId link = kNoParent;
   const std::vector<Lss>* lss = nullptr;
-  std::int32_t first = 0;          // of its LSS in the numbers of radius shares
+  LinkId frame = kNoParent;
+  MotionBounds inFrame;
   std::vector<AxisBounds> bounds;  // per LSS
+  std::int32_t first = 0;          // of its LSS in the numbers of radius shares
+
+  [[nodiscard]] Side side() const {
+    return {link, *lss, bounds, *evaluator, nullptr, nullptr, frame, &inFrame};
+  }
 };
 
 /// For one thread; keeps its memory. What it refers to outlives the last look.
 class MovingSides {
  public:
-  /// The step whose motion the evaluator has, seen from `frame`.
-  void begin(MotionEvaluator& evaluator, LinkId frame);
-  void setLink(LinkId link, const std::vector<Lss>& lss);
-  /// `self`: whose shares of radii count, with the number of each link's first LSS; or null.
-  void setOther(LinkId link, const std::vector<Lss>& lss);
-  void setShares(const SelfPlan* self, std::int32_t first, std::int32_t firstOfOther);
+  /// Both are seen from `frame`.
+  void begin(LinkId frame);
+  /// A link of the motion that the evaluator has.
+  void setLink(MotionEvaluator& evaluator, LinkId link, const std::vector<Lss>& lss);
+  void setOther(MotionEvaluator& evaluator, LinkId link, const std::vector<Lss>& lss);
+  /// Whose shares of radii count, with the number of each link's first LSS.
+  void setShares(const PairsAsked& asked, std::int32_t first, std::int32_t firstOfOther);
   /// The triangles of the object, instead of another link; of all objects if it is kNoObject.
   void setScene(const Scene& scene, ObjectId object);
 
-  [[nodiscard]] LinkId link() const { return one_.link; }
   [[nodiscard]] bool isScene() const { return scene_ != nullptr; }
   [[nodiscard]] const Scene& scene() const { return *scene_; }
 
@@ -72,7 +79,8 @@ class MovingSides {
     LinkState one, other;
   };
   [[nodiscard]] const States& statesAt(double t);
-  void setSide(LinkSide& side, LinkId link, const std::vector<Lss>& lss);
+  void setSide(LinkSide& side, MotionEvaluator& evaluator, LinkId link,
+               const std::vector<Lss>& lss);
   [[nodiscard]] static Aabb sweptBoxOf(const LinkSide& side, std::size_t i, const LinkState& begin,
                                        const LinkState& end, double span, double reach);
   void collectLinks(const States& begin, const States& end, double reach,
@@ -80,10 +88,9 @@ class MovingSides {
   void collectScene(const States& begin, const States& end, double reach,
                     std::vector<SidesPair>& pairs);
 
-  MotionEvaluator* evaluator_ = nullptr;
   LinkId frame_ = kNoParent;
   LinkSide one_, other_;
-  const SelfPlan* self_ = nullptr;
+  const PairsAsked* asked_ = nullptr;
   const Scene* scene_ = nullptr;
   ObjectId object_ = kNoObject;
   States states_;

@@ -57,13 +57,22 @@ Result<const SystemPlan*> SpanSides::prepare() {
   FORETOUCH_TRY(plan_, query_.prepare(question_, one_, other_));
   if (plan_ == nullptr) return plan_;
   evaluator_.reset(scratch_.motion);
-  if (plan_->chain) {
-    scratch_.ofSystem.assign(plan_->skeleton, scratch_.poses.from, scratch_.poses.to);
+  if (!plan_->isMerged()) ofOther_.reset(scratch_.other);
+  if (plan_->seen) {
+    const ChainPoses& poses = scratch_.poses.chains[0];
+    scratch_.ofSystem.assign(plan_->chains.front(), poses.from, poses.to);
     ofSystem_.reset(scratch_.ofSystem);
   }
   return plan_;
 }
 
+MotionEvaluator& SpanSides::inWorld(BodyId body) const {
+  if (plan_->seen) return ofSystem_;
+  const SystemMember& member = scratch_.spans.members()[slotOf(scratch_.spans.placeOf(body))];
+  return plan_->isMerged() || member.chain == 0 ? evaluator_ : ofOther_;
+}
+
+/// On its chain.
 LinkId SpanSides::inSystem(BodyId body, LinkId link) const {
   return plan_->first[slotOf(scratch_.spans.placeOf(body))] + link;
 }
@@ -78,8 +87,8 @@ bool SpanSides::set(const LinkPair& links, MovingSides& sides) {
   switch (question_) {
     case SystemQuestion::Still:
       frame_ = kNoParent;
-      sides.begin(evaluator_, frame_);
-      sides.setLink(inSystem(one_, one), lssOf(one_, one));
+      sides.begin(frame_);
+      sides.setLink(evaluator_, inSystem(one_, one), lssOf(one_, one));
       sides.setScene(*world_.still, kNoObject);
       return true;
     case SystemQuestion::Mesh: return setMesh(one, sides);
@@ -90,47 +99,50 @@ bool SpanSides::set(const LinkPair& links, MovingSides& sides) {
 bool SpanSides::setPair(LinkId one, LinkId other, MovingSides& sides) {
   const BodyId ofOther = other_ == kStillScene ? one_ : other_;
   const LinkId a = inSystem(one_, one), b = inSystem(ofOther, other);
-  const QueryPlan& plan = *plan_->plan;
-  const SelfPlan& self = plan.self;
   if (lssOf(ofOther, other).empty()) return false;
-  const std::int32_t firstOfA = plan.table.first(a), firstOfB = plan.table.first(b);
-  if (!self.asked().has(std::min(firstOfA, firstOfB), std::max(firstOfA, firstOfB))) return false;
-  frame_ = self.frames()[slotOf(self.frameOf(std::min(a, b), std::max(a, b)))];
-  sides.begin(evaluator_, frame_);
-  sides.setLink(a, lssOf(one_, one));
-  sides.setOther(b, lssOf(ofOther, other));
-  sides.setShares(&self, firstOfA, firstOfB);
+  const PairPlan plan = plan_->pair();
+  const PairsAsked& asked = plan.asked;
+  // The plan's first side is who is first among the members; of own links, the lower one.
+  const bool isTurned =
+      plan.isOfOwnLinks() ? b < a : scratch_.spans.placeOf(ofOther) < scratch_.spans.placeOf(one_);
+  const LinkId first = isTurned ? b : a, second = isTurned ? a : b;
+  const std::int32_t i = plan.one.table.first(first), j = plan.other.table.first(second);
+  if (!asked.asked().has(i, j)) return false;
+  frame_ = asked.frames()[slotOf(asked.frameOf(first, second))];
+  sides.begin(frame_);
+  sides.setLink(inWorld(one_), a, lssOf(one_, one));
+  sides.setOther(inWorld(ofOther), b, lssOf(ofOther, other));
+  sides.setShares(asked, isTurned ? j : i, isTurned ? i : j);
   return true;
 }
 
 bool SpanSides::setMesh(LinkId link, MovingSides& sides) {
-  const LinkId seen = plan_->chain->linkOf(inSystem(one_, link));
-  const QueryPlan& plan = plan_->query->plan();
-  if (plan.avatar.lss(seen).empty()) return false;  // it carries the mesh, or is carried by it
+  const LinkId seen = plan_->seen->linkOf(inSystem(one_, link));
+  if (plan_->query->avatar().lss(seen).empty())
+    return false;  // it carries the mesh, or is carried by it
   frame_ = kNoParent;
-  sides.begin(evaluator_, frame_);
-  sides.setLink(seen, lssOf(one_, link));
+  sides.begin(frame_);
+  sides.setLink(evaluator_, seen, lssOf(one_, link));
   sides.setScene(*world_.kindOf(other_).mesh, kNoObject);
   return true;
 }
 
 LinkState SpanSides::frameAt(double t) {
-  if (plan_->chain) return stateOf(other_, 0, t);
+  if (plan_->seen) return stateOf(other_, 0, t);
   if (frame_ == kNoParent) return {};
   return evaluator_.stateAt(frame_, t);
 }
 
 LinkState SpanSides::stateOf(BodyId body, LinkId link, double t) {
-  return inWorld().stateAt(inSystem(body, link), t);
+  return inWorld(body).stateAt(inSystem(body, link), t);
 }
 
 MotionBounds SpanSides::boundsOf(BodyId body, LinkId link) const {
-  const ChainMotion& motion = plan_->chain ? scratch_.ofSystem : scratch_.motion;
-  return motion.bounds(inSystem(body, link));
+  return inWorld(body).motion().bounds(inSystem(body, link));
 }
 
 void SpanSides::statesOf(BodyId body, double t, std::vector<LinkState>& states) {
-  inWorld().statesAt(t, states_);
+  inWorld(body).statesAt(t, states_);
   const auto first = states_.begin() + inSystem(body, 0);
   states.assign(first, first + world_.kindOf(body).skeleton.numJoints());
 }

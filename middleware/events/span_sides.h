@@ -41,7 +41,8 @@ struct LinkPair {
 /// One thread's memory for spans.
 struct SpanScratch {
   SystemScratch system;
-  MotionEvaluator evaluator, ofSystem;
+  MotionEvaluator evaluator, ofOther;  // of the two chains
+  MotionEvaluator ofSystem;            // of what is seen from a mesh, in W
   std::vector<LinkState> states;
 };
 
@@ -53,6 +54,7 @@ class SpanSides {
         scratch_(scratch.system),
         query_(world, plans, scratch.system),
         evaluator_(scratch.evaluator),
+        ofOther_(scratch.ofOther),
         ofSystem_(scratch.ofSystem),
         states_(scratch.states) {}
 
@@ -91,7 +93,7 @@ class SpanSides {
   [[nodiscard]] bool setPair(LinkId one, LinkId other, MovingSides& sides);
   [[nodiscard]] bool setMesh(LinkId link, MovingSides& sides);
   [[nodiscard]] const std::vector<Lss>& lssOf(BodyId body, LinkId link) const;
-  [[nodiscard]] MotionEvaluator& inWorld() { return plan_->chain ? ofSystem_ : evaluator_; }
+  [[nodiscard]] MotionEvaluator& inWorld(BodyId body) const;
 
   const WorldParts& world_;
   SystemScratch& scratch_;
@@ -101,7 +103,7 @@ class SpanSides {
   bool isTurned_ = false;
   const SystemPlan* plan_ = nullptr;
   LinkId frame_ = kNoParent;
-  MotionEvaluator &evaluator_, &ofSystem_;
+  MotionEvaluator &evaluator_, &ofOther_, &ofSystem_;
   std::vector<LinkState>& states_;
 };
 

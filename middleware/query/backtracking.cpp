@@ -56,7 +56,7 @@ class Backtracker {
       advance();
     }
     if (hasContact()) settle();
-    return best_ ? *best_ : PairContact{clearContact(query_.parts.link)};
+    return best_ ? *best_ : PairContact{clearContact(query_.one.link)};
   }
 
   std::optional<PairContact> runAtStart() {
@@ -211,7 +211,7 @@ class Backtracker {
   /// contact is open.
   void settleUnseen() {
     if (!best_ || best_->verdict != Verdict::Contact) return;
-    best_ = PairContact{undecidedContact(query_.parts.link, 0.0, UndecidedReason::WorkBudget)};
+    best_ = PairContact{undecidedContact(query_.one.link, 0.0, UndecidedReason::WorkBudget)};
   }
 
   /// A pair farther than this is not a contact, or not one to report.
@@ -221,7 +221,7 @@ class Backtracker {
 
   void giveUp(double t, UndecidedReason reason) {
     if (best_) return;  // a contact at this instant stands
-    best_ = PairContact{undecidedContact(query_.parts.link, t, reason)};
+    best_ = PairContact{undecidedContact(query_.one.link, t, reason)};
     horizon_ = t;
   }
 

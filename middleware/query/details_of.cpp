@@ -1,5 +1,3 @@
-#include "middleware/query/contact_details.h"
-
 #include <algorithm>
 #include <vector>
 
@@ -8,9 +6,10 @@
 #include "lss/assert.h"
 #include "lss/index.h"
 #include "middleware/query/approach.h"
-#include "middleware/query/link_parts.h"
+#include "middleware/query/contact_details.h"
 #include "middleware/query/manifold.h"
 #include "middleware/query/query_plan.h"
+#include "middleware/query/side.h"
 #include "middleware/scene/scene_parts.h"
 
 namespace foretouch {

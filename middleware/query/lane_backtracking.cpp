@@ -29,12 +29,12 @@ class LaneBacktracker {
         handOver_(kHandOverShare * query.tolerance),
         end_(scratch.lanes.end()),
         standsStill_(Sides::kAnswersStarts &&
-                     (query.parts.surface == nullptr || query.other->surface == nullptr)) {}
+                     (query.one.surface == nullptr || query.other->surface == nullptr)) {}
 
   PairContact run() {
     start(0.0);
     if (!lookStill(0.0) || !lookAtAll()) return leftUndone();
-    if (!best_) return PairContact{clearContact(query_.parts.link)};
+    if (!best_) return PairContact{clearContact(query_.one.link)};
     // Pairs that moved on from the start are farther than what touches there.
     if (best_->verdict == Verdict::Contact && !lookAround() && isOpenAtStart()) return spent(0.0);
     return *best_;
@@ -212,7 +212,7 @@ class LaneBacktracker {
     return Sides::kAnswersStarts && best_->toi == 0.0 && best_->verdict == Verdict::Contact;
   }
   [[nodiscard]] PairContact spent(double freeUntil) const {
-    return PairContact{undecidedContact(query_.parts.link, freeUntil, UndecidedReason::WorkBudget)};
+    return PairContact{undecidedContact(query_.one.link, freeUntil, UndecidedReason::WorkBudget)};
   }
 
   void push(const PartPair& pair) {
@@ -287,7 +287,7 @@ class LaneBacktracker {
   void giveUp(double t) {
     if (t == horizon_) return;
     nearest_ = kInfinity;
-    best_ = PairContact{undecidedContact(query_.parts.link, t, UndecidedReason::Resolution)};
+    best_ = PairContact{undecidedContact(query_.one.link, t, UndecidedReason::Resolution)};
     horizon_ = t;
   }
 
@@ -326,7 +326,7 @@ PairContact backtrackInLanes(const LinkQuery& query, std::vector<Candidate>& can
   if (query.other != nullptr) {
     return LaneBacktracker<OwnSides>(query, candidates, scratch, counters, frames).run();
   }
-  if (query.parts.skin != nullptr) {
+  if (query.one.skin != nullptr) {
     return LaneBacktracker<SkinSides>(query, candidates, scratch, counters).run();
   }
   return LaneBacktracker<MeshSides>(query, candidates, scratch, counters).run();

@@ -144,16 +144,14 @@ LinkContact LaneLink::answerBefore(LinkId link, float& best, QueryCounters& coun
   prepareScalar(link);
   const LinkPlan& asked = plan_.of(link);
   const LinkQuery query{
-      {link, body_.lss(link), scratch_.axisBounds, motion_, asked.surface, asked.skin},
-      scene_,
+      {link, body_.lss(link), scratch_.axisBounds, scratch_.evaluator, asked.surface, asked.skin},
+      nullptr,
+      &scene_,
       Pieces{1, nullptr, end_},
       tolerance_,
       meter_,
       plan_.leafProver.get(),
-      scratch_.evaluator,
       *this,
-      nullptr,
-      kNoParent,
       &scratch_.states};
   const bool atStart = best == kBegin && begin_ == 0.0;
   if (asked.skin != nullptr) return skinContact(query, atStart, counters);
@@ -173,7 +171,7 @@ LinkContact LaneLink::surfaceContact(const LinkQuery& query, bool atStart,
   const bool inLanes = activeSimd() != Simd::Scalar;
   if (inLanes) {
     const FramePolynomials polynomials =
-        framePolynomialsOf(query.parts.link, motion_, lanes_.nodes());
+        framePolynomialsOf(query.one.link, motion_, lanes_.nodes());
     parts.lanes.reset(polynomials, scene_.parts().origin, begin_, end_);
   }
   if (atStart) {
@@ -184,7 +182,7 @@ LinkContact LaneLink::surfaceContact(const LinkQuery& query, bool atStart,
     }
     const auto contact =
         meshContactAtStart(query, scratch_.candidates, inLanes ? &parts : nullptr, counters);
-    if (!contact) return clearContact(query.parts.link);
+    if (!contact) return clearContact(query.one.link);
     if (contact->verdict != Verdict::Contact) return *contact;
     return inLanes ? nearestInLanes(query, *contact, scratch_.candidates, parts, counters)
                    : nearestContact(query, *contact, scratch_.candidates, counters);
@@ -196,10 +194,10 @@ LinkContact LaneLink::surfaceContact(const LinkQuery& query, bool atStart,
 /// At skinned fidelity likewise, by the clusters' candidates.
 LinkContact LaneLink::skinContact(const LinkQuery& query, bool atStart, QueryCounters& counters) {
   PartScratch& parts = lanes_.parts;
-  parts.lanes.reset(parts.skin.beginLink(query.parts.link), scene_.parts().origin, begin_, end_);
+  parts.lanes.reset(parts.skin.beginLink(query.one.link), scene_.parts().origin, begin_, end_);
   if (!atStart) return backtrackInLanes(query, scratch_.candidates, parts, counters);
   const auto contact = skinContactAtStart(query, scratch_.candidates, parts, counters);
-  return contact ? *contact : clearContact(query.parts.link);
+  return contact ? *contact : clearContact(query.one.link);
 }
 
 void LaneLink::prepareScalar(LinkId link) {

@@ -30,20 +30,9 @@ struct SlabScratch {
   std::uint64_t lastUse = 0;
 };
 
-/// The hits are those of the LSS' boxes.
-struct LaneScratch : LeafHits {
-  PairLanes pairs;
-  std::vector<LeafPart> leafParts;    // of the current LSS
-  std::vector<std::uint32_t> order;   // of the clusters, by time
-  HandedOver clusters, handed;        // of the current LSS
-  NearTriangles near;                 // of the current LSS, where its link is in contact
-  PartScratch parts;                  // of the current link, at exact fidelity
-  std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
-  std::vector<std::uint8_t> isNear;  // per link, at skinned fidelity: asked, and its box met a leaf
-  std::vector<double> tolerances;    // per link that passes its start: its own; else 0
-  std::vector<IgnoredPair> touched;  // objects that have had their contact (Scope::EveryObject)
-  std::vector<double> freeUntil;     // per link, if work is limited: how far it is proven free
-
+/// The spans of one motion that were looked at last.
+class SlabCache {
+ public:
   /// Another motion is asked from now on.
   void beginStep() {
     for (SlabScratch& slab : slabs_) slab.areNodesOfStep = slab.areBoxesOfNodes = false;
@@ -55,13 +44,15 @@ struct LaneScratch : LeafHits {
   [[nodiscard]] const SweptBoxes& boxes() const { return slab().boxes; }
 
   /// Goes to a span of the motion that is asked, and finds its nodes unless they are there.
+  /// `beside`: another chain, whose places are compared with these; or null.
   void evaluateNodes(const ChainMotion& motion, double begin, double end,
-                     const Eigen::Vector3d& origin, QueryCounters& counters) {
+                     const Eigen::Vector3d& origin, QueryCounters& counters,
+                     const ChainMotion* beside = nullptr) {
     current_ = slabFor(begin, end);
     SlabScratch& here = slab();
     here.lastUse = ++uses_;
     if (here.areNodesOfStep && here.nodes.begin() == begin && here.nodes.end() == end) return;
-    here.nodes.evaluate(motion, begin, end, origin);
+    here.nodes.evaluate(motion, begin, end, origin, beside);
     here.areNodesOfStep = true;
     here.areBoxesOfNodes = false;
     counters.states +=
@@ -87,6 +78,21 @@ struct LaneScratch : LeafHits {
   std::array<SlabScratch, kSlabsKept> slabs_;
   std::size_t current_ = 0;
   std::uint64_t uses_ = 0;
+};
+
+/// The hits are those of the LSS' boxes.
+struct LaneScratch : LeafHits, SlabCache {
+  PairLanes pairs;
+  std::vector<LeafPart> leafParts;    // of the current LSS
+  std::vector<std::uint32_t> order;   // of the clusters, by time
+  HandedOver clusters, handed;        // of the current LSS
+  NearTriangles near;                 // of the current LSS, where its link is in contact
+  PartScratch parts;                  // of the current link, at exact fidelity
+  std::vector<std::uint8_t> isAsked;  // per link: not ignored, not answered yet
+  std::vector<std::uint8_t> isNear;  // per link, at skinned fidelity: asked, and its box met a leaf
+  std::vector<double> tolerances;    // per link that passes its start: its own; else 0
+  std::vector<IgnoredPair> touched;  // objects that have had their contact (Scope::EveryObject)
+  std::vector<double> freeUntil;     // per link, if work is limited: how far it is proven free
 };
 
 }  // namespace foretouch::internal

@@ -37,7 +37,7 @@ class LaneSides {
   [[nodiscard]] std::int32_t laneTriangle(const PartPair& pair) const {
     Candidate& candidate = candidateOf(pair);
     if (candidate.laneTriangle < 0) {
-      candidate.laneTriangle = scratch_.lanes.add(query_.scene.triangle(candidate.triangle));
+      candidate.laneTriangle = scratch_.lanes.add(query_.scene->triangle(candidate.triangle));
     }
     return candidate.laneTriangle;
   }
@@ -56,7 +56,7 @@ class MeshSides : private LaneSides {
   using LaneSides::readCandidates;
   using LaneSides::widen;
   MeshSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
-      : LaneSides(query, candidates, scratch), surface_(*query.parts.surface) {
+      : LaneSides(query, candidates, scratch), surface_(*query.one.surface) {
     surface_.prepare();
   }
 
@@ -169,7 +169,7 @@ class OwnSides : private LaneSides {
   using LaneSides::widen;
   OwnSides(const LinkQuery& query, std::vector<Candidate>& candidates, PartScratch& scratch)
       : LaneSides(query, candidates, scratch) {
-    const LinkSurface *const one = query.parts.surface, *const other = query.other->surface;
+    const LinkSurface *const one = query.one.surface, *const other = query.other->surface;
     if (one != nullptr) other == nullptr ? one->prepareWide() : one->prepare();
     if (other != nullptr) one == nullptr ? other->prepareWide() : other->prepare();
     if (one == nullptr || other == nullptr) {
@@ -180,7 +180,7 @@ class OwnSides : private LaneSides {
   void readCandidates() {
     scratch_.wholeParts.clear();
     for (const Candidate& candidate : candidates_) {
-      scratch_.wholeParts.push_back({lanePart(query_.parts.lss[slotOf(candidate.lss)]),
+      scratch_.wholeParts.push_back({lanePart(query_.one.lss[slotOf(candidate.lss)]),
                                      lanePart(query_.other->lss[slotOf(candidate.otherLss)])});
     }
   }
@@ -193,7 +193,7 @@ class OwnSides : private LaneSides {
     if (pair.isEntered) return false;
     const Candidate& candidate = candidateOf(pair);
     pair.isEntered = true;
-    enterSide(query_.parts, candidate.lss, pair.isWhole, pair.part);
+    enterSide(query_.one, candidate.lss, pair.isWhole, pair.part);
     enterSide(*query_.other, candidate.otherLss, pair.isOtherWhole, pair.otherPart);
     push(pair);
     return true;
@@ -204,8 +204,8 @@ class OwnSides : private LaneSides {
     const Candidate& candidate = candidateOf(pair);
     const bool isOther =
         radiusOf(*query_.other, candidate.otherLss, pair.isOtherWhole, pair.otherPart) >
-        radiusOf(query_.parts, candidate.lss, pair.isWhole, pair.part);
-    const LinkParts& side = isOther ? *query_.other : query_.parts;
+        radiusOf(query_.one, candidate.lss, pair.isWhole, pair.part);
+    const Side& side = isOther ? *query_.other : query_.one;
     const std::int32_t lss = isOther ? candidate.otherLss : candidate.lss;
     HierarchyChild& part = isOther ? pair.otherPart : pair.part;
     for (const HierarchyChild below : side.surface->below(lss, part)) {
@@ -218,7 +218,7 @@ class OwnSides : private LaneSides {
   /// One instant, at which all parts stand still. Precondition, as of the next three: one of the
   /// links has no mesh.
   void stopAt(const PosedLink& posed) {
-    const LinkParts &mesh = meshSide(), &plain = plainSide();
+    const Side &mesh = meshSide(), &plain = plainSide();
     const bool isOther = &mesh == query_.other;
     const MotionBounds bounds = mesh.bounds();
     scratch_.stillAxes.clear();
@@ -231,7 +231,7 @@ class OwnSides : private LaneSides {
   }
   /// The candidate's whole mesh; nothing if its two LSS are all there is.
   [[nodiscard]] std::optional<StillPair> wholeStill(std::int32_t candidate) const {
-    const LinkParts& mesh = meshSide();
+    const Side& mesh = meshSide();
     const std::int32_t lss = meshLss(candidate);
     if (!mesh.surface->hasTriangles(lss)) return std::nullopt;
     return StillPair{-std::numeric_limits<float>::infinity(), candidate, mesh.surface->root(lss)};
@@ -257,7 +257,7 @@ class OwnSides : private LaneSides {
     const auto& [one, other] = scratch_.wholeParts[slotOf(pair.candidate)];
     const Candidate& candidate = candidateOf(pair);
     scratch_.lanes.putBoth(
-        lane, pair.isWhole ? one : query_.parts.surface->lanePart(candidate.lss, pair.part),
+        lane, pair.isWhole ? one : query_.one.surface->lanePart(candidate.lss, pair.part),
         pair.isOtherWhole ? other
                           : query_.other->surface->lanePart(candidate.otherLss, pair.otherPart),
         laneTime(pair), floor);
@@ -273,26 +273,25 @@ class OwnSides : private LaneSides {
   }
 
  private:
-  [[nodiscard]] const LinkParts& meshSide() const {
-    return query_.parts.surface != nullptr ? query_.parts : *query_.other;
+  [[nodiscard]] const Side& meshSide() const {
+    return query_.one.surface != nullptr ? query_.one : *query_.other;
   }
-  [[nodiscard]] const LinkParts& plainSide() const {
-    return query_.parts.surface != nullptr ? *query_.other : query_.parts;
+  [[nodiscard]] const Side& plainSide() const {
+    return query_.one.surface != nullptr ? *query_.other : query_.one;
   }
   [[nodiscard]] std::int32_t meshLss(std::int32_t candidate) const {
     const Candidate& own = candidates_[slotOf(candidate)];
-    return query_.parts.surface != nullptr ? own.lss : own.otherLss;
+    return query_.one.surface != nullptr ? own.lss : own.otherLss;
   }
   [[nodiscard]] static bool isOnTop(bool isWhole, HierarchyChild part) {
     return isWhole || part.isTriangle();
   }
-  static void enterSide(const LinkParts& side, std::int32_t lss, bool& isWhole,
-                        HierarchyChild& part) {
+  static void enterSide(const Side& side, std::int32_t lss, bool& isWhole, HierarchyChild& part) {
     isWhole = side.surface == nullptr || !side.surface->hasTriangles(lss);
     if (!isWhole) part = side.surface->root(lss);
   }
   /// Below zero where nothing is below.
-  [[nodiscard]] static float radiusOf(const LinkParts& side, std::int32_t lss, bool isWhole,
+  [[nodiscard]] static float radiusOf(const Side& side, std::int32_t lss, bool isWhole,
                                       HierarchyChild part) {
     return isOnTop(isWhole, part) ? -1.0F : side.surface->lanePart(lss, part).radius;
   }

@@ -39,8 +39,16 @@ Vector3d contactNormal(const Separation& axes) {
   return Vector3d::Zero();
 }
 
+void beginAnswer(StepContacts& step) {
+  step.links.clear();  // so that no old answer survives if there is no room for a new one
+  step.perObject.clear();
+  step.pairs.clear();
+  step.arePairsAnswered = false;
+  step.provenClearance = std::numeric_limits<double>::infinity();
+  step.counters = {};
+}
+
 void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links) {
-  links.clear();  // so that no old answer survives if there is no room for a new one
   links.assign(countOf(numLinks), LinkContact());  // copies one; resize() is four times as slow
   for (LinkId link = 0; link < numLinks; ++link) {
     links[slotOf(link)].link = link;
@@ -76,13 +84,13 @@ double nextPossible(const Pieces& pieces, const Candidate& candidate, double t) 
 }
 
 MovingHull oneSideOf(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed) {
-  MovingHull side = query.parts.hullOf(candidate.lss, candidate.part, posed);
+  MovingHull side = query.one.hullOf(candidate.lss, candidate.part, posed);
   side.radius *= candidate.radiusShare;
   return side;
 }
 
 MovingHull otherSideOf(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed) {
-  if (query.other == nullptr) return MovingHull::still(query.scene.triangle(candidate.triangle));
+  if (query.other == nullptr) return MovingHull::still(query.scene->triangle(candidate.triangle));
   MovingHull side = query.other->hullAt(candidate.otherLss, candidate.otherPart, posed.other);
   side.radius *= candidate.radiusShare;
   return side;
@@ -94,15 +102,15 @@ TriangleId otherTriangle(const LinkQuery& query, const Candidate& candidate) {
 }
 
 LinkQuery::Below LinkQuery::below(const Candidate& candidate) const {
-  const auto radiusOf = [](const LinkParts& side, std::int32_t lss, Part part) {
+  const auto radiusOf = [](const Side& side, std::int32_t lss, Part part) {
     return side.isSurface(lss, part) ? -1.0 : side.lssOf(lss, part).radius;
   };
   const bool isOther =
       other != nullptr && radiusOf(*other, candidate.otherLss, candidate.otherPart) >
-                              radiusOf(parts, candidate.lss, candidate.part);
+                              radiusOf(one, candidate.lss, candidate.part);
   const std::array<Part, 2> children = isOther
                                            ? other->below(candidate.otherLss, candidate.otherPart)
-                                           : parts.below(candidate.lss, candidate.part);
+                                           : one.below(candidate.lss, candidate.part);
   Below below{{candidate, candidate}, children[0] == children[1] ? std::size_t{1} : 2};
   for (std::size_t i = 0; i < 2; ++i) {
     Candidate& child = below.candidates[i];
@@ -112,17 +120,17 @@ LinkQuery::Below LinkQuery::below(const Candidate& candidate) const {
 }
 
 double leastGap(const LinkQuery& query, const Candidate& candidate, const PosedLink& posed) {
-  const auto radiusOf = [](const LinkParts& side, std::int32_t lss, Part part) {
+  const auto radiusOf = [](const Side& side, std::int32_t lss, Part part) {
     return part.isTriangle() ? 0.0 : side.lssOf(lss, part).radius;
   };
-  const LinkParts* const other = query.other;
-  const Aabb box = query.parts.boxOfPoints(candidate.lss, candidate.part, posed);
-  double radii = radiusOf(query.parts, candidate.lss, candidate.part);
+  const Side* const other = query.other;
+  const Aabb box = query.one.boxOfPoints(candidate.lss, candidate.part, posed);
+  double radii = radiusOf(query.one, candidate.lss, candidate.part);
   if (other != nullptr) radii += radiusOf(*other, candidate.otherLss, candidate.otherPart);
   const double gap =
       box.distance(other != nullptr
                        ? other->boxAt(candidate.otherLss, candidate.otherPart, posed.other)
-                       : boxOf(query.scene.triangle(candidate.triangle))) -
+                       : boxOf(query.scene->triangle(candidate.triangle))) -
       radii;
   return gap - kSlackOfRounding * (1.0 + std::abs(gap) + box.max.cwiseAbs().maxCoeff());
 }
@@ -152,7 +160,7 @@ double reachOf(const LinkContact& contact) {
 PairContact contactOf(const LinkQuery& query, const Candidate& candidate, const MovingPair& pair,
                       double t) {
   PairContact contact;
-  contact.link = query.parts.link;
+  contact.link = query.one.link;
   const bool areTriangles = pair.one.hull.count == 3 && pair.other.hull.count == 3;
   // At t = 0 no earlier proof keeps the pair apart: an LSS that we cannot prove apart counts as
   // touching; for triangles, the computed vertices give an exact answer.

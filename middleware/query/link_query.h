@@ -1,5 +1,5 @@
-// middleware/query/link_query.h: the question about one link: its pairs with the scene's triangles,
-// and what each pair proves at an instant. Not installed.
+// middleware/query/link_query.h: the question about a link and what it may meet: pairs of parts of
+// both sides, and what each pair proves at an instant. Not installed.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 #include "articulated/motion.h"
 #include "middleware/contact.h"
-#include "middleware/query/link_parts.h"
 #include "middleware/query/provers.h"
+#include "middleware/query/side.h"
 #include "middleware/query/work_meter.h"
 #include "middleware/scene/scene.h"
 
@@ -58,6 +58,8 @@ struct Candidate {
 [[nodiscard]] inline bool isUnanswered(const LinkContact& contact) {
   return contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::None;
 }
+/// Nothing is answered yet.
+void beginAnswer(StepContacts& step);
 /// Marks every link as answered by no query.
 void leaveUnanswered(LinkId numLinks, std::vector<LinkContact>& links);
 
@@ -84,27 +86,24 @@ class Neighbours {
   ~Neighbours() = default;
 };
 
-/// The input of backtrack() for one link against the scene, or against another link; all references
-/// outlive the call.
+/// The input of backtrack() for one link against another one, or against a scene at rest; all that
+/// it refers to outlives the call. Both sides are seen from one frame, in which they have their
+/// bounds.
 struct LinkQuery {
-  LinkParts parts;
-  const Scene& scene;
+  Side one;
+  const Side* other;   // null: the scene
+  const Scene* scene;  // null: the other link
   Pieces pieces;
   double tolerance;
   const WorkMeter& meter;
   const LeafProver* leafProver;  // or null: advancement alone
-  MotionEvaluator& evaluator;    // of parts.motion
   Neighbours& neighbours;
-  const LinkParts* other = nullptr;  // the other side, if it is a link and not the scene
-  /// What both links are looked at in: the frame of one above both, where only the joints below it
-  /// move them; W otherwise. `parts` and `other` have their bounds in it.
-  LinkId frame = kNoParent;
   std::vector<LinkState>* states = nullptr;  // memory for those of all links, if there is a skin
 
-  [[nodiscard]] bool isExact() const { return parts.surface != nullptr; }
+  [[nodiscard]] bool isExact() const { return one.surface != nullptr; }
   /// Nothing is below either part: whatever they touch, the link touches.
   [[nodiscard]] bool isSurface(const Candidate& candidate) const {
-    return parts.isSurface(candidate.lss, candidate.part) &&
+    return one.isSurface(candidate.lss, candidate.part) &&
            (other == nullptr || other->isSurface(candidate.otherLss, candidate.otherPart));
   }
   /// The candidates that replace one that is not of surfaces: the part with the larger radius gives
@@ -123,16 +122,16 @@ class StateCache {
       : query_(query), counters_(counters) {}
   [[nodiscard]] const PosedLink& at(double t) {
     if (t == time_) return posed_;
-    if (query_.parts.skin != nullptr) {
-      query_.evaluator.statesAt(t, *query_.states);
+    if (query_.one.skin != nullptr) {
+      query_.one.evaluator.statesAt(t, *query_.states);
       posed_.all = query_.states;
       counters_.states += query_.states->size();
     } else {
-      posed_.state = query_.evaluator.stateIn(query_.frame, query_.parts.link, t);
+      posed_.state = query_.one.stateAt(t);
       ++counters_.states;
     }
     if (query_.other != nullptr) {
-      posed_.other = query_.evaluator.stateIn(query_.frame, query_.other->link, t);
+      posed_.other = query_.other->stateAt(t);
       ++counters_.states;
     }
     time_ = t;

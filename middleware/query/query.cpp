@@ -8,10 +8,11 @@
 #include "lss/simd.h"
 #include "middleware/query/body.h"
 #include "middleware/query/lane_query.h"
+#include "middleware/query/pair_query.h"
 #include "middleware/query/query_plan.h"
 #include "middleware/query/scalar_query.h"
 #include "middleware/query/scratch_parts.h"
-#include "middleware/query/self_query.h"
+#include "middleware/scene/scene_parts.h"
 
 namespace foretouch {
 
@@ -57,6 +58,16 @@ void keepFirst(const internal::QueryPlan& plan, StepContacts& step) {
   }
 }
 
+/// Of all links, also of those that began nearer than theirs and left.
+double leastTolerance(const internal::QueryPlan& plan, const internal::ScratchParts& scratch) {
+  double least = plan.tolerances.least;
+  if (!plan.inLanes) return least;
+  for (const double own : scratch.lanes.tolerances) {
+    if (own > 0.0) least = std::min(least, own);
+  }
+  return least;
+}
+
 }  // namespace
 
 Result<Query> Query::build(const Avatar& avatar, const Scene& scene, const QueryOptions& options) {
@@ -78,18 +89,18 @@ const QueryOptions& Query::options() const {
 
 void internal::answerStep(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
                           ScratchParts& scratch, StepContacts& step) {
-  step.counters = {};
+  beginAnswer(step);
   leaveUnanswered(plan.avatar.numLinks(), step.links);
-  step.perObject.clear();
-  step.pairs.clear();
-  step.arePairsAnswered = false;
   FORETOUCH_ASSERT(motion.numLinks() == plan.avatar.numLinks());
   if (motion.numLinks() != plan.avatar.numLinks()) return;
   scratch.beginStep(motion);
   linkQuery(plan, motion, meter, scratch, step);
   FORETOUCH_ASSERT(isAnswered(step));
   if (plan.options.scope == Scope::FirstOfAvatar) keepFirst(plan, step);
-  if (plan.self.isAsked()) SelfQuery(plan, motion, meter, scratch).run(step);
+  step.provenClearance = kFloorShare * leastTolerance(plan, scratch);
+  if (!plan.self.isAsked()) return;
+  const PairPlan own{plan, plan, plan.self, plan.startShare, plan.scene.parts().origin};
+  PairQuery(own, {motion, motion}, meter, scratch).run(step);
 }
 
 void Query::answer(const ChainMotion& motion, QueryScratch& scratch, StepContacts& step) const {

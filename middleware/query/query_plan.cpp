@@ -127,15 +127,14 @@ Result<Done> checkedSelf(const Avatar& avatar, const QueryOptions& options) {
   return Done{};
 }
 
-Result<Done> checked(const Avatar& avatar, const Scene& scene, const QueryOptions& options) {
+Result<Done> checked(const Avatar& avatar, const QueryOptions& options) {
   FORETOUCH_CHECK(checkedTolerance(options.tolerance, -1));
   FORETOUCH_CHECK(checkedPolicies(avatar, options));
   if (!(options.deadlineUs >= 0.0)) {
     return Error::in("deadline", ErrorCode::OutOfRange, "expected microseconds, at least 0");
   }
   FORETOUCH_CHECK(checkedSurfaces(avatar, options));
-  FORETOUCH_CHECK(checkedSelf(avatar, options));
-  return checkedIgnored(avatar, scene, options.ignored);
+  return checkedSelf(avatar, options);
 }
 
 /// Keeps the scene.
@@ -179,18 +178,31 @@ Result<Done> checkedIgnored(const Avatar& avatar, const Scene& scene,
   return Done{};
 }
 
-Result<QueryPlan> QueryPlan::make(const Avatar& avatar, const Scene& scene,
-                                  const QueryOptions& options, double startShare) {
-  FORETOUCH_CHECK(checked(avatar, scene, options));
-  QueryPlan plan{avatar, scene, options,         {},      LssTable(avatar), nullptr, {}, {},
-                 false,  {},    cullerOf(scene), nullptr, nullptr};
-  plan.startShare = startShare;
-  plan.tolerances = {kMaxTolerance, kMinTolerance};
+Result<SidePlan> SidePlan::make(const Avatar& avatar, const QueryOptions& options) {
+  FORETOUCH_CHECK(checked(avatar, options));
+  SidePlan plan{avatar, options, {}, LssTable(avatar), {kMaxTolerance, kMinTolerance}};
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     plan.links.push_back(planOf(avatar, plan.options, link));
     plan.tolerances.least = std::min(plan.tolerances.least, plan.links.back().tolerance);
     plan.tolerances.largest = std::max(plan.tolerances.largest, plan.links.back().tolerance);
   }
+  return plan;
+}
+
+double PairPlan::leastTolerance() const {
+  return std::min(one.tolerances.least, other.tolerances.least);
+}
+
+double PairPlan::largestTolerance() const {
+  return std::max(one.tolerances.largest, other.tolerances.largest);
+}
+
+Result<QueryPlan> QueryPlan::make(const Avatar& avatar, const Scene& scene,
+                                  const QueryOptions& options, double startShare) {
+  FORETOUCH_TRY(auto side, SidePlan::make(avatar, options));
+  FORETOUCH_CHECK(checkedIgnored(avatar, scene, options.ignored));
+  QueryPlan plan{std::move(side), scene,   nullptr, {},        false, {},
+                 cullerOf(scene), nullptr, nullptr, startShare};
   if (plan.tolerances.least != plan.tolerances.largest) {
     for (const LinkPlan& link : plan.links) plan.margins.push_back(link.tolerance);
   }
@@ -198,7 +210,7 @@ Result<QueryPlan> QueryPlan::make(const Avatar& avatar, const Scene& scene,
   // Not beyond the number of boxes of a walk.
   plan.inLanes = plan.laneTable().size() <= BoxLanes::kMaxBoxes;
   FORETOUCH_CHECK(checkedLanes(plan));
-  if (options.self) plan.self = SelfPlan(avatar, plan.table, *options.self);
+  if (options.self) plan.self = PairsAsked(avatar, plan.table, *options.self);
   return plan;
 }
 

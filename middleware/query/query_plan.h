@@ -5,18 +5,12 @@
 #include <memory>
 #include <vector>
 
-#include "articulated/avatar.h"
 #include "articulated/result.h"
-#include "lss/index.h"
 #include "middleware/query/provers.h"
-#include "middleware/query/self_plan.h"
-#include "middleware/query_options.h"
+#include "middleware/query/side_plan.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/scene.h"
 #include "middleware/surface/blend_table.h"
-#include "middleware/surface/link_surface.h"
-#include "middleware/surface/skin_parts.h"
-#include "tessellation/lss_table.h"
 
 namespace foretouch {
 class ChainMotion;
@@ -33,29 +27,13 @@ class WorkMeter;
   return fidelity == Fidelity::Link || fidelity == Fidelity::Exact;
 }
 
-/// What is asked of one link.
-struct LinkPlan {
-  double tolerance;
-  const LinkSurface* surface;  ///< At exact fidelity; null at others.
-  const SkinParts* skin;  ///< At skinned fidelity, if the link owns triangles of it; else null.
-  bool hasSurface;        ///< It has something that could touch, at any fidelity.
-};
-
-struct ToleranceRange {
-  double least, largest;
-};
-
-struct QueryPlan {
-  Avatar avatar;
+/// A side that moves, and a scene at rest.
+struct QueryPlan : SidePlan {
   Scene scene;
-  QueryOptions options;
-  std::vector<LinkPlan> links;
-  LssTable table;                            // of the avatar
   std::shared_ptr<const BlendTable> blends;  // at skinned fidelity; else null
-  ToleranceRange tolerances;                 // of all links
   std::vector<double> margins;               // per link, if tolerances differ
   bool inLanes;                              // not pair by pair in doubles
-  SelfPlan self;                             // which own links are asked; none by default
+  PairsAsked self;                           // which own links; none by default
   // What the reference room may replace (tests/reference/reference_query.h).
   std::shared_ptr<const TriangleCuller> culler;      // the scene's
   std::shared_ptr<const LeafProver> leafProver;      // null
@@ -65,7 +43,6 @@ struct QueryPlan {
   /// at t = 0, if that is less, and not below kMinTolerance (docs/guarantees.md 13).
   double startShare = 0.0;
 
-  [[nodiscard]] const LinkPlan& of(LinkId link) const { return links[slotOf(link)]; }
   /// What lanes move: the links' own LSS, or those around clusters of a skin.
   [[nodiscard]] const LssTable& laneTable() const { return blends ? blends->table() : table; }
 

@@ -108,25 +108,22 @@ class StepQuery final : private Neighbours {
   }
 
   [[nodiscard]] LinkQuery queryOf(LinkId link) {
-    return {{link, body_.lss(link), scratch_.axisBounds, motion_, surface_, skin_},
-            scene_,
+    return {{link, body_.lss(link), scratch_.axisBounds, scratch_.evaluator, surface_, skin_},
+            nullptr,
+            &scene_,
             pieces_,
             tolerance_,
             meter_,
             plan_.leafProver.get(),
-            scratch_.evaluator,
             *this,
-            nullptr,
-            kNoParent,
             &scratch_.states};
   }
 
   LinkContact firstSkinContactOf(LinkId link, QueryCounters& counters) {
     const LinkQuery query = queryOf(link);
-    const std::int32_t numTriangles = query.parts.skin->numTriangles(link);
+    const std::int32_t numTriangles = query.one.skin->numTriangles(link);
     if (scratch_.ignored.collect(body_.ignored(), link)) return clearContact(link);
-    sweepSkin(query.parts, scratch_.nodes, pieces_, tolerance_, scratch_.startBoxes,
-              scratch_.boxes);
+    sweepSkin(query.one, scratch_.nodes, pieces_, tolerance_, scratch_.startBoxes, scratch_.boxes);
     if (!isNearAnything(scratch_.boxes, counters)) return clearContact(link);
     gatherSkin(scratch_.startBoxes, 1, numTriangles, counters);
     if (const auto atStart = contactAtStart(query, scratch_.candidates, counters)) return *atStart;

@@ -13,8 +13,8 @@
 
 namespace foretouch::internal {
 
-/// An LSS of the table as a curve.
-struct SelfCurve {
+/// An LSS of a table as a curve.
+struct KnownCurve {
   std::int32_t lss;
   AxisCurve curve;
 };
@@ -25,14 +25,23 @@ struct LeftPair {
   double tolerance;
 };
 
-/// Memory of queries about own links.
-struct SelfScratch {
-  std::vector<NodeFrame> frames;
+/// What is known of one side of a pair. Of own links, accelerations and curves of both are the
+/// first side's.
+struct SideScratch {
   std::vector<float> accelerations;  // per frame, per LSS; negative: not known yet
+  std::vector<AxisBounds> bounds;    // per LSS of the current link
+  std::vector<KnownCurve> curves;    // of its LSS, as far as needed
+  SweptBoxes boxes;                  // of two bodies, in the current slab
+  NodeEnds ends;
+};
+
+/// Memory of queries about pairs of which both sides move.
+struct PairScratch {
+  SideScratch one, other;
+  std::vector<NodeFrame> frames;
+  std::vector<LssBox> boxes;  // of the first body, for the sweep against the second
   MeetingPairs meeting;
-  std::vector<PlanePair> pairs;                        // that planes have left open
-  std::vector<AxisBounds> boundsOfOne, boundsOfOther;  // per LSS of both links of a pair
-  std::vector<SelfCurve> curves;                       // of LSS of these, as far as needed
+  std::vector<PlanePair> pairs;  // that planes have left open
   std::vector<LeftPair> left;
 };
 
@@ -50,12 +59,21 @@ struct ScratchParts {
   std::vector<LinkState> states;  // per link, at one instant
   LaneScratch lanes;
   IgnoredObjects ignored;  // of the current link
-  SelfScratch self;
+  PairScratch pair;
+  MotionEvaluator otherEvaluator;  // of the other body's chain, where there are two
+  SlabCache otherSlabs;
 
   /// Another motion is asked from now on: nothing of the last one counts. It outlives the question.
   void beginStep(const ChainMotion& motion) {
     evaluator.reset(motion);
     lanes.beginStep();
+  }
+  /// The same of two bodies, which may be on one chain.
+  void beginStep(const ChainMotion& one, const ChainMotion& other) {
+    beginStep(one);
+    if (&one == &other) return;
+    otherEvaluator.reset(other);
+    otherSlabs.beginStep();
   }
 };
 

@@ -55,7 +55,7 @@ class StartSearch {
  private:
   void expandCluster(const Candidate& cluster) {
     Candidate pair = cluster;
-    pair.laneTriangle = scratch_.lanes.add(query_.scene.triangle(cluster.triangle));
+    pair.laneTriangle = scratch_.lanes.add(query_.scene->triangle(cluster.triangle));
     pair.lss = 0;  // a cluster's number means nothing outside
     const PartRange parts = scratch_.skin.partsOf(cluster.lss);
     for (std::int32_t part = parts.first; part < parts.last; ++part) {
@@ -96,7 +96,7 @@ class StartSearch {
       const double least = scratch_.lanes.leastX(lane);
       scratch_.startPairs.push_back(
           {pair, std::max(least - kSkinStartRounding * (1.0 + std::abs(least)),
-                          leastX(query_.scene.triangle(pair.triangle)))});
+                          leastX(query_.scene->triangle(pair.triangle)))});
     });
   }
 
@@ -180,7 +180,7 @@ void sortClusters(const LinkQuery& query, const std::vector<Candidate>& clusters
                   std::vector<StartPair>& sorted) {
   sorted.clear();
   for (const Candidate& cluster : clusters) {
-    sorted.push_back({cluster, leastX(query.scene.triangle(cluster.triangle))});
+    sorted.push_back({cluster, leastX(query.scene->triangle(cluster.triangle))});
   }
   std::sort(sorted.begin(), sorted.end(), isBefore);
 }
@@ -192,7 +192,7 @@ std::optional<LinkContact> skinContactAtStart(const LinkQuery& query,
                                               PartScratch& scratch, QueryCounters& counters) {
   StartSearch search(query, scratch, counters);
   StartLook look(query, counters);
-  const LinkContact unseen = undecidedContact(query.parts.link, 0.0, UndecidedReason::WorkBudget);
+  const LinkContact unseen = undecidedContact(query.one.link, 0.0, UndecidedReason::WorkBudget);
   scratch.nearPairs.clear();
   sortClusters(query, clusters, scratch.clusterPairs);
   const StartPair* const end = scratch.clusterPairs.data() + scratch.clusterPairs.size();

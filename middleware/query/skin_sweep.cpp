@@ -20,7 +20,7 @@ double largest(const std::array<double, 3>& values) {
 
 }  // namespace
 
-void sweepSkin(const LinkParts& parts, const std::vector<std::vector<LinkState>>& nodes,
+void sweepSkin(const Side& parts, const std::vector<std::vector<LinkState>>& nodes,
                const Pieces& pieces, double margin, std::vector<Aabb>& starts,
                std::vector<Aabb>& boxes) {
   const std::int32_t numTriangles = parts.skin->numTriangles(parts.link);

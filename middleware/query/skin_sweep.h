@@ -12,7 +12,7 @@ namespace foretouch::internal {
 /// Boxes of every triangle of the link at t = 0 (`starts`) and on every piece (`boxes`, piece by
 /// piece within a triangle), grown by `margin`: a blended vertex is no farther from its chord than
 /// the blend of its links' A*h^2/8. `nodes`: all links' states at the pieces' boundaries.
-void sweepSkin(const LinkParts& parts, const std::vector<std::vector<LinkState>>& nodes,
+void sweepSkin(const Side& parts, const std::vector<std::vector<LinkState>>& nodes,
                const Pieces& pieces, double margin, std::vector<Aabb>& starts,
                std::vector<Aabb>& boxes);
 

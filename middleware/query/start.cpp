@@ -43,14 +43,14 @@ class StartSearch {
         isFar_(floatAbove(query.tolerance)) {}
 
   std::optional<LinkContact> run() {
-    const Farther farther(query_.scene);
+    const Farther farther(*query_.scene);
     // pieces == 0 marks a candidate whose `nearest` is no longer a bound but the LSS's own
     // separation: popped a second time, nothing that is left is deeper.
     boundAll();
     std::make_heap(heap_.begin(), heap_.end(), farther);
     while (!heap_.empty() && heap_.front().nearest <= query_.tolerance) {
       if (query_.meter.isPartSpent(counters_)) {
-        return undecidedContact(query_.parts.link, 0.0, UndecidedReason::WorkBudget);
+        return undecidedContact(query_.one.link, 0.0, UndecidedReason::WorkBudget);
       }
       std::pop_heap(heap_.begin(), heap_.end(), farther);
       Candidate candidate = heap_.back();
@@ -90,7 +90,7 @@ class StartSearch {
         const Candidate& candidate = heap_[first + lane];
         if (candidate.lss != lss) {  // they come LSS by LSS
           lss = candidate.lss;
-          part = lanePart(query_.parts.lssOf(lss, Part::whole()));
+          part = lanePart(query_.one.lssOf(lss, Part::whole()));
         }
         put(lane, candidate, part);
       }
@@ -103,7 +103,7 @@ class StartSearch {
   /// A lower bound on the separation that doubles will find: theirs is farther from the truth by
   /// rounding, but never deeper than the radius.
   void bound(Candidate& candidate, std::size_t lane) const {
-    const double radius = query_.parts.lssOf(candidate.lss, Part::whole()).radius;
+    const double radius = query_.one.lssOf(candidate.lss, Part::whole()).radius;
     const double lower = scratch_->lanes.lower(lane);
     candidate.nearest = std::max(-radius, lower - kDepthRounding * (1.0 + std::abs(lower)));
   }
@@ -116,7 +116,7 @@ class StartSearch {
     std::optional<LinkContact> touching;
     if (scratch_ == nullptr) {
       searchInDoubles(whole, touching);
-    } else if (query_.parts.surface->hasTriangles(whole.lss)) {
+    } else if (query_.one.surface->hasTriangles(whole.lss)) {
       searchInLanes(whole, touching);
     } else {
       take(contactOf(query_, whole, look(whole), 0.0), touching);
@@ -138,7 +138,7 @@ class StartSearch {
         if (isSurface) take(contactOf(query_, candidate, pair, 0.0), touching);
       }
       if (isSurface) continue;
-      const std::array<Part, 2> parts = query_.parts.below(candidate.lss, candidate.part);
+      const std::array<Part, 2> parts = query_.one.below(candidate.lss, candidate.part);
       stack_.push_back(parts[0]);
       if (!(parts[1] == parts[0])) stack_.push_back(parts[1]);
     }
@@ -165,7 +165,7 @@ class StartSearch {
   void refuteInLanes(const Candidate& whole) {
     scratch_->linkTriangles.clear();
     scratch_->parts.clear();
-    const HierarchyChild root = query_.parts.surface->root(whole.lss);
+    const HierarchyChild root = query_.one.surface->root(whole.lss);
     if (root.isTriangle()) {
       scratch_->linkTriangles.push_back(root.index());
     } else {
@@ -174,7 +174,7 @@ class StartSearch {
     while (!scratch_->parts.empty()) {
       const std::size_t count = takeNodes();
       for (std::size_t lane = 0; lane < count; ++lane) {
-        put(lane, whole, query_.parts.surface->lanePart(whole.lss, batch_[lane]));
+        put(lane, whole, query_.one.surface->lanePart(whole.lss, batch_[lane]));
       }
       counters_.partSteps += count;
       scratch_->lanes.proveLss(count);
@@ -196,7 +196,7 @@ class StartSearch {
   }
 
   void expand(std::int32_t lss, HierarchyChild node) {
-    for (const HierarchyChild part : query_.parts.surface->below(lss, node)) {
+    for (const HierarchyChild part : query_.one.surface->below(lss, node)) {
       if (part.isTriangle()) {
         scratch_->linkTriangles.push_back(part.index());
       } else {
@@ -212,7 +212,7 @@ class StartSearch {
       const std::size_t count = std::min(kTrianglePairLanes, triangles.size() - first);
       for (std::size_t lane = 0; lane < count; ++lane) {
         const auto part = HierarchyChild::triangle(triangles[first + lane]);
-        put(lane, whole, query_.parts.surface->lanePart(whole.lss, part));
+        put(lane, whole, query_.one.surface->lanePart(whole.lss, part));
       }
       counters_.partSteps += count;
       scratch_->lanes.proveTriangles(count);
@@ -256,7 +256,7 @@ class StartSearch {
 std::optional<LinkContact> meshContactAtStart(const LinkQuery& query,
                                               std::vector<Candidate>& candidates,
                                               PartScratch* lanes, QueryCounters& counters) {
-  if (lanes != nullptr) query.parts.surface->prepare();
+  if (lanes != nullptr) query.one.surface->prepare();
   return StartSearch(query, candidates, lanes, counters).run();
 }
 

@@ -42,10 +42,10 @@ bool meshTouches(const internal::LinkSurface& surface, std::int32_t lss, const L
   return false;
 }
 
-bool skinTouches(const internal::LinkParts& parts, double t, const Scene& scene,
+bool skinTouches(const internal::Side& parts, double t, const Scene& scene,
                  const IgnoredObjects& ignored, std::vector<TriangleId>& found) {
   std::vector<LinkState> states;
-  parts.motion.statesAt(t, states);
+  parts.motion().statesAt(t, states);
   internal::PosedLink posed;
   posed.all = &states;
   for (std::int32_t i = 0; i < parts.skin->numTriangles(parts.link); ++i) {
@@ -75,7 +75,8 @@ bool Query::touchesAt(const ChainMotion& motion, LinkId link, double t,
   if (ignored.collect(plan_->options.ignored, link)) return false;
   if (asked.skin != nullptr) {
     const std::vector<AxisBounds> none;
-    const internal::LinkParts parts{link, avatar.lss(link), none, motion, nullptr, asked.skin};
+    MotionEvaluator evaluator(motion);
+    const internal::Side parts{link, avatar.lss(link), none, evaluator, nullptr, asked.skin};
     return skinTouches(parts, t, scene, ignored, found);
   }
   const LinkState state = motion.stateAt(link, t);

@@ -174,7 +174,7 @@ Certified Certifier::ask(const Pose& from, const Pose& to) {
     areAllClear = false;
     free = 0.0;
   }
-  answer.clearance = kFloorShare * toleranceUsed();
+  answer.clearance = step_.provenClearance;
   answer.isClear = areAllClear;
   answer.share = areAllClear ? 1.0 : 0.0;
   if (!areAllClear && free > 0.0) cut(answer, free);
@@ -253,17 +253,6 @@ double Certifier::gapAt(const SolidHit& hit, double t) {
   }
   return gapOf(*plan_, hit, atLink,
                hit.other == kNoParent ? atLink : evaluator_.stateAt(hit.other, t));
-}
-
-/// The least of all links and pairs in the last answer.
-double Certifier::toleranceUsed() {
-  double least = plan_->tolerances.least;
-  for (const double own : scratch_.parts().lanes.tolerances) {
-    if (own > 0.0) least = std::min(least, own);
-  }
-  if (!plan_->self.isAsked()) return least;
-  for (const LeftPair& pair : scratch_.parts().self.left) least = std::min(least, pair.tolerance);
-  return least;
 }
 
 /// Of any point of the avatar, wherever the motion places it.

@@ -84,7 +84,6 @@ class Certifier {
   void cut(Certified& answer, double toi);
   void findSheet(const SolidHit& hit, double toi);
   [[nodiscard]] double gapAt(const SolidHit& hit, double t);
-  [[nodiscard]] double toleranceUsed();
   [[nodiscard]] double roundingOfMotion() const;
 
   std::shared_ptr<QueryPlan> plan_;  // the query's; only the budget in it changes

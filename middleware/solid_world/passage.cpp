@@ -49,17 +49,17 @@ void PassageProver::beginTick(std::uint64_t work) {
   questions_ = 0;
 }
 
-Result<const PairPlan*> PassageProver::planOf(const AroundKind& kind) {
+Result<const AroundPlan*> PassageProver::planOf(const AroundKind& kind) {
   const auto i = slotOf(kind.number);
   if (plans_.size() <= i) plans_.resize(i + 1);
   if (!plans_[i]) {
-    FORETOUCH_TRY(auto plan, PairPlan::make(avatar_, kind, tolerance_));
-    plans_[i] = std::make_unique<PairPlan>(std::move(plan));
+    FORETOUCH_TRY(auto plan, AroundPlan::make(avatar_, kind, tolerance_));
+    plans_[i] = std::make_unique<AroundPlan>(std::move(plan));
   }
   return plans_[i].get();
 }
 
-const PairPlan& PassageProver::known(const AroundKind& kind) const {
+const AroundPlan& PassageProver::known(const AroundKind& kind) const {
   return *plans_[slotOf(kind.number)];
 }
 

@@ -11,7 +11,7 @@
 #include "articulated/result.h"
 #include "middleware/solid/certifier.h"
 #include "middleware/solid_world/around_body.h"
-#include "middleware/solid_world/pair_plan.h"
+#include "middleware/solid_world/around_plan.h"
 
 namespace foretouch::internal {
 
@@ -54,10 +54,10 @@ class PassageProver {
   void beginTick(std::uint64_t work);
   [[nodiscard]] Certifier& certifier() { return *certifier_; }
   /// What is asked about bodies of the kind. Makes it where it is not known yet.
-  Result<const PairPlan*> planOf(const AroundKind& kind);
+  Result<const AroundPlan*> planOf(const AroundKind& kind);
   /// What is known of the kind is not needed any more.
   void forget(std::int32_t kindNumber);
-  /// Makes the plans for all legs of the bodies, so that ask() need not. Errors: as PairPlan.
+  /// Makes the plans for all legs of the bodies, so that ask() need not. Errors: as AroundPlan.
   Result<Done> prepare(const Surroundings& around);
 
   /// Asks the scene, then the bodies. Beyond the motion itself, whoever ends it before the tick
@@ -86,14 +86,14 @@ class PassageProver {
   void askLeg(const TimedMotion& motion, const AroundBody& body, const AroundLeg& leg,
               Passage& passage);
   void askToStay(const TimedMotion& motion, const Surroundings& around, Passage& passage);
-  [[nodiscard]] const PairPlan& known(const AroundKind& kind) const;
+  [[nodiscard]] const AroundPlan& known(const AroundKind& kind) const;
 
   Avatar avatar_;
   std::unique_ptr<Certifier> certifier_;
   double tolerance_, rho_ = 0.0;
   std::vector<std::vector<Lss>> volumes_;
-  std::vector<std::unique_ptr<PairPlan>> plans_;  // by the kind's number
-  PairScratch scratch_;
+  std::vector<std::unique_ptr<AroundPlan>> plans_;  // by the kind's number
+  AroundScratch scratch_;
   ChainMotion whole_;
   PartOfMotion ofOne_, ofOther_;
   Pose reachedInScene_, part_;

@@ -39,13 +39,13 @@ Result<Done> WorldMovers::collectBody(const WorldParts& world, BodyId id, std::i
   while (spans_.next()) {
     FORETOUCH_TRY(const SystemPlan* const plan,
                   plans_.planOf(world, spans_, SystemQuestion::Boxes, id, kStillScene, planKey_));
-    spans_.poses(Eigen::Vector3d::Zero(), motions_, poses_);
+    spans_.poses(Eigen::Vector3d::Zero(), true, motions_, poses_);
     AroundLeg& leg = body.addLeg();
     leg.beginUs = spans_.beginUs();
     leg.endUs = endUs = spans_.endUs();
     leg.kind = &kindOf(world, id, *plan, numbers);
-    leg.from = poses_.from;
-    leg.to = poses_.to;
+    leg.from = poses_.chains[0].from;
+    leg.to = poses_.chains[0].to;
     leg.rounding = poses_.rounding;
     body.isAssumed = body.isAssumed || spans_.isAssumed();
     body.settle();
@@ -61,9 +61,9 @@ const AroundKind& WorldMovers::kindOf(const WorldParts& world, BodyId id, const 
     if (known.plan == &plan) return *known.kind;
   }
   const BodyKind& own = world.kindOf(id);
-  AroundKind kind{numbers.next(), plan.skeleton, plan.first[slotOf(spans_.placeOf(id))], {},
+  AroundKind kind{numbers.next(), plan.chains[0], plan.first[slotOf(spans_.placeOf(id))], {},
                   own.mesh,       own.rho};
-  kind.volumes.resize(countOf(plan.skeleton.numJoints()));
+  kind.volumes.resize(countOf(plan.chains[0].numJoints()));
   for (std::size_t link = 0; link < own.volumes.size(); ++link) {
     kind.volumes[slotOf(kind.first) + link] = own.volumes[link];
   }

@@ -127,10 +127,13 @@ bool SystemSpans::addMember(BodyId body) {
     if (placeOf(id) >= 0) continue;
     const Episode* const episode = world_->body(id).episodeAt(beginUs_);
     if (episode == nullptr) return false;
-    SystemMember member{id, world_->body(id).kind, -1, kNoParent, episode, {}};
+    SystemMember member{id, world_->body(id).kind, -1, kNoParent, 0, episode, {}};
     if (episode->carrier) {
       member.carrier = placeOf(episode->carrier->body);
       member.link = episode->carrier->link;
+      member.chain = members_[slotOf(member.carrier)].chain;
+    } else if (!members_.empty()) {
+      member.chain = 1;
     }
     members_.push_back(member);
   }
@@ -173,37 +176,40 @@ double SystemSpans::reachOfCarried() const {
   return reach;
 }
 
-void SystemSpans::poses(const Eigen::Vector3d& origin, PieceMotions& motions,
+void SystemSpans::poses(const Eigen::Vector3d& origin, bool isMerged, PieceMotions& motions,
                         SystemPoses& poses) const {
-  clear(poses.from);
-  clear(poses.to);
+  for (ChainPoses& chain : poses.chains) {
+    clear(chain.from);
+    clear(chain.to);
+  }
   poses.rounding = 0.0;
   for (const SystemMember& member : members_) {
-    const std::size_t first = poses.from.translations.size();
-    appendPart(member, motions, poses);
+    ChainPoses& chain = poses.chains[isMerged ? 0 : slotOf(member.chain)];
+    const std::size_t first = chain.from.translations.size();
+    appendPart(member, motions, chain, poses);
     if (member.carrier >= 0) continue;
     const Skeleton& skeleton = world_->kinds[slotOf(member.kind)].skeleton;
     for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
       if (skeleton.parent(joint) != kNoParent) continue;
-      poses.from.translations[first + slotOf(joint)] -= origin;
-      poses.to.translations[first + slotOf(joint)] -= origin;
+      chain.from.translations[first + slotOf(joint)] -= origin;
+      chain.to.translations[first + slotOf(joint)] -= origin;
     }
   }
 }
 
-void SystemSpans::appendPart(const SystemMember& member, PieceMotions& motions,
+void SystemSpans::appendPart(const SystemMember& member, PieceMotions& motions, ChainPoses& chain,
                              SystemPoses& poses) const {
   const TrackPiece& piece = member.piece;
   const bool isWhole = piece.beginUs == beginUs_ && piece.endUs == endUs_;
   if (isWhole || piece.isHeld) {
-    append(*piece.from, poses.from);
-    append(*piece.to, poses.to);
+    append(*piece.from, chain.from);
+    append(*piece.to, chain.to);
     return;
   }
   const ChainMotion& motion = motions.of(member);
   partOf(piece, motion, beginUs_, endUs_, poses.partFrom, poses.partTo);
-  append(poses.partFrom, poses.from);
-  append(poses.partTo, poses.to);
+  append(poses.partFrom, chain.from);
+  append(poses.partTo, chain.to);
   const double rho = world_->kinds[slotOf(member.kind)].rho + reachOfCarried();
   poses.rounding =
       (poses.rounding + partRounding(piece, motion, beginUs_, endUs_, rho)) * kInflation;

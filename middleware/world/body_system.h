@@ -1,7 +1,7 @@
 // middleware/world/body_system.h: the bodies that a question depends on (one or two that are asked,
-// and whoever carries them) as one chain, span by span: in each nobody has a knot, and nobody
-// changes his carrier. Proof of what a span's motion is: middleware/world/world.md 1. Not
-// installed.
+// and whoever carries them) as one chain, or as two that nothing joins, span by span: in each
+// nobody has a knot, and nobody changes his carrier. Proof of what a span's motion is:
+// middleware/world/world.md 1. Not installed.
 #pragma once
 
 #include <array>
@@ -22,6 +22,7 @@ struct SystemMember {
   std::int32_t kind = 0;
   std::int32_t carrier = -1;  ///< Place among the members, before this one; -1: W.
   LinkId link = kNoParent;    ///< The carrier's, that this one hangs on.
+  std::int32_t chain = 0;     ///< Whose root has none: the first of them, or the second.
   const Episode* episode = nullptr;
   TrackPiece piece;  ///< Of the episode's track, that holds the span.
 };
@@ -48,9 +49,14 @@ class PieceMotions {
   std::uint64_t uses_ = 0;
 };
 
-/// Both poses of a span, of all members together.
-struct SystemPoses {
+/// Both poses of a chain in a span, its members one after the other.
+struct ChainPoses {
   Pose from, to;
+};
+
+/// Of one chain that has all members, or of two.
+struct SystemPoses {
+  std::array<ChainPoses, 2> chains;
   double rounding = 0.0;  ///< No point of what touches is farther from its true place (m).
   Pose partFrom, partTo;  // of one member
 };
@@ -88,15 +94,17 @@ class SystemSpans {
   /// Somebody is silent and taken to hold still.
   [[nodiscard]] bool isAssumed() const { return isAssumed_; }
 
-  /// The roots in W are relative to `origin`. O(joints).
-  void poses(const Eigen::Vector3d& origin, PieceMotions& motions, SystemPoses& poses) const;
+  /// The roots in W are relative to `origin`. `isMerged`: everybody is on one chain. O(joints).
+  void poses(const Eigen::Vector3d& origin, bool isMerged, PieceMotions& motions,
+             SystemPoses& poses) const;
 
  private:
   [[nodiscard]] bool addMember(BodyId body);
   [[nodiscard]] bool findEnd();
   bool widenTo(std::int64_t begin, std::int64_t end, std::int64_t partUs);
   [[nodiscard]] double reachOfCarried() const;
-  void appendPart(const SystemMember& member, PieceMotions& motions, SystemPoses& poses) const;
+  void appendPart(const SystemMember& member, PieceMotions& motions, ChainPoses& chain,
+                  SystemPoses& poses) const;
 
   const WorldParts* world_ = nullptr;
   BodyId a_ = 0, b_ = kStillScene;

@@ -16,23 +16,16 @@ namespace {
 using Volumes = std::vector<std::vector<Lss>>;
 using LinkSurfacePtr = std::shared_ptr<const LinkSurface>;
 
-/// Something for queries that ask nothing of a scene: one triangle at the origin.
-Result<Scene> nothingAround() {
-  using Eigen::Vector3d;
-  RawScene raw;
-  raw.objectNames = {"nothing"};
-  raw.triangles.push_back({{Vector3d(1, 0, 0), Vector3d(-1, 1, 0), Vector3d(-1, -1, 0)}});
-  raw.objectOf = {0};
-  return Scene::build(std::move(raw));
-}
-
+/// Of the members on one chain; of all, if that is kEveryChain.
+constexpr std::int32_t kEveryChain = -1;
 Result<Skeleton> skeletonOf(const WorldParts& world, const std::vector<SystemMember>& members,
-                            std::vector<JointId>& first) {
+                            std::int32_t chain, std::vector<JointId>& first) {
   RawSkeleton raw;
   for (std::size_t i = 0; i < members.size(); ++i) {
     const SystemMember& member = members[i];
+    if (chain != kEveryChain && member.chain != chain) continue;
     const Skeleton& own = world.kinds[slotOf(member.kind)].skeleton;
-    first.push_back(static_cast<JointId>(raw.joints.size()));
+    first[i] = static_cast<JointId>(raw.joints.size());
     for (JointId joint = 0; joint < own.numJoints(); ++joint) {
       JointId parent = own.parent(joint);
       if (parent != kNoParent) {
@@ -54,9 +47,7 @@ class PlanMaker {
       : world_(world), members_(spans.members()), plan_(plan) {}
 
   Result<Done> make(SystemQuestion question, std::int32_t a, std::int32_t b) {
-    FORETOUCH_TRY(plan_.skeleton, skeletonOf(world_, members_, plan_.first));
-    lss_.assign(countOf(plan_.skeleton.numJoints()), {});
-    surfaces_.assign(lss_.size(), nullptr);
+    FORETOUCH_CHECK(makeChains(question));
     options_.tolerance = kAskedShare * world_.options.tolerance;
     switch (question) {
       case SystemQuestion::Boxes: return makeBoxes(a);
@@ -69,6 +60,26 @@ class PlanMaker {
   }
 
  private:
+  /// A mesh is a frame that all others are seen from: on one chain with it.
+  Result<Done> makeChains(SystemQuestion question) {
+    plan_.first.assign(members_.size(), 0);
+    const bool areTwo = question == SystemQuestion::Pair && members_.back().chain > 0;
+    for (std::int32_t chain = 0; chain <= (areTwo ? 1 : 0); ++chain) {
+      const std::int32_t whose = areTwo ? chain : kEveryChain;
+      FORETOUCH_TRY(auto skeleton, skeletonOf(world_, members_, whose, plan_.first));
+      plan_.chains.push_back(std::move(skeleton));
+    }
+    clearLinks(plan_.chains.front());
+    return Done{};
+  }
+  void clearLinks(const Skeleton& chain) {
+    lss_.assign(countOf(chain.numJoints()), {});
+    surfaces_.assign(lss_.size(), nullptr);
+  }
+  [[nodiscard]] const Skeleton& chainOf(std::int32_t place) const {
+    return plan_.isMerged() ? plan_.chains.front() : plan_.chains[slotOf(member(place).chain)];
+  }
+
   [[nodiscard]] const SystemMember& member(std::int32_t place) const {
     return members_[slotOf(place)];
   }
@@ -125,7 +136,7 @@ class PlanMaker {
 
   Result<Done> makeStill(std::int32_t a) {
     FORETOUCH_CHECK(makeBoxes(a));
-    FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.skeleton, lss_));
+    FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.chains.front(), lss_));
     FORETOUCH_TRY(options_.self, ownRules(a, avatar));
     useSurfaces(avatar);
     FORETOUCH_TRY(plan_.query, Query::build(avatar, *world_.still, options_));
@@ -134,24 +145,43 @@ class PlanMaker {
 
   Result<Done> makeSelf(std::int32_t a) {
     FORETOUCH_CHECK(makeBoxes(a));
-    FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.skeleton, lss_));
+    FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.chains.front(), lss_));
     FORETOUCH_TRY(options_.self, ownRules(a, avatar));
-    return makePlan(avatar);
+    useSurfaces(avatar);
+    FORETOUCH_TRY(plan_.one, SidePlan::make(avatar, options_));
+    plan_.asked = PairsAsked(avatar, plan_.one->table, *options_.self);
+    return Done{};
   }
 
   Result<Done> makePair(std::int32_t a, std::int32_t b) {
-    addVolumes(a);
-    addVolumes(b);
-    std::vector<LeftOutPair> leftOut;
-    leaveOutWithin(a, leftOut);
-    leaveOutWithin(b, leftOut);
-    leaveOutJoined(a, b, leftOut);
-    leaveOutJoined(b, a, leftOut);
-    plan_.isEmpty = numPairs() == static_cast<std::int64_t>(leftOut.size());
+    const std::int32_t one = std::min(a, b), other = std::max(a, b);
+    plan_.isEmpty = isBare(one) || isBare(other);
     if (plan_.isEmpty) return Done{};
-    FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.skeleton, lss_));
-    FORETOUCH_TRY(options_.self, PairRules::leavingOut(avatar, std::move(leftOut)));
-    return makePlan(avatar);
+    FORETOUCH_TRY(plan_.one, sideOf(one));
+    FORETOUCH_TRY(plan_.other, sideOf(other));
+    if (plan_.isMerged()) {
+      plan_.asked = PairsAsked(plan_.one->avatar, plan_.one->table, plan_.other->avatar,
+                               plan_.other->table, leftOut(one, other));
+    } else {
+      plan_.asked = PairsAsked(plan_.one->table, plan_.other->table);
+    }
+    plan_.isEmpty = !plan_.asked.isAsked();
+    return Done{};
+  }
+
+  [[nodiscard]] bool isBare(std::int32_t place) const {
+    const Volumes& own = kind(place).volumes;
+    return std::all_of(own.begin(), own.end(), [](const auto& l) { return l.empty(); });
+  }
+
+  Result<SidePlan> sideOf(std::int32_t place) {
+    clearLinks(chainOf(place));
+    options_.linkPolicies.clear();
+    options_.surface.reset();
+    addVolumes(place);
+    FORETOUCH_TRY(const Avatar avatar, Avatar::build(chainOf(place), lss_));
+    useSurfaces(avatar);
+    return SidePlan::make(avatar, options_);
   }
 
   Result<Done> makeMesh(std::int32_t a, std::int32_t b) {
@@ -161,9 +191,9 @@ class PlanMaker {
     if (member(a).carrier == b) clearJoined(a);
     plan_.isEmpty = std::all_of(lss_.begin(), lss_.end(), [](const auto& l) { return l.empty(); });
     if (plan_.isEmpty) return Done{};
-    FORETOUCH_TRY(plan_.chain, RelativeChain::build(plan_.skeleton, linkOf(b, 0)));
+    FORETOUCH_TRY(plan_.seen, RelativeChain::build(plan_.chains.front(), linkOf(b, 0)));
     lookFromMesh();
-    FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.chain->skeleton(), lss_));
+    FORETOUCH_TRY(const Avatar avatar, Avatar::build(plan_.seen->skeleton(), lss_));
     useSurfaces(avatar);
     FORETOUCH_TRY(plan_.query, Query::build(avatar, *kind(b).mesh, options_));
     return Done{};
@@ -171,23 +201,16 @@ class PlanMaker {
 
   /// From links of the system to those of the chain.
   void lookFromMesh() {
-    const std::size_t count = countOf(plan_.chain->skeleton().numJoints());
+    const std::size_t count = countOf(plan_.seen->skeleton().numJoints());
     Volumes lss(count);
     std::vector<LinkSurfacePtr> surfaces(count);
     for (std::size_t link = 0; link < lss_.size(); ++link) {
-      const auto seen = slotOf(plan_.chain->linkOf(static_cast<LinkId>(link)));
+      const auto seen = slotOf(plan_.seen->linkOf(static_cast<LinkId>(link)));
       lss[seen] = std::move(lss_[link]);
       surfaces[seen] = std::move(surfaces_[link]);
     }
     lss_ = std::move(lss);
     surfaces_ = std::move(surfaces);
-  }
-
-  Result<Done> makePlan(const Avatar& avatar) {
-    useSurfaces(avatar);
-    FORETOUCH_TRY(const Scene nothing, nothingAround());
-    FORETOUCH_TRY(plan_.plan, QueryPlan::make(avatar, nothing, options_));
-    return Done{};
   }
 
   /// The body's own, for the system's avatar; nothing if it has none.
@@ -222,41 +245,26 @@ class PlanMaker {
     }
   }
 
-  [[nodiscard]] bool hasLss(LinkId link) const { return !lss_[slotOf(link)].empty(); }
-
-  void leaveOutWithin(std::int32_t place, std::vector<LeftOutPair>& leftOut) const {
-    const LinkId first = linkOf(place, 0), last = linkOf(place, kind(place).skeleton.numJoints());
-    for (LinkId i = first; i < last; ++i) {
-      for (LinkId j = i + 1; j < last; ++j) {
-        if (hasLss(i) && hasLss(j)) leftOut.push_back({i, j, PairReason::User});
-      }
-    }
-  }
-
   /// Of the carried one's links and the link that carries them, if one of the two carries the
   /// other.
-  void leaveOutJoined(std::int32_t carrier, std::int32_t carried,
-                      std::vector<LeftOutPair>& leftOut) const {
-    if (member(carried).carrier != carrier) return;
+  [[nodiscard]] std::vector<LinksOfSides> leftOut(std::int32_t one, std::int32_t other) const {
+    std::vector<LinksOfSides> pairs;
+    const bool isOneCarried = member(one).carrier == other;
+    if (!isOneCarried && member(other).carrier != one) return pairs;
+    const std::int32_t carried = isOneCarried ? one : other, carrier = isOneCarried ? other : one;
     const LinkId holding = linkOf(carrier, member(carried).link);
-    const Skeleton& own = kind(carried).skeleton;
-    for (JointId joint = 0; joint < own.numJoints(); ++joint) {
+    for (JointId joint = 0; joint < kind(carried).skeleton.numJoints(); ++joint) {
+      if (!isJoined(carried, joint)) continue;
       const LinkId held = linkOf(carried, joint);
-      if (!isJoined(carried, joint) || !hasLss(held) || !hasLss(holding)) continue;
-      leftOut.push_back({std::min(holding, held), std::max(holding, held), PairReason::User});
+      pairs.push_back(isOneCarried ? LinksOfSides{held, holding} : LinksOfSides{holding, held});
     }
-  }
-
-  [[nodiscard]] std::int64_t numPairs() const {
-    const auto with = static_cast<std::int64_t>(
-        std::count_if(lss_.begin(), lss_.end(), [](const auto& l) { return !l.empty(); }));
-    return with * (with - 1) / 2;
+    return pairs;
   }
 
   const WorldParts& world_;
   const std::vector<SystemMember>& members_;
   SystemPlan& plan_;
-  Volumes lss_;                           // per joint of the system, of those that are asked
+  Volumes lss_;                           // per joint of a chain, of those that are asked
   std::vector<LinkSurfacePtr> surfaces_;  // likewise; null: by their LSS
   QueryOptions options_;
 };
@@ -281,12 +289,6 @@ bool comesBeforeKey(const std::unique_ptr<SystemPlan>& plan, const std::vector<s
 }
 
 }  // namespace
-
-MemberLink SystemPlan::memberLink(LinkId link) const {
-  const auto after = std::upper_bound(first.begin(), first.end(), link);
-  const auto member = static_cast<std::int32_t>(after - first.begin()) - 1;
-  return {member, link - first[slotOf(member)]};
-}
 
 std::uint64_t SystemPlans::newGeneration() {
   static std::atomic<std::uint64_t> last{0};

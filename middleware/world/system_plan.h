@@ -1,5 +1,6 @@
 // middleware/world/system_plan.h: one question about the bodies of a system (body_system.h),
-// checked and resolved: their chain, the LSS of those that are asked, and the query. Not installed.
+// checked and resolved: their chains, the LSS of those that are asked, and the query. Not
+// installed.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@
 #include "articulated/relative_motion.h"
 #include "articulated/result.h"
 #include "middleware/query/query.h"
-#include "middleware/query/query_plan.h"
+#include "middleware/query/side_plan.h"
 #include "middleware/world/body_system.h"
 #include "middleware/world/world_parts.h"
 #include "tessellation/lss_table.h"
@@ -31,23 +32,21 @@ enum class SystemQuestion : std::uint8_t {
 /// Of the world's tolerance, what is asked for; the rest is for parts of motions (world.md 2).
 inline constexpr double kAskedShare = 0.9375, kPartShare = 0.0625;
 
-/// A link of a member.
-struct MemberLink {
-  std::int32_t member = 0;
-  LinkId link = 0;
-};
-
 struct SystemPlan {
-  std::vector<std::int64_t> key;       // what it was made of
-  Skeleton skeleton;                   // of all members
-  std::vector<JointId> first;          // of each member's joints
-  LssTable table;                      // of a, but for Pair and Mesh
-  bool isEmpty = false;                // nothing can touch
-  std::optional<QueryPlan> plan;       // of Self and Pair
-  std::optional<Query> query;          // of Still and Mesh
-  std::optional<RelativeChain> chain;  // of Mesh: seen from b
+  std::vector<std::int64_t> key;  // what it was made of
+  std::vector<Skeleton> chains;   // one of all members, or two where nothing joins those of a Pair
+  std::vector<JointId> first;     // of each member's joints, on its chain
+  LssTable table;                 // of a, but for Pair and Mesh
+  bool isEmpty = false;           // nothing can touch
+  // Of Self, a alone; of Pair, both: the one that is first among the members comes first.
+  std::optional<SidePlan> one, other;
+  PairsAsked asked;
+  std::optional<Query> query;         // of Still and Mesh
+  std::optional<RelativeChain> seen;  // of Mesh: from b
 
-  [[nodiscard]] MemberLink memberLink(LinkId link) const;
+  /// Precondition: of Self or Pair.
+  [[nodiscard]] PairPlan pair() const { return {*one, other ? *other : *one, asked}; }
+  [[nodiscard]] bool isMerged() const { return chains.size() == 1; }
 };
 
 /// Plans that one thread has asked for lately: found without asking what all threads share.

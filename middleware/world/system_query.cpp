@@ -7,6 +7,7 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "middleware/counter_fields.h"
+#include "middleware/query/query_plan.h"
 #include "middleware/query/scratch_parts.h"
 #include "middleware/query/work_meter.h"
 
@@ -43,14 +44,16 @@ Result<const SystemPlan*> SystemQuery::prepare(SystemQuestion question, BodyId a
   if (plan->isEmpty) return static_cast<const SystemPlan*>(nullptr);
   SystemPoses& poses = scratch_.poses;
   scratch_.origin = originOf(question);
-  scratch_.spans.poses(scratch_.origin, scratch_.motions, poses);
-  if (plan->chain) {
-    plan->chain->pose(poses.from, scratch_.relativeFrom);
-    plan->chain->pose(poses.to, scratch_.relativeTo);
-    scratch_.motion.assign(plan->chain->skeleton(), scratch_.relativeFrom, scratch_.relativeTo);
-  } else {
-    scratch_.motion.assign(plan->skeleton, poses.from, poses.to);
+  scratch_.spans.poses(scratch_.origin, plan->isMerged(), scratch_.motions, poses);
+  const ChainPoses &first = poses.chains[0], &second = poses.chains[1];
+  if (plan->seen) {
+    plan->seen->pose(first.from, scratch_.relativeFrom);
+    plan->seen->pose(first.to, scratch_.relativeTo);
+    scratch_.motion.assign(plan->seen->skeleton(), scratch_.relativeFrom, scratch_.relativeTo);
+    return plan;
   }
+  scratch_.motion.assign(plan->chains[0], first.from, first.to);
+  if (!plan->isMerged()) scratch_.other.assign(plan->chains[1], second.from, second.to);
   return plan;
 }
 
@@ -76,23 +79,15 @@ bool SystemQuery::ask(const SystemPlan& plan, BodyId a, BodyId b, std::size_t fi
 bool SystemQuery::askAmong(const SystemPlan& plan, BodyId a, BodyId b, const MeetingPairs& meeting,
                            const std::vector<PlanePair>& open, std::size_t first,
                            std::vector<WorldContact>& found, QueryCounters& counters) {
-  const LssTable& table = plan.plan->table;
-  const auto offsetOf = [&](BodyId body) {
-    return table.first(plan.first[slotOf(scratch_.spans.placeOf(body))]);
-  };
-  const std::int32_t ofA = offsetOf(a), ofB = offsetOf(b);
-  const auto numbered = [&](std::int32_t i, std::int32_t j) {
-    return LssIndexPair{std::min(ofA + i, ofB + j), std::max(ofA + i, ofB + j)};
-  };
+  const bool isTurned = this->isTurned(a, b);
   scratch_.meeting.clear();
   for (std::size_t k = 0; k < meeting.count; ++k) {
-    scratch_.meeting.push_back(numbered(meeting.pairs[k].i, meeting.pairs[k].j));
+    const LssIndexPair& pair = meeting.pairs[k];
+    scratch_.meeting.push_back(isTurned ? LssIndexPair{pair.j, pair.i} : pair);
   }
   scratch_.open.clear();
   for (PlanePair pair : open) {
-    const LssIndexPair both = numbered(pair.i, pair.j);
-    pair.i = both.i;
-    pair.j = both.j;
+    if (isTurned) std::swap(pair.i, pair.j);
     scratch_.open.push_back(pair);
   }
   answerAmong(plan);
@@ -102,7 +97,7 @@ bool SystemQuery::askAmong(const SystemPlan& plan, BodyId a, BodyId b, const Mee
 void SystemQuery::askAgain(const SystemPlan& plan, BodyId a, const std::vector<WorldContact>& met,
                            std::size_t first, std::vector<WorldContact>& found,
                            QueryCounters& counters) {
-  nameAll(plan, met);
+  nameAll(plan, a, met);
   answerAmong(plan);
   keepAll(plan, a, kStillScene, first, found, counters);
 }
@@ -110,17 +105,16 @@ void SystemQuery::askAgain(const SystemPlan& plan, BodyId a, const std::vector<W
 bool SystemQuery::askAgainFrom(std::int64_t fromUs, const SystemPlan& plan, BodyId a,
                                const std::vector<WorldContact>& met, std::size_t first,
                                std::vector<WorldContact>& found, QueryCounters& counters) {
-  const bool areTriangles = plan.plan->options.surface.has_value();
+  const bool areTriangles = plan.one->options.surface.has_value();
   // Rounded down: not a moment of what is asked is left out.
   const double begin =
       std::nextafter(static_cast<double>(fromUs - scratch_.spans.beginUs()) /
                          static_cast<double>(scratch_.spans.endUs() - scratch_.spans.beginUs()),
                      0.0);
   if (areTriangles || !(begin > 0.0)) return false;
-  nameAll(plan, met);
-  beginStep();
+  nameAll(plan, a, met);
   const WorkMeter meter(work_);
-  SelfQuery query(*plan.plan, scratch_.motion, meter, scratch_.query.parts());
+  PairQuery query(plan.pair(), beginStep(plan), meter, scratch_.query.parts());
   if (!query.runAmongFrom(begin, foundPairs(), scratch_.step)) return false;
   const std::size_t count = found.size();
   keepAll(plan, a, kStillScene, first, found, counters);
@@ -130,13 +124,15 @@ bool SystemQuery::askAgainFrom(std::int64_t fromUs, const SystemPlan& plan, Body
   return true;
 }
 
-void SystemQuery::nameAll(const SystemPlan& plan, const std::vector<WorldContact>& met) {
-  const LssTable& table = plan.plan->table;
+void SystemQuery::nameAll(const SystemPlan& plan, BodyId a, const std::vector<WorldContact>& met) {
+  const LssTable& table = plan.one->table;
+  const LinkId root = plan.first[slotOf(scratch_.spans.placeOf(a))];
   scratch_.meeting.clear();
   scratch_.open.clear();
   for (const WorldContact& contact : met) {
-    for (std::int32_t i = table.first(contact.a.link); i < table.first(contact.a.link + 1); ++i) {
-      for (std::int32_t j = table.first(contact.b.link); j < table.first(contact.b.link + 1); ++j) {
+    const LinkId one = root + contact.a.link, other = root + contact.b.link;
+    for (std::int32_t i = table.first(one); i < table.first(one + 1); ++i) {
+      for (std::int32_t j = table.first(other); j < table.first(other + 1); ++j) {
         scratch_.meeting.push_back({i, j});
         scratch_.open.push_back({i, j, 0, 0.0F, 0.0F, kEveryPiece});
       }
@@ -148,15 +144,15 @@ bool SystemQuery::keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_
                           std::vector<WorldContact>& found, QueryCounters& counters) {
   addCounters(scratch_.step.counters, counters);
   undoneFrom_ = 1.0;
-  if (plan.chain) {
+  if (plan.seen) {
     keepSeenFromMesh(plan, a, b, first, found);
   } else if (plan.query) {
     for (const LinkContact& contact : scratch_.step.links) {
-      if (contact.verdict != Verdict::Clear) keep(ofScene(plan, contact), first, found);
+      if (contact.verdict != Verdict::Clear) keep(ofScene(plan, a, contact), first, found);
     }
   }
   for (const PairContact& contact : scratch_.step.pairs) {
-    if (!isUndone(b, contact)) keep(ofPair(plan, contact), first, found);
+    if (!isUndone(b, contact)) keep(ofPair(plan, a, b, contact), first, found);
   }
   if (undoneFrom_ == 1.0) return true;
   const WorldTime from = worldTimeAt(scratch_.spans.beginUs(), scratch_.spans.endUs(), undoneFrom_);
@@ -179,16 +175,14 @@ void SystemQuery::answer(const SystemPlan& plan) {
     answerStep(plan.query->plan(), scratch_.motion, WorkMeter(work_), scratch_.query.parts(),
                scratch_.step);
   } else {
-    beginStep();
     const WorkMeter meter(work_);
-    SelfQuery(*plan.plan, scratch_.motion, meter, scratch_.query.parts()).run(scratch_.step);
+    PairQuery(plan.pair(), beginStep(plan), meter, scratch_.query.parts()).run(scratch_.step);
   }
 }
 
 void SystemQuery::answerAmong(const SystemPlan& plan) {
-  beginStep();
   const WorkMeter meter(work_);
-  SelfQuery(*plan.plan, scratch_.motion, meter, scratch_.query.parts())
+  PairQuery(plan.pair(), beginStep(plan), meter, scratch_.query.parts())
       .runAmong(foundPairs(), scratch_.step);
 }
 
@@ -197,23 +191,29 @@ FoundPairs SystemQuery::foundPairs() const {
           scratch_.open.size()};
 }
 
-void SystemQuery::beginStep() {
-  StepContacts& step = scratch_.step;
-  step.links.clear();
-  step.pairs.clear();
-  step.counters = {};
-  scratch_.query.parts().beginStep(scratch_.motion);
+PairMotions SystemQuery::beginStep(const SystemPlan& plan) {
+  beginAnswer(scratch_.step);
+  const ChainMotion& other = plan.isMerged() ? scratch_.motion : scratch_.other;
+  scratch_.query.parts().beginStep(scratch_.motion, other);
+  return {scratch_.motion, other};
+}
+
+/// The plan's first side is b.
+bool SystemQuery::isTurned(BodyId a, BodyId b) const {
+  return b != kStillScene && scratch_.spans.placeOf(b) < scratch_.spans.placeOf(a);
 }
 
 void SystemQuery::keepSeenFromMesh(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
                                    std::vector<WorldContact>& found) {
   bool hasMotion = false;
   const LinkId mesh = plan.first[slotOf(scratch_.spans.placeOf(b))];
-  for (LinkId link = 0; link < plan.skeleton.numJoints(); ++link) {
-    LinkContact contact = scratch_.step.links[slotOf(plan.chain->linkOf(link))];
+  const Skeleton& chain = plan.chains.front();
+  for (LinkId link = 0; link < chain.numJoints(); ++link) {
+    LinkContact contact = scratch_.step.links[slotOf(plan.seen->linkOf(link))];
     if (contact.verdict == Verdict::Clear || isUndone(b, contact)) continue;
     if (!hasMotion) {
-      scratch_.ofSystem.assign(plan.skeleton, scratch_.poses.from, scratch_.poses.to);
+      const ChainPoses& poses = scratch_.poses.chains[0];
+      scratch_.ofSystem.assign(chain, poses.from, poses.to);
     }
     hasMotion = true;
     if (contact.verdict != Verdict::Undecided) {
@@ -223,7 +223,7 @@ void SystemQuery::keepSeenFromMesh(const SystemPlan& plan, BodyId a, BodyId b, s
       contact.nhat_SL_W = state.R_WL * contact.nhat_SL_W;
     }
     contact.link = link;
-    WorldContact kept = ofScene(plan, contact);
+    WorldContact kept = ofScene(plan, a, contact);
     kept.b.body = b;
     if (b < a) turnAround(kept);
     keep(kept, first, found);
@@ -242,27 +242,29 @@ WorldContact SystemQuery::inSpan(const LinkContact& contact) const {
   return kept;
 }
 
-/// Of a link of the system; one LSS around a mesh tells nothing.
-ContactSide SystemQuery::sideOf(const SystemPlan& plan, LinkId link, std::int32_t lss,
+/// `link`: on its chain. One LSS around a mesh tells nothing.
+ContactSide SystemQuery::sideOf(const SystemPlan& plan, BodyId body, LinkId link, std::int32_t lss,
                                 std::int32_t triangle, const Eigen::Vector3d& p_W) const {
-  const MemberLink own = plan.memberLink(link);
-  const SystemMember& member = scratch_.spans.members()[slotOf(own.member)];
-  const bool isMesh = !world_.kinds[slotOf(member.kind)].avatar;
-  return {member.body, own.link, isMesh ? -1 : lss, triangle, p_W};
+  const LinkId own = link - plan.first[slotOf(scratch_.spans.placeOf(body))];
+  const bool isMesh = !world_.kindOf(body).avatar;
+  return {body, own, isMesh ? -1 : lss, triangle, p_W};
 }
 
-WorldContact SystemQuery::ofScene(const SystemPlan& plan, const LinkContact& contact) const {
+WorldContact SystemQuery::ofScene(const SystemPlan& plan, BodyId a,
+                                  const LinkContact& contact) const {
   WorldContact kept = inSpan(contact);
-  kept.a = sideOf(plan, contact.link, contact.lss, contact.linkTriangle, contact.p_WLink);
+  kept.a = sideOf(plan, a, contact.link, contact.lss, contact.linkTriangle, contact.p_WLink);
   kept.b = {kStillScene, 0, -1, contact.triangle, contact.p_WScene};
   return kept;
 }
 
-WorldContact SystemQuery::ofPair(const SystemPlan& plan, const PairContact& contact) const {
+WorldContact SystemQuery::ofPair(const SystemPlan& plan, BodyId a, BodyId b,
+                                 const PairContact& contact) const {
+  const BodyId one = isTurned(a, b) ? b : a, other = b == kStillScene || isTurned(a, b) ? a : b;
   WorldContact kept = inSpan(contact);
-  kept.a = sideOf(plan, contact.link, contact.lss, contact.linkTriangle,
+  kept.a = sideOf(plan, one, contact.link, contact.lss, contact.linkTriangle,
                   contact.p_WLink + scratch_.origin);
-  kept.b = sideOf(plan, contact.other, contact.otherLss, contact.triangle,
+  kept.b = sideOf(plan, other, contact.other, contact.otherLss, contact.triangle,
                   contact.p_WScene + scratch_.origin);
   if (kept.b.body < kept.a.body) turnAround(kept);
   return kept;

@@ -12,8 +12,8 @@
 #include "middleware/contact.h"
 #include "middleware/lanes/node_planes.h"
 #include "middleware/lanes/pair_boxes.h"
+#include "middleware/query/pair_query.h"
 #include "middleware/query/query_scratch.h"
-#include "middleware/query/self_query.h"
 #include "middleware/world/body_system.h"
 #include "middleware/world/system_plan.h"
 #include "middleware/world/world_contacts.h"
@@ -30,10 +30,11 @@ struct SystemScratch {
   SystemPoses poses;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // of the poses' roots
   Pose relativeFrom, relativeTo;
-  ChainMotion motion, ofSystem;
+  ChainMotion motion, other;  // of the chains, or of what is seen from a mesh
+  ChainMotion ofSystem;       // of the chain, where that is seen from a mesh
   StepContacts step;
   std::vector<WorldContact> met, again;  // before the window, and what becomes of them in it
-  std::vector<LssIndexPair> meeting;     // in the numbers of the system
+  std::vector<LssIndexPair> meeting;     // in the numbers of the plan's sides
   std::vector<PlanePair> open;
   QueryScratch query;
 };
@@ -46,8 +47,9 @@ class SystemQuery {
 
   /// What each question from now on may cost; WorldOptions::workPerPair to begin with.
   void limit(std::uint64_t work) { work_ = work; }
-  /// The plan of the question for the span that the scratch's spans are at, and the motion of its
-  /// chain there: scratch.motion, relative to scratch.origin. Null if nothing can touch. Errors: as
+  /// The plan of the question for the span that the scratch's spans are at, and the motions of its
+  /// chains there: scratch.motion and, of a second one, scratch.other; relative to scratch.origin.
+  /// Null if nothing can touch. Errors: as
   /// SystemPlans::planOf().
   Result<const SystemPlan*> prepare(SystemQuestion question, BodyId a, BodyId b);
   /// The places at the span's instants are known well enough.
@@ -67,7 +69,7 @@ class SystemQuery {
   void askAgain(const SystemPlan& plan, BodyId a, const std::vector<WorldContact>& met,
                 std::size_t first, std::vector<WorldContact>& found, QueryCounters& counters);
   /// The same from an instant within the span on; what meets does so then or later. False: cannot
-  /// be asked in this way (SelfQuery::runAmongFrom()), and nothing is found.
+  /// be asked in this way (PairQuery::runAmongFrom()), and nothing is found.
   [[nodiscard]] bool askAgainFrom(std::int64_t fromUs, const SystemPlan& plan, BodyId a,
                                   const std::vector<WorldContact>& met, std::size_t first,
                                   std::vector<WorldContact>& found, QueryCounters& counters);
@@ -79,18 +81,22 @@ class SystemQuery {
   [[nodiscard]] Eigen::Vector3d originOf(SystemQuestion question) const;
   void answer(const SystemPlan& plan);
   void answerAmong(const SystemPlan& plan);
-  void nameAll(const SystemPlan& plan, const std::vector<WorldContact>& met);
+  void nameAll(const SystemPlan& plan, BodyId a, const std::vector<WorldContact>& met);
   [[nodiscard]] FoundPairs foundPairs() const;
-  void beginStep();
+  [[nodiscard]] PairMotions beginStep(const SystemPlan& plan);
   bool keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
                std::vector<WorldContact>& found, QueryCounters& counters);
   void keepSeenFromMesh(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
                         std::vector<WorldContact>& found);
   [[nodiscard]] WorldContact inSpan(const LinkContact& contact) const;
-  [[nodiscard]] WorldContact ofScene(const SystemPlan& plan, const LinkContact& contact) const;
-  [[nodiscard]] ContactSide sideOf(const SystemPlan& plan, LinkId link, std::int32_t lss,
-                                   std::int32_t triangle, const Eigen::Vector3d& p_W) const;
-  [[nodiscard]] WorldContact ofPair(const SystemPlan& plan, const PairContact& contact) const;
+  [[nodiscard]] WorldContact ofScene(const SystemPlan& plan, BodyId a,
+                                     const LinkContact& contact) const;
+  [[nodiscard]] ContactSide sideOf(const SystemPlan& plan, BodyId body, LinkId link,
+                                   std::int32_t lss, std::int32_t triangle,
+                                   const Eigen::Vector3d& p_W) const;
+  [[nodiscard]] WorldContact ofPair(const SystemPlan& plan, BodyId a, BodyId b,
+                                    const PairContact& contact) const;
+  [[nodiscard]] bool isTurned(BodyId a, BodyId b) const;
 
   [[nodiscard]] bool isUndone(BodyId b, const LinkContact& contact);
   static WorldContact givenUp(BodyId a, BodyId b, const WorldTime& from, UndecidedReason reason);

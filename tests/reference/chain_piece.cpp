@@ -81,9 +81,9 @@ double CubicsProver::freeUntil(const LinkQuery& query, const Candidate& candidat
                                const MovingPair& pair, double t, QueryCounters& counters) const {
   ++counters.cubicTests;
   const double floor = kFloorShare * query.tolerance;
-  return freeUntilByCubics(query.evaluator, query.parts.link, t, 1.0,
-                           query.parts.surface->triangle(candidate.part.index()),
-                           query.scene.triangle(candidate.triangle), floor, floor, pair.axes.nhat);
+  return freeUntilByCubics(query.one.evaluator, query.one.link, t, 1.0,
+                           query.one.surface->triangle(candidate.part.index()),
+                           query.scene->triangle(candidate.triangle), floor, floor, pair.axes.nhat);
 }
 
 }  // namespace foretouch::internal

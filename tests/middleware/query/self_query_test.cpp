@@ -1,7 +1,5 @@
 // Own links that touch each other: sound and tight at sampled instants, at every width, for chains,
 // trees and several roots; the same whatever carries the body; and what is refused.
-#include "middleware/query/self_query.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,8 +10,11 @@
 
 #include "lss/separation.h"
 #include "lss/simd.h"
+#include "middleware/query/pair_query.h"
 #include "middleware/query/query.h"
+#include "middleware/query/query_plan.h"
 #include "middleware/query/query_scratch.h"
+#include "middleware/scene/scene_parts.h"
 #include "tessellation/swept_lss.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/own_body.h"
@@ -193,7 +194,8 @@ TEST_P(SelfQueries, FromAnInstantOnAreSoundAndTight) {
     const internal::WorkMeter meter(plan.options);
     const double begin = random.uniform(0.01, 0.99);
     StepContacts step;
-    internal::SelfQuery query(plan, motion, meter, scratch.parts());
+    const internal::PairPlan own{plan, plan, plan.self, 0.0, plan.scene.parts().origin};
+    internal::PairQuery query(own, {motion, motion}, meter, scratch.parts());
     if (!query.runAmongFrom(begin, {meeting.data(), meeting.size(), open.data(), open.size()},
                             step)) {
       ++refused;

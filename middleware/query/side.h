@@ -1,5 +1,6 @@
-// middleware/query/link_parts.h: the convex parts of a moving link: its LSS, the nodes of the
-// hierarchies below them, the triangles of its mesh or skin. Not installed.
+// middleware/query/side.h: one side of a question about two that may move: a link's convex parts
+// (its LSS, the nodes of the hierarchies below them, the triangles of its mesh or skin), and what
+// moves it. Not installed.
 #pragma once
 
 #include <array>
@@ -43,18 +44,23 @@ struct PosedLink {
   const std::vector<LinkState>* all = nullptr;
 };
 
-/// A link's parts, their bounds and states. All references outlive it.
-struct LinkParts {
+/// A link's parts, their bounds, and the frame that they are looked at in. All references outlive
+/// it.
+struct Side {
   LinkId link;
   const std::vector<Lss>& lss;
   const std::vector<AxisBounds>& axisBounds;  // one per LSS
-  const ChainMotion& motion;
-  const LinkSurface* surface = nullptr;   // exact fidelity; else null
-  const SkinParts* skin = nullptr;        // skinned fidelity; else null
-  const MotionBounds* inFrame = nullptr;  // in another frame than W; null in W
+  MotionEvaluator& evaluator;                 // of the motion of the link's chain
+  const LinkSurface* surface = nullptr;       // exact fidelity; else null
+  const SkinParts* skin = nullptr;            // skinned fidelity; else null
+  /// Of a link above it, where only the joints below that move it; kNoParent: W.
+  LinkId frame = kNoParent;
+  const MotionBounds* inFrame = nullptr;  // in that frame; null in W
 
+  [[nodiscard]] const ChainMotion& motion() const { return evaluator.motion(); }
+  [[nodiscard]] LinkState stateAt(double t) const { return evaluator.stateIn(frame, link, t); }
   [[nodiscard]] MotionBounds bounds() const {
-    return inFrame != nullptr ? *inFrame : motion.bounds(link);
+    return inFrame != nullptr ? *inFrame : motion().bounds(link);
   }
   /// Nothing is below the part.
   [[nodiscard]] bool isSurface(std::int32_t lssIndex, Part part) const {

@@ -1,6 +1,7 @@
-// middleware/query/self_query.h: which of an avatar's own links touch each other: boxes of all LSS,
-// planes at the nodes for the pairs whose boxes meet, and backtracking in doubles for the few that
-// those leave. At link or exact fidelity. Not installed.
+// middleware/query/pair_query.h: which links of two sides that move touch each other: an avatar's
+// own links, or those of two bodies. Boxes of all LSS, planes at the nodes for the pairs whose
+// boxes meet, and backtracking in doubles for the few that those leave. At link or exact fidelity.
+// Not installed.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +13,15 @@
 #include "middleware/contact.h"
 #include "middleware/query/lane_backtracking.h"
 #include "middleware/query/link_query.h"
-#include "middleware/query/query_plan.h"
 #include "middleware/query/scratch_parts.h"
+#include "middleware/query/side_plan.h"
 #include "middleware/query/work_meter.h"
 
 namespace foretouch::internal {
 
-/// Pairs of LSS of the table, i < j, that somebody else has found: all others are proven apart, and
-/// so are these on pieces that are not open, while [0,1] is one slab.
+/// Pairs of LSS, i of the one side's table and j of the other's, that somebody else has found (of
+/// own links, i < j): all others are proven apart, and so are these on pieces that are not open,
+/// while [0,1] is one slab.
 struct FoundPairs {
   const LssIndexPair* meeting;  ///< May be as near as a contact.
   std::size_t numMeeting;
@@ -28,11 +30,17 @@ struct FoundPairs {
   std::size_t numOpen;
 };
 
+/// Of both sides; the same object twice, where one chain has both.
+struct PairMotions {
+  const ChainMotion& one;
+  const ChainMotion& other;
+};
+
 /// One query over all asked pairs of links of one step.
-class SelfQuery final : private Neighbours, private LaneFrames {
+class PairQuery final : private Neighbours, private LaneFrames {
  public:
-  /// Preconditions: the plan asks for pairs; the scratch's evaluator is that of the motion.
-  SelfQuery(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
+  /// Preconditions: the plan asks for pairs; the scratch's step began with these motions.
+  PairQuery(const PairPlan& plan, const PairMotions& motions, const WorkMeter& meter,
             ScratchParts& scratch);
 
   /// Fills `step.pairs`.
@@ -45,20 +53,35 @@ class SelfQuery final : private Neighbours, private LaneFrames {
   [[nodiscard]] bool runAmongFrom(double begin, const FoundPairs& found, StepContacts& step);
 
  private:
-  /// One side of the pair at hand.
-  struct Side {
-    LinkId link = 0;
+  /// A side, and its link of the pair at hand.
+  struct Moving {
+    const SidePlan& plan;
+    const ChainMotion& motion;
+    MotionEvaluator& evaluator;
+    SlabCache& slabs;
+    SideScratch& known;
+    std::vector<float>& accelerations;
+    LinkId link;
     MotionBounds bounds;
+
+    [[nodiscard]] const LssTable& table() const { return plan.table; }
+    [[nodiscard]] LinkId linkOf(std::int32_t lss) const { return plan.table[lss].link; }
+    [[nodiscard]] const ChainNodes& nodes() const { return slabs.nodes(); }
   };
 
+  [[nodiscard]] int numSlabs() const;
   void evaluate(QueryCounters& counters);
-  [[nodiscard]] const ChainNodes& nodes(QueryCounters& counters);
+  void evaluateNodes(QueryCounters& counters);
+  void sweepBoxes();
+  void turnFrames();
   [[nodiscard]] bool areNodesFine(QueryCounters& counters);
   void take(const FoundPairs& found);
   void finish(StepContacts& step) const;
+  [[nodiscard]] const NodeEnds& endsOf(const Moving& side) const;
+  void collectMeetingPairs();
   void collectOpen(QueryCounters& counters);
   void addPlanePair(const LssIndexPair& pair);
-  [[nodiscard]] float accelerationOf(std::int32_t frame, std::int32_t lss);
+  [[nodiscard]] float accelerationOf(std::int32_t frame, Moving& side, std::int32_t lss);
   void tightenBends();
   void dropClosed();
   void answerPairs(StepContacts& step);
@@ -74,33 +97,33 @@ class SelfQuery final : private Neighbours, private LaneFrames {
                                                           QueryCounters& counters);
   [[nodiscard]] bool isNearAtStart(const LinkQuery& query, const Candidate& candidate,
                                    StateCache& states, QueryCounters& counters) const;
-  [[nodiscard]] MovingHull atFirstNode(LinkId of, std::int32_t lss, double radiusShare) const;
-  [[nodiscard]] LinkParts partsOf(const Side& side, const std::vector<AxisBounds>& bounds) const;
-  void prepareSide(Side& side, LinkId frame, std::vector<AxisBounds>& bounds);
+  [[nodiscard]] static MovingHull atFirstNode(const Moving& side, std::int32_t lss,
+                                              double radiusShare);
+  [[nodiscard]] static Side sideOf(const Moving& moving, LinkId frame);
+  static void bound(Moving& side, LinkId frame);
   void make(PartLanes& lanes, QueryCounters& counters) override;
   [[nodiscard]] PairContact meshContact(const LinkQuery& query, QueryCounters& counters);
   void advanceAlongCurves(const LinkQuery& query, QueryCounters& counters);
   [[nodiscard]] bool advance(const LinkQuery& query, Candidate& candidate, QueryCounters& counters);
-  [[nodiscard]] MovingHull alongCurve(const Side& side, std::int32_t lss, LinkId frame, double t,
+  [[nodiscard]] MovingHull alongCurve(const Moving& side, std::int32_t lss, LinkId frame, double t,
                                       double radiusShare, QueryCounters& counters);
-  [[nodiscard]] const AxisCurve& curveOf(const Side& side, std::int32_t lss, LinkId frame,
+  [[nodiscard]] const AxisCurve& curveOf(const Moving& side, std::int32_t lss, LinkId frame,
                                          QueryCounters& counters);
   [[nodiscard]] Candidate candidateOf(const LssIndexPair& pair, std::uint8_t pieces) const;
   void keep(PairContact contact, LinkId frame, StepContacts& step);
   void collect(double t, const PosedLink& posed, double reach, std::vector<Candidate>& candidates,
                QueryCounters& counters) override;
 
-  const QueryPlan& plan_;
-  const SelfPlan& self_;
-  const LssTable& table_;
-  const ChainMotion& motion_;
+  const PairPlan plan_;
+  const PairsAsked& asked_;
   const WorkMeter& meter_;
   ScratchParts& scratch_;
-  SelfScratch& own_;
+  PairScratch& pair_;
+  bool isOneChain_;
+  Moving one_, other_;
   bool stopsWhenSpent_ = false;
   double start_ = 0.0;              // nothing is asked before
   double begin_ = 0.0, end_ = 1.0;  // of the current slab
-  Side one_, other_;                // of the current pair of links
 };
 
 }  // namespace foretouch::internal

@@ -1,4 +1,4 @@
-#include "middleware/query/link_parts.h"
+#include "middleware/query/side.h"
 
 #include "lss/assert.h"
 #include "lss/index.h"
@@ -21,7 +21,7 @@ void addInfluence(const SkinInfluence& influence, const LinkState& state,
   moving.velocityRounding[corner] += 2.0 * w * bounds.velocityRoundingAt(rho) * kInflation;
 }
 
-MovingHull meshTriangle(const LinkParts& parts, std::int32_t index, const LinkState& state) {
+MovingHull meshTriangle(const Side& parts, std::int32_t index, const LinkState& state) {
   const MotionBounds bounds = parts.bounds();
   MovingHull moving;
   moving.moves = true;
@@ -40,13 +40,13 @@ MovingHull meshTriangle(const LinkParts& parts, std::int32_t index, const LinkSt
 
 }  // namespace
 
-const Lss& LinkParts::lssOf(std::int32_t lssIndex, Part part) const {
+const Lss& Side::lssOf(std::int32_t lssIndex, Part part) const {
   FORETOUCH_ASSERT(!part.isTriangle());
   const auto index = slotOf(lssIndex);
   return part.isWhole() ? lss[index] : surface->hierarchy(lssIndex).node(part.index()).lss;
 }
 
-std::array<Part, 2> LinkParts::below(std::int32_t lssIndex, Part part) const {
+std::array<Part, 2> Side::below(std::int32_t lssIndex, Part part) const {
   const LssHierarchy& hierarchy = surface->hierarchy(lssIndex);
   HierarchyChild child = hierarchy.root();
   if (part.isWhole() && child.isTriangle()) return {Part::of(child), Part::of(child)};
@@ -55,7 +55,7 @@ std::array<Part, 2> LinkParts::below(std::int32_t lssIndex, Part part) const {
   return {Part::of(children[0]), Part::of(children[1])};
 }
 
-MovingHull LinkParts::hullAt(std::int32_t lssIndex, Part part, const LinkState& state) const {
+MovingHull Side::hullAt(std::int32_t lssIndex, Part part, const LinkState& state) const {
   if (part.isTriangle()) return meshTriangle(*this, part.index(), state);
   const Lss& bound = lssOf(lssIndex, part);
   return MovingHull::of(
@@ -63,7 +63,7 @@ MovingHull LinkParts::hullAt(std::int32_t lssIndex, Part part, const LinkState& 
       state);
 }
 
-MovingHull LinkParts::skinTriangle(std::int32_t index, const std::vector<LinkState>& states) const {
+MovingHull Side::skinTriangle(std::int32_t index, const std::vector<LinkState>& states) const {
   MovingHull moving;
   moving.moves = true;
   moving.hull.count = 3;
@@ -72,21 +72,21 @@ MovingHull LinkParts::skinTriangle(std::int32_t index, const std::vector<LinkSta
     moving.velocity[i].setZero();
     const std::int32_t vertex = skin->triangle(link, index)[i];
     for (const SkinInfluence& influence : skin->skin.vertices[slotOf(vertex)]) {
-      addInfluence(influence, states[slotOf(influence.link)], motion.bounds(influence.link), i,
+      addInfluence(influence, states[slotOf(influence.link)], motion().bounds(influence.link), i,
                    moving);
     }
   }
   return moving;
 }
 
-Aabb LinkParts::boxOfPoints(std::int32_t lssIndex, Part part, const PosedLink& posed) const {
+Aabb Side::boxOfPoints(std::int32_t lssIndex, Part part, const PosedLink& posed) const {
   if (skin == nullptr || !part.isTriangle()) return boxAt(lssIndex, part, posed.state);
   Aabb box;
   for (const Vector3d& v : skinTriangle(part.index(), *posed.all).hull.points) box.add(v);
   return box;
 }
 
-Aabb LinkParts::boxAt(std::int32_t lssIndex, Part part, const LinkState& state) const {
+Aabb Side::boxAt(std::int32_t lssIndex, Part part, const LinkState& state) const {
   Aabb box;
   if (part.isTriangle()) {
     for (const Vector3d& v : surface->triangle(part.index()).vertices) box.add(state.pointAt(v));

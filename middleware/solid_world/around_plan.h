@@ -1,4 +1,4 @@
-// middleware/solid_world/pair_plan.h: the question whether a solid avatar meets one kind of body
+// middleware/solid_world/around_plan.h: the question whether a solid avatar meets one kind of body
 // around it while both move. Metres in W. Not installed.
 #pragma once
 
@@ -11,6 +11,7 @@
 #include "middleware/query/near_features.h"
 #include "middleware/query/query.h"
 #include "middleware/query/query_plan.h"
+#include "middleware/query/side_plan.h"
 #include "middleware/solid_world/around_body.h"
 
 namespace foretouch::internal {
@@ -26,40 +27,45 @@ struct PairAnswer {
 };
 
 /// Memory of questions; one per thread.
-struct PairScratch {
+struct AroundScratch {
   QueryScratch query;
   StepContacts step;
-  ChainMotion motion;
-  Pose from, to, relativeFrom, relativeTo;
+  ChainMotion motion, other;
+  Pose from, to, otherFrom, otherTo;  // relative to an origin, or to the mesh
 };
 
 /// Immutable.
-class PairPlan {
+class AroundPlan {
  public:
   /// Errors: chains that are too deep together.
-  static Result<PairPlan> make(const Avatar& avatar, const AroundKind& kind, double tolerance);
+  static Result<AroundPlan> make(const Avatar& avatar, const AroundKind& kind, double tolerance);
 
   /// Both move over the same time, from one pair of validated poses to the other. `off`: how far
   /// the poses may be from the truth (m). Allocates nothing once the scratch has grown.
   [[nodiscard]] PairAnswer ask(const Pose& from, const Pose& to, const Pose& otherFrom,
-                               const Pose& otherTo, double off, PairScratch& scratch) const;
+                               const Pose& otherTo, double off, AroundScratch& scratch) const;
   /// Of a mesh: what the avatar is near to, in its frame.
   [[nodiscard]] const NearQuery& near() const { return *near_; }
 
  private:
-  PairPlan(const Avatar& avatar, const AroundKind& kind);
-  Result<Done> makeLss(const Avatar& avatar, const AroundKind& kind, double tolerance);
-  Result<Done> makeMesh(const Avatar& avatar, const AroundKind& kind, double tolerance);
-  void join(const Pose& one, const Pose& other, const Eigen::Vector3d& origin, Pose& both) const;
-  [[nodiscard]] PairAnswer answerOf(const StepContacts& step, double off,
-                                    PairScratch& scratch) const;
+  AroundPlan(const Avatar& avatar, const AroundKind& kind);
+  Result<Done> makeLss(const Avatar& avatar, const AroundKind& kind, const QueryOptions& options);
+  Result<Done> makeMesh(const Avatar& avatar, const AroundKind& kind, QueryOptions options);
+  void askLss(const Pose& from, const Pose& to, const Pose& otherFrom, const Pose& otherTo,
+              const Eigen::Vector3d& origin, AroundScratch& scratch) const;
+  void askMesh(const Pose& from, const Pose& to, const Pose& otherFrom, const Pose& otherTo,
+               AroundScratch& scratch) const;
+  [[nodiscard]] PairAnswer answerOf(const StepContacts& step, double off) const;
 
-  std::int32_t numOwn_;  // links of the avatar, which come first
-  std::int32_t frame_;   // of a mesh, on the chain of both
+  Skeleton skeleton_, otherSkeleton_;
+  JointId frame_;  // the mesh's joint, on the other's chain
+  // Of LSS: the avatar, the other one, and all pairs of the two.
+  std::shared_ptr<const SidePlan> one_, other_;
+  PairsAsked asked_;
+  // Of a mesh, all of the avatar, seen from it.
   std::shared_ptr<const QueryPlan> plan_;
-  std::optional<Skeleton> skeleton_;    // of both
-  std::optional<RelativeChain> chain_;  // seen from the mesh
-  std::vector<LinkId> linkOf_;          // per link there, the avatar's
+  std::optional<RelativeChain> seen_;
+  std::vector<LinkId> linkOf_;  // per link there, the avatar's
   std::optional<NearQuery> near_;
 };
 
