@@ -58,6 +58,7 @@ void AroundRows::append(PassageProver& prover, const Surroundings& around, std::
   features_.clear();
   count_ = 0;
   farthestMove_ = 0.0;
+  windowS_ = 1e-6 * static_cast<double>(endUs - beginUs);
   double widest = 0.0;
   for (const double one : reach) widest = std::max(widest, one);
   Eigen::AlignedBox3d box;
@@ -99,6 +100,7 @@ void AroundRows::push(const Placed& at, JointId joint, const ContactRow& row, st
   const Eigen::Vector3d moved =
       carried(at.begin[slotOf(joint)], at.end[slotOf(feature.jointAtEnd)], row.y) - row.y;
   feature.comes = row.n.dot(moved);
+  feature.velocity_W = moved / windowS_;
   features_.push_back(feature);
   rows.push_back(row);
 }

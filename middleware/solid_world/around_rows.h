@@ -20,6 +20,7 @@ struct AroundFeature {
   std::int32_t lss = -1;     ///< Of that joint; -1: a mesh.
   TriangleId triangle = -1;  ///< Of the mesh.
   double comes = 0.0;        ///< How far its surface comes along the row's normal (m).
+  Eigen::Vector3d velocity_W = Eigen::Vector3d::Zero();  ///< Of its surface in the window, m/s.
 };
 
 /// For one thread; keeps its memory.
@@ -62,7 +63,7 @@ class AroundRows {
   std::vector<AroundFeature> features_;
   std::vector<Placed> placed_;  // longer than the count
   std::size_t count_ = 0;
-  double farthestMove_ = 0.0;
+  double farthestMove_ = 0.0, windowS_ = 0.0;
   NearScratch scratch_;
   NearFeatures near_;
   std::vector<LinkState> seen_;

@@ -379,7 +379,8 @@ void SolidBody::finishYield(std::int64_t fromUs, std::int64_t toUs, SolidBodyTic
   if (!own.isCertified) own.clearance = 0.0;
   own.counters.queries += outfit_->prover.certifier().queries() + outfit_->prover.questions();
   own.counters.work += outfit_->prover.certifier().workDone();
-  report(tick);
+  placeLinks(avatar_.skeleton(), before, statesBefore_);
+  report(secondsOf(toUs - fromUs), tick);
   const bool isPushed = std::any_of(own.joints.begin(), own.joints.end(), [](SolidJointState s) {
     return s == SolidJointState::Held || s == SolidJointState::Sliding;
   });
@@ -389,7 +390,7 @@ void SolidBody::finishYield(std::int64_t fromUs, std::int64_t toUs, SolidBodyTic
                                                           : SolidState::Following;
 }
 
-void SolidBody::report(SolidBodyTick& tick) {
+void SolidBody::report(double lengthS, SolidBodyTick& tick) {
   SolidTick& own = tick.tick;
   const Yielding& yielding = outfit_->yielding;
   const std::size_t n = countOf(avatar_.numLinks());
@@ -409,6 +410,12 @@ void SolidBody::report(SolidBodyTick& tick) {
   }
   const auto state = own.numWay == 0 ? SolidJointState::Held : SolidJointState::Sliding;
   const std::vector<ContactRow>& rows = yielding.rows();
+  const auto slipOf = [&](const ContactRow& row, const Eigen::Vector3d& surfaceV_W) {
+    const LinkState &now = states_[slotOf(row.link)], &then = statesBefore_[slotOf(row.link)];
+    const Eigen::Vector3d p_L = now.R_WL.transpose() * (row.x - now.p_WL);
+    const Eigen::Vector3d v_W = (now.pointAt(p_L) - then.pointAt(p_L)) / lengthS - surfaceV_W;
+    return (v_W - row.n * row.n.dot(v_W)).norm();
+  };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const ContactRow& row = rows[i];
     if (!(row.push > 0.0)) continue;
@@ -427,12 +434,13 @@ void SolidBody::report(SolidBodyTick& tick) {
       contact.nhat_W = row.n;
       contact.gap = row.gap;
       contact.push = row.push;
+      contact.slipSpeed = slipOf(row, Eigen::Vector3d::Zero());
       own.contacts.push_back(contact);
       continue;
     }
     const AroundFeature& feature = yielding.features()[i - yielding.numStill()];
-    tick.contacts.push_back(
-        {feature.body->body, row.link, row.lss, feature.triangle, row.y, row.n, row.gap, row.push});
+    tick.contacts.push_back({feature.body->body, row.link, row.lss, feature.triangle, row.y, row.n,
+                             row.gap, row.push, slipOf(row, feature.velocity_W)});
   }
 }
 

@@ -86,7 +86,7 @@ class SolidBody {
                              SolidTick& tick);
   void yield(std::int64_t fromUs, std::int64_t toUs, Surroundings& around, SolidBodyTick& tick);
   void finishYield(std::int64_t fromUs, std::int64_t toUs, SolidBodyTick& tick);
-  void report(SolidBodyTick& tick);
+  void report(double lengthS, SolidBodyTick& tick);
   void reportCrushes(const Surroundings& around, std::int64_t us, SolidBodyTick& tick);
   [[nodiscard]] bool appear(std::int64_t fromUs, std::int64_t toUs, const Surroundings& around,
                             SolidTick& tick);
@@ -115,7 +115,7 @@ class SolidBody {
   Pose shown_, before_;
   AroundBody trace_;
   std::vector<std::int64_t> endsUs_;
-  std::vector<LinkState> states_;
+  std::vector<LinkState> states_, statesBefore_;
   std::vector<Eigen::Vector3d> places_, wanted_, lastWanted_;
 };
 

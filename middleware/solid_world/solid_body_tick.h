@@ -31,7 +31,8 @@ struct SolidBodyContact {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();     ///< On the body's surface.
   Eigen::Vector3d nhat_W = Eigen::Vector3d::Zero();  ///< Unit, from it to the avatar.
   double gap = 0.0;
-  double push = 0.0;  ///< As SolidContact::push; what the body's own motion adds is in it.
+  double push = 0.0;       ///< As SolidContact::push; what the body's own motion adds is in it.
+  double slipSpeed = 0.0;  ///< Of the link's point along that surface, which moves, m/s.
 };
 
 /// A body that nobody holds back has left the avatar no proven way: between the two nothing is
