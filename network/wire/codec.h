@@ -19,6 +19,7 @@ namespace foretouch {
 struct BodyMessage;
 struct RigidPoseMessage;
 struct EventsMessage;
+struct PushesMessage;
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -44,6 +45,7 @@ struct ByteView {
 [[nodiscard]] Reject decode(ByteView payload, BodyMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, RigidPoseMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, EventsMessage& message);
+[[nodiscard]] Reject decode(ByteView payload, PushesMessage& message);
 
 /// Replaces `payload`. Precondition (asserted): counts and texts within the limits.
 void encode(const SkeletonMessage& message, Bytes& payload);
@@ -55,10 +57,11 @@ void encode(const SpeakerMessage& message, Bytes& payload);
 void encode(const BodyMessage& message, Bytes& payload);
 void encode(const RigidPoseMessage& message, Bytes& payload);
 void encode(const EventsMessage& message, Bytes& payload);
+void encode(const PushesMessage& message, Bytes& payload);
 
-/// The part of an encoded contacts_t, solid_t or events_t that depends only on poses, scene and
-/// options: all but the two stamps and the time that it took, at its end (24 bytes). A replay
-/// repeats it byte for byte.
+/// The part of an encoded contacts_t, solid_t, events_t or pushes_t that depends only on poses,
+/// scene and options: all but the two stamps and the time that it took, at its end (24 bytes). A
+/// replay repeats it byte for byte.
 [[nodiscard]] ByteView verdictBytes(ByteView payload);
 
 }  // namespace foretouch

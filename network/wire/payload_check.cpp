@@ -5,6 +5,7 @@
 #include <foretouch/contacts_t.hpp>
 #include <foretouch/events_t.hpp>
 #include <foretouch/pose_t.hpp>
+#include <foretouch/pushes_t.hpp>
 #include <foretouch/rigid_pose_t.hpp>
 #include <foretouch/skeleton_t.hpp>
 #include <foretouch/solid_t.hpp>
@@ -167,6 +168,19 @@ constexpr Field kEventsFields[] = {
     list(7 * kDouble),             // near points
     fixed(2 * kInt64 + kDouble)};  // receive_utime, send_utime, world_us
 
+constexpr Field kPushesFields[] = {
+    fixed(kInt32 + 5 * kInt64 + kInt8),  // avatar to assumed
+    count(),
+    list(kInt32),                    // links
+    texts(kMaxNameBytes),            // link_names
+    list(3 * kInt32 + 9 * kDouble),  // lss, bodies, triangles, points, normals, gap to slip_speed
+    fixed(kInt32),                   // contacts_left_out
+    count(),
+    list(2 * kInt32),                       // crushers, crushed_links
+    texts(kMaxNameBytes),                   // crushed_names
+    list(kInt64 + kByte + kDouble),         // crushed_since, over, depth
+    fixed(kInt32 + 2 * kInt64 + kDouble)};  // crushes_left_out, receive_utime, send_utime, tick_us
+
 Reject checkText(Cursor& cursor, std::size_t limit) {
   std::int32_t length = 0;  // with its NUL
   if (!cursor.read(length) || length < 1) return Reject::Length;
@@ -236,6 +250,7 @@ std::int64_t fingerprintOf(PayloadType type) {
     case PayloadType::Body: return body_t::getHash();
     case PayloadType::RigidPose: return rigid_pose_t::getHash();
     case PayloadType::Events: return events_t::getHash();
+    case PayloadType::Pushes: return pushes_t::getHash();
   }
   return 0;
 }
@@ -261,6 +276,7 @@ Reject checkPayload(PayloadType type, ByteView payload) {
     case PayloadType::Body: return checkFields(kBodyFields, cursor);
     case PayloadType::RigidPose: return checkFields(kRigidPoseFields, cursor);
     case PayloadType::Events: return checkFields(kEventsFields, cursor);
+    case PayloadType::Pushes: return checkFields(kPushesFields, cursor);
   }
   return Reject::Length;
 }

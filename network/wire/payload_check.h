@@ -20,7 +20,8 @@ enum class PayloadType : std::uint8_t {
   Speaker,
   Body,
   RigidPose,
-  Events
+  Events,
+  Pushes
 };
 
 /// Longest list in a message: joints, links, contacts, words of a status.

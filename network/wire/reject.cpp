@@ -32,6 +32,7 @@ const char* toString(Reject reject) {
     case Reject::HeldFast: return "held-fast";
     case Reject::UnknownShape: return "unknown-shape";
     case Reject::CarrierLoop: return "carrier-loop";
+    case Reject::SolidCarrier: return "solid-carrier";
     case Reject::OtherSender: return "other-sender";
     case Reject::Unauthenticated: return "unauthenticated";
     case Reject::Replayed: return "replayed";

@@ -41,6 +41,7 @@ enum class Reject : std::uint8_t {
   HeldFast,      ///< A pose of a body that another one holds fast.
   UnknownShape,  ///< A body whose shape is not in the world file.
   CarrierLoop,   ///< A body that would carry itself.
+  SolidCarrier,  ///< A body that a solid one would carry.
   // About who says it.
   OtherSender,      ///< Not from the address and port that speak for the avatar.
   Unauthenticated,  ///< Without the code that the key makes, or with another one.

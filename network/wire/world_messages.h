@@ -9,6 +9,7 @@
 
 #include "articulated/pose.h"
 #include "middleware/events/world_event.h"
+#include "middleware/solid_world/solid_body_tick.h"
 #include "network/wire/messages.h"
 
 namespace foretouch {
@@ -16,6 +17,7 @@ namespace foretouch {
 inline constexpr char kBodyChannel[] = "FORETOUCH_BODY";
 inline constexpr char kRigidPoseChannel[] = "FORETOUCH_RIGID";
 inline constexpr char kEventsChannel[] = "FORETOUCH_EVENTS";
+inline constexpr char kPushesChannel[] = "FORETOUCH_PUSHES";
 
 /// The number of a body in messages; at least 0. An avatar has the number of its pose_t.
 using BodyNumber = std::int32_t;
@@ -98,6 +100,35 @@ struct EventsMessage {
   std::vector<ToldEvent> events;
   std::int64_t receiveUtimeUs = 0, sendUtimeUs = 0;
   double worldUs = 0.0;
+};
+
+/// A moving body that holds or pushes a solid one: as in its tick, with the number that messages
+/// give to that body.
+struct ToldPush {
+  SolidBodyContact contact;
+  std::string linkName;
+};
+struct ToldCrush {
+  SolidCrush crush;
+  std::string linkName;
+};
+
+/// Limits of a pushes_t: of contacts and of crushes.
+inline constexpr std::size_t kMaxToldPushes = 256, kMaxToldCrushes = 256;
+
+/// What presses against a solid body at one tick and moves. Its SolidMessage says the rest.
+struct PushesMessage {
+  std::int32_t avatar = 0;
+  std::int64_t session = 0, sequence = 0;
+  std::int64_t utimeUs = 0, stepUs = 0;
+  std::int64_t timeline = 0;
+  bool isAssumed = false;
+  std::vector<ToldPush> contacts;
+  std::int32_t contactsLeftOut = 0;  ///< Beyond kMaxToldPushes.
+  std::vector<ToldCrush> crushes;
+  std::int32_t crushesLeftOut = 0;  ///< Beyond kMaxToldCrushes.
+  std::int64_t receiveUtimeUs = 0, sendUtimeUs = 0;
+  double tickUs = 0.0;
 };
 
 }  // namespace foretouch

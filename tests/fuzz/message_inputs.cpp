@@ -126,6 +126,25 @@ void checkContent(const EventsMessage& message) {
   }
 }
 
+void checkContent(const PushesMessage& message) {
+  require(message.avatar >= 0, "a solid body has a number");
+  require(message.contacts.size() <= kMaxToldPushes, "contacts are not too many");
+  require(message.crushes.size() <= kMaxToldCrushes, "crushes are not too many");
+  for (const ToldPush& told : message.contacts) {
+    const SolidBodyContact& contact = told.contact;
+    require(contact.body >= 0 && contact.body != message.avatar, "somebody else presses");
+    require(contact.link >= 0 && contact.link < kMaxJoints, "a body may have the link");
+    require(std::isfinite(contact.push) && contact.push >= 0.0, "a push is some");
+    require(std::isfinite(contact.slipSpeed) && contact.slipSpeed >= 0.0, "a speed is some");
+    require(contact.nhat_W.allFinite() && contact.p_W.allFinite(), "places are places");
+  }
+  for (const ToldCrush& told : message.crushes) {
+    require(told.crush.body >= 0 && told.crush.body != message.avatar, "somebody else crushes");
+    require(std::isfinite(told.crush.depth) && told.crush.depth >= 0.0, "a depth is some");
+    require(told.crush.sinceUs >= 0, "it began");
+  }
+}
+
 /// `exactly`: as the same bytes.
 template <typename Message>
 bool feed(ByteView input, Message& message, bool (*exactly)(const Message&)) {
@@ -214,6 +233,10 @@ bool feedRigidPoseMessage(const std::uint8_t* data, std::size_t size) {
 
 bool feedEventsMessage(const std::uint8_t* data, std::size_t size) {
   return feedExact<EventsMessage>(data, size);
+}
+
+bool feedPushesMessage(const std::uint8_t* data, std::size_t size) {
+  return feedExact<PushesMessage>(data, size);
 }
 
 }  // namespace foretouch::fuzz

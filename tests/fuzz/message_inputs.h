@@ -19,5 +19,6 @@ bool feedStatusMessage(const std::uint8_t* data, std::size_t size);
 bool feedBodyMessage(const std::uint8_t* data, std::size_t size);
 bool feedRigidPoseMessage(const std::uint8_t* data, std::size_t size);
 bool feedEventsMessage(const std::uint8_t* data, std::size_t size);
+bool feedPushesMessage(const std::uint8_t* data, std::size_t size);
 
 }  // namespace foretouch::fuzz

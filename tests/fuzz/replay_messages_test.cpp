@@ -29,6 +29,8 @@ TEST(FuzzCorpus, MessagesKeepThePromises) {
       3);
   EXPECT_GE(replayCorpus("events_message", feedEventsMessage, AlsoFeed::LastByteMissing).accepted,
             3);
+  EXPECT_GE(replayCorpus("pushes_message", feedPushesMessage, AlsoFeed::LastByteMissing).accepted,
+            3);
 }
 
 TEST(FuzzCorpus, ConfigurationsKeepThePromises) {

@@ -52,7 +52,8 @@ int main(int argc, char** argv) {
       writeSeeds(corpus + "/status_message", randomStatusMessage) &&
       writeSeeds(corpus + "/body_message", randomBodyMessage) &&
       writeSeeds(corpus + "/rigid_pose_message", randomRigidPoseMessage) &&
-      writeSeeds(corpus + "/events_message", randomEventsMessage);
+      writeSeeds(corpus + "/events_message", randomEventsMessage) &&
+      writeSeeds(corpus + "/pushes_message", randomPushesMessage);
   if (!written) std::fprintf(stderr, "write_message_seeds: cannot write below %s\n", argv[1]);
   return written ? 0 : 1;
 }

@@ -376,4 +376,36 @@ EventsMessage randomEventsMessage(Random& random, int numEvents) {
   return message;
 }
 
+PushesMessage randomPushesMessage(Random& random, int numContacts) {
+  PushesMessage message;
+  message.avatar = random.below(1000);
+  for (std::int64_t* const count :
+       {&message.session, &message.sequence, &message.utimeUs, &message.stepUs, &message.timeline,
+        &message.receiveUtimeUs, &message.sendUtimeUs}) {
+    *count = integer(random);
+  }
+  message.isAssumed = random.chance(0.2);
+  message.tickUs = random.magnitude(1e-3, 1e7);
+  for (int i = 0; i < numContacts; ++i) {
+    ToldPush& told = message.contacts.emplace_back();
+    told.contact = {message.avatar + 1 + i,
+                    random.below(99),
+                    random.below(3) - 1,
+                    random.below(99) - 1,
+                    place(random),
+                    random.direction(),
+                    random.uniform(-1e-3, 5e-3),
+                    random.magnitude(1e-9, 1.0),
+                    random.magnitude(1e-9, 10.0)};
+    told.linkName = name(random, told.contact.link);
+    ToldCrush& crush = message.crushes.emplace_back();
+    crush.crush = {message.avatar + 1 + i, random.below(99), integer(random), random.chance(0.2),
+                   random.chance(0.5) ? 0.0 : random.magnitude(1e-9, 1.0)};
+    crush.linkName = name(random, crush.crush.link);
+  }
+  message.contactsLeftOut = random.chance(0.9) ? 0 : random.below(1000);
+  message.crushesLeftOut = random.chance(0.9) ? 0 : random.below(1000);
+  return message;
+}
+
 }  // namespace foretouch::test

@@ -24,5 +24,7 @@ namespace foretouch::test {
 [[nodiscard]] RigidPoseMessage randomRigidPoseMessage(Random& random, int numBodies);
 /// So many of each of its lists.
 [[nodiscard]] EventsMessage randomEventsMessage(Random& random, int numEvents);
+/// So many contacts, and crushes.
+[[nodiscard]] PushesMessage randomPushesMessage(Random& random, int numContacts);
 
 }  // namespace foretouch::test

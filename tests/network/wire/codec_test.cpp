@@ -61,6 +61,8 @@ TEST(Codec, MessagesSurviveTheWireBitForBit) {
   expectRoundTrips<SpeakerMessage>([](Random& r) { return test::randomSpeakerMessage(r); });
   expectRoundTrips<StatusMessage>(
       [](Random& r) { return test::randomStatusMessage(r, r.below(20)); });
+  expectRoundTrips<PushesMessage>(
+      [](Random& r) { return test::randomPushesMessage(r, r.below(20)); });
 }
 
 TEST(Codec, LargestMessagesSurvive) {
@@ -498,11 +500,8 @@ TEST(DecodeSolid, RefusesCodesThatDoNotExist) {
 }
 
 TEST(DecodeSolid, RefusesTimesThatDoNotAscendToOne) {
-  for (const auto& times : {std::vector<double>{0.5, 0.5},
-                            {0.6, 0.5},
-                            {0.5, 1.0000001},
-                            {-0.5, 1.0},
-                            {0.5, kNaN}}) {
+  for (const auto& times :
+       {std::vector<double>{0.5, 0.5}, {0.6, 0.5}, {0.5, 1.0000001}, {-0.5, 1.0}, {0.5, kNaN}}) {
     EXPECT_EQ(solidAfter([&](SolidMessage& m) { m.times = times; }), Reject::OutOfRange);
   }
   EXPECT_EQ(solidAfter([](SolidMessage& m) {
@@ -566,6 +565,89 @@ TEST(DecodeSolid, RefusesNumbersOutOfRange) {
   }
   EXPECT_EQ(solidAfter([](SolidMessage& m) { m.snapInUs = -2; }), Reject::OutOfRange);
   EXPECT_EQ(solidAfter([](SolidMessage& m) { m.contactsLeftOut = -1; }), Reject::OutOfRange);
+}
+
+// --- pushes_t
+
+/// A body that presses and crushes another one.
+PushesMessage onePush() {
+  PushesMessage message;
+  message.avatar = 1;
+  message.contacts.resize(1);
+  message.contacts[0].linkName = "Hand";
+  message.contacts[0].contact.body = 2;
+  message.contacts[0].contact.link = 3;
+  message.contacts[0].contact.nhat_W = {0.0, 1.0, 0.0};
+  message.crushes.resize(1);
+  message.crushes[0].linkName = "Hand";
+  message.crushes[0].crush.body = 2;
+  return message;
+}
+
+template <typename Change>
+Reject pushesAfter(Change change) {
+  return rejectAfter(onePush(), change);
+}
+
+TEST(DecodePushes, RefusesPairsThatAreNone) {
+  EXPECT_EQ(pushesAfter([](PushesMessage&) {}), Reject::None);
+  const auto push = [](auto change) {
+    return pushesAfter([&](PushesMessage& m) { change(m.contacts[0].contact); });
+  };
+  EXPECT_EQ(push([](SolidBodyContact& c) { c.body = -1; }), Reject::BadIndex);
+  EXPECT_EQ(push([](SolidBodyContact& c) { c.body = 1; }), Reject::BadIndex);  // itself
+  EXPECT_EQ(push([](SolidBodyContact& c) { c.link = -1; }), Reject::BadIndex);
+  EXPECT_EQ(push([](SolidBodyContact& c) { c.link = kMaxJoints; }), Reject::BadIndex);
+  EXPECT_EQ(push([](SolidBodyContact& c) { c.lss = -2; }), Reject::BadIndex);
+  EXPECT_EQ(push([](SolidBodyContact& c) { c.triangle = -2; }), Reject::BadIndex);
+  EXPECT_EQ(pushesAfter([](PushesMessage& m) { m.crushes[0].crush.body = 1; }), Reject::BadIndex);
+  EXPECT_EQ(pushesAfter([](PushesMessage& m) { m.crushes[0].crush.link = -1; }), Reject::BadIndex);
+  EXPECT_EQ(pushesAfter([](PushesMessage& m) { m.avatar = -1; }), Reject::BadIndex);
+  EXPECT_EQ(pushesAfter([](PushesMessage& m) { m.contacts[0].linkName = "\xff"; }),
+            Reject::BadName);
+  EXPECT_EQ(pushesAfter([](PushesMessage& m) { m.crushes[0].linkName.clear(); }), Reject::BadName);
+}
+
+TEST(DecodePushes, RefusesNumbersThatAreNone) {
+  const auto push = [](auto change) {
+    return pushesAfter([&](PushesMessage& m) { change(m.contacts[0].contact); });
+  };
+  for (const double bad : {kNaN, kInfinity, -kInfinity}) {
+    EXPECT_EQ(push([&](SolidBodyContact& c) { c.push = bad; }), Reject::NonFinite);
+    EXPECT_EQ(push([&](SolidBodyContact& c) { c.p_W.y() = bad; }), Reject::NonFinite);
+    EXPECT_EQ(push([&](SolidBodyContact& c) { c.nhat_W.y() = bad; }), Reject::NonFinite);
+    EXPECT_EQ(push([&](SolidBodyContact& c) { c.gap = bad; }), Reject::NonFinite);
+    EXPECT_EQ(pushesAfter([&](PushesMessage& m) { m.crushes[0].crush.depth = bad; }),
+              Reject::NonFinite);
+    EXPECT_EQ(pushesAfter([&](PushesMessage& m) { m.tickUs = bad; }), Reject::NonFinite);
+  }
+  EXPECT_EQ(push([](SolidBodyContact& c) { c.push = -1e-9; }), Reject::OutOfRange);
+  EXPECT_EQ(push([](SolidBodyContact& c) { c.slipSpeed = -1e-9; }), Reject::OutOfRange);
+  EXPECT_EQ(push([](SolidBodyContact& c) { c.nhat_W *= 1.001; }), Reject::OutOfRange);
+  EXPECT_EQ(pushesAfter([](PushesMessage& m) { m.crushes[0].crush.depth = -1e-9; }),
+            Reject::OutOfRange);
+  EXPECT_EQ(pushesAfter([](PushesMessage& m) { m.crushes[0].crush.sinceUs = -1; }),
+            Reject::OutOfRange);
+  EXPECT_EQ(pushesAfter([](PushesMessage& m) { m.contactsLeftOut = -1; }), Reject::OutOfRange);
+  EXPECT_EQ(pushesAfter([](PushesMessage& m) { m.crushesLeftOut = -1; }), Reject::OutOfRange);
+  for (auto PushesMessage::*const field :
+       {&PushesMessage::session, &PushesMessage::sequence, &PushesMessage::utimeUs,
+        &PushesMessage::stepUs, &PushesMessage::timeline, &PushesMessage::receiveUtimeUs,
+        &PushesMessage::sendUtimeUs}) {
+    for (const std::int64_t bad : {std::int64_t{-1}, kTooLarge}) {
+      EXPECT_EQ(pushesAfter([&](PushesMessage& m) { m.*field = bad; }), Reject::OutOfRange);
+    }
+  }
+}
+
+TEST(DecodePushes, LargestSurvives) {
+  Random random(1);
+  PushesMessage message = test::randomPushesMessage(random, kMaxToldPushes);
+  for (ToldPush& told : message.contacts) told.linkName.assign(kMaxNameBytes, 'n');
+  for (ToldCrush& told : message.crushes) told.linkName.assign(kMaxNameBytes, 'n');
+  const Bytes bytes = bytesOf(message);
+  EXPECT_LE(bytes.size(), kMaxMessageBytes);
+  EXPECT_EQ(decode(bytes, message), Reject::None);
 }
 
 // --- status_t

@@ -143,6 +143,19 @@ Sample eventsSample(Random& random) {
   return sample;
 }
 
+Sample pushesSample(Random& random) {
+  Sample sample{PayloadType::Pushes, {}, {}, {}};
+  encode(test::randomPushesMessage(random, 1 + random.below(4)), sample.bytes);
+  const std::size_t contacts = kHead + 4 + 5 * 8 + 1;
+  const int n = countAt(sample, contacts), ids = n * 4;
+  const std::size_t names = contacts + 4 + static_cast<std::size_t>(ids);
+  const std::size_t crushes =
+      textsAt(sample, names, n) + static_cast<std::size_t>(n * (3 * 4 + 9 * 8)) + 4;
+  const int m = countAt(sample, crushes);
+  textsAt(sample, crushes + 4 + static_cast<std::size_t>(2 * 4 * m), m);
+  return sample;
+}
+
 std::vector<Sample> samples() {
   std::vector<Sample> all;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
@@ -156,6 +169,7 @@ std::vector<Sample> samples() {
     all.push_back(bodySample(random));
     all.push_back(rigidPoseSample(random));
     all.push_back(eventsSample(random));
+    all.push_back(pushesSample(random));
   }
   return all;
 }
@@ -171,6 +185,7 @@ Reject decodeAny(PayloadType type, ByteView bytes) {
   static BodyMessage body;
   static RigidPoseMessage rigidPose;
   static EventsMessage events;
+  static PushesMessage pushes;
   switch (type) {
     case PayloadType::Skeleton: return decode(bytes, skeleton);
     case PayloadType::Pose: return decode(bytes, pose);
@@ -181,6 +196,7 @@ Reject decodeAny(PayloadType type, ByteView bytes) {
     case PayloadType::Body: return decode(bytes, body);
     case PayloadType::RigidPose: return decode(bytes, rigidPose);
     case PayloadType::Events: return decode(bytes, events);
+    case PayloadType::Pushes: return decode(bytes, pushes);
   }
   return Reject::Length;
 }
