@@ -15,19 +15,27 @@ bool isPose(MailKind kind) {
 void StepMail::keep(const StreamStep& step) {
   isAccepted = true;
   kind = step.kind;
+  session = step.session;
+  sequenceTo = step.sequenceTo;
+  lost = step.lost;
   utimeFromUs = step.utimeFromUs;
   utimeToUs = step.utimeToUs;
   to = *step.to;
   unknown = *step.unknown;
+  unknownJoints = *step.unknownJoints;
 }
 
 StreamStep StepMail::step() const {
   StreamStep step;
   step.kind = kind;
+  step.session = session;
+  step.sequenceTo = sequenceTo;
+  step.lost = lost;
   step.utimeFromUs = utimeFromUs;
   step.utimeToUs = utimeToUs;
   step.to = &to;
   step.unknown = &unknown;
+  step.unknownJoints = &unknownJoints;
   return step;
 }
 

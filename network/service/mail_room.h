@@ -36,9 +36,10 @@ struct StepMail {
   BodyNumber avatar = kNoBody;
   bool isAccepted = false;  ///< Else there is no step.
   StepKind kind = StepKind::First;
+  std::int64_t session = 0, sequenceTo = 0, lost = 0;
   std::int64_t utimeFromUs = 0, utimeToUs = 0;
   Pose to;
-  std::vector<UndecidedReason> unknown;
+  std::vector<UndecidedReason> unknown, unknownJoints;
 
   void keep(const StreamStep& step);
   /// Lives as long as this.

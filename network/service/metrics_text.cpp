@@ -174,6 +174,13 @@ void addSolids(Page& page, const SolidCounts& solids) {
   page.ofAvatars("foretouch_solid_work_total", "Work done for them, in evaluations in lanes.",
                  "counter", solids,
                  [](const SolidCount& solid) { return std::to_string(solid.work); });
+  page.ofAvatars("foretouch_solid_pushed_total",
+                 "Of a moving world: ticks at which something that moves pressed against it.",
+                 "counter", solids,
+                 [](const SolidCount& solid) { return std::to_string(solid.pushed); });
+  page.ofAvatars("foretouch_solid_crushed_total",
+                 "Of a moving world: ticks at which something left it no proven way.", "counter",
+                 solids, [](const SolidCount& solid) { return std::to_string(solid.crushed); });
   page.histogram("foretouch_solid_seconds", "What a solid avatar took for one pose.", solids.times);
 }
 

@@ -49,12 +49,18 @@ struct Desk {
   std::unique_ptr<Mail> step = std::make_unique<Mail>();  // for the world
 };
 
-std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars,
+/// `world`: null if there is none.
+std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars, const WorldSolver* world,
                                const ServiceOptions& options) {
   const auto refused = [](ErrorCode code, const std::string& message) {
     return Error::of(code, message);
   };
   if (avatars.empty()) return refused(ErrorCode::Empty, "expected at least one avatar");
+  for (const StreamSolver& avatar : avatars) {
+    if (avatar.solid() == nullptr || world == nullptr || !world->isSolid(avatar.id())) continue;
+    return refused(ErrorCode::Mismatch, "expected avatar " + std::to_string(avatar.id()) +
+                                            " to be solid by itself, or in the world");
+  }
   if (options.workers < 1 || options.workers > kMaxServiceWorkers) {
     return refused(ErrorCode::OutOfRange, "expected 1 to " + std::to_string(kMaxServiceWorkers) +
                                               " workers, found " + std::to_string(options.workers));
@@ -109,7 +115,8 @@ struct Service::Impl final : internal::Outlet {
       streams.push_back({BoundStream(std::move(solver), chosen.speaker), streams.size()});
     }
     if (!parts.world) return;
-    world.emplace(std::move(*parts.world), chosen.speaker, chosen.suffix, *parts.clock, *this);
+    world.emplace(std::move(*parts.world), chosen.speaker, chosen.suffix, *parts.clock, *this,
+                  solidCounter);
     parts.world.reset();
   }
 
@@ -347,7 +354,7 @@ struct Service::Impl final : internal::Outlet {
     encode(desk.shown, desk.payload);
     publish(channels.solid, desk.payload);
     desk.held.add(desk.shown.sendUtimeUs, channels.solid, desk.payload);
-    solidCounter.shown(stream.index, desk.shown);
+    solidCounter.shown(desk.shown);
   }
 
   void addUp(ServedStream& stream) {
@@ -509,7 +516,8 @@ Service::~Service() {
 
 Result<Service> Service::start(std::vector<StreamSolver> avatars, ServiceParts parts,
                                const ServiceOptions& options) {
-  if (const auto problem = problemOf(avatars, options)) return *problem;
+  const WorldSolver* const world = parts.world ? &*parts.world : nullptr;
+  if (const auto problem = problemOf(avatars, world, options)) return *problem;
   const std::size_t numAvatars = avatars.size();
   auto impl = std::make_unique<Impl>(std::move(avatars), std::move(parts), options);
   if (impl->indexOf.size() != numAvatars) {

@@ -10,8 +10,9 @@
 // sees each step after its answer went out, in the thread that answered it.
 // Where an avatar is solid (StreamSolver::makeSolid), its thread shows it after it has sent the
 // answer: one solid_t per accepted pose.
-// Where there is a moving world, the thread then tells it of the pose, and sends what happened
-// between bodies as far as that is known; one thread at a time does that.
+// Where there is a moving world, the thread then tells it of the pose, and sends what solid bodies
+// of it show, and what happened between bodies, as far as that is known; one thread at a time does
+// that.
 //
 // At every moment: received = answered + rejected + waiting.
 #pragma once
@@ -77,8 +78,9 @@ struct ServiceParts {
 
 class Service {
  public:
-  /// Starts the service. Errors: no avatar, two with one id, options out of range, a suffix that
-  /// makes a channel's name too long, or the system refuses the threads.
+  /// Starts the service. Errors: no avatar, two with one id, one that is solid by itself and in the
+  /// world, options out of range, a suffix that makes a channel's name too long, or the system
+  /// refuses the threads.
   static Result<Service> start(std::vector<StreamSolver> avatars, ServiceParts parts,
                                const ServiceOptions& options);
   Service(Service&&) noexcept;

@@ -4,14 +4,9 @@
 
 namespace foretouch {
 
-void SolidCounter::shown(std::size_t avatar, const SolidMessage& message) {
+void SolidCounter::shown(const SolidMessage& message, const PushesMessage* pushes) {
   const std::lock_guard lock(mutex_);
-  if (avatar >= avatars_.size()) {
-    avatars_.resize(avatar + 1);
-    hasShown_.resize(avatar + 1, false);
-  }
-  hasShown_[avatar] = true;
-  SolidCount& count = avatars_[avatar];
+  SolidCount& count = avatars_[message.avatar];
   count.avatar = message.avatar;
   ++count.poses[slotOf(message.state)];
   if (!message.isCertified) ++count.uncertified;
@@ -19,6 +14,8 @@ void SolidCounter::shown(std::size_t avatar, const SolidMessage& message) {
   count.work += message.counters.work;
   count.state = message.state;
   count.deviation = message.deviation;
+  if (pushes != nullptr && !pushes->contacts.empty()) ++count.pushed;
+  if (pushes != nullptr && !pushes->crushes.empty()) ++count.crushed;
   times_.record(message.solidUs);
 }
 
@@ -26,9 +23,7 @@ SolidCounts SolidCounter::counts() const {
   const std::lock_guard lock(mutex_);
   SolidCounts counts;
   counts.times = times_;
-  for (std::size_t i = 0; i < avatars_.size(); ++i) {
-    if (hasShown_[i]) counts.avatars.push_back(avatars_[i]);
-  }
+  for (const auto& [number, count] : avatars_) counts.avatars.push_back(count);
   return counts;
 }
 

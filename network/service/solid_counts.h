@@ -3,13 +3,14 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <vector>
 
 #include "network/service/latency_histogram.h"
 #include "network/wire/messages.h"
+#include "network/wire/world_messages.h"
 
 namespace foretouch {
 
@@ -20,23 +21,24 @@ struct SolidCount {
   std::uint64_t queries = 0, work = 0;                 ///< As SolidCounters.
   SolidState state = SolidState::Placing;              ///< At the last pose.
   double deviation = 0.0;                              ///< The same.
+  /// Of a moving world: ticks at which something that moves pressed against it, or crushed it.
+  std::uint64_t pushed = 0, crushed = 0;
 };
 
 struct SolidCounts {
-  std::vector<SolidCount> avatars;  ///< Those that have shown a pose, in the service's order.
+  std::vector<SolidCount> avatars;  ///< Those that have shown a pose, by number.
   LatencyHistogram times;           ///< Of a shown pose, the solid avatar's part of the work.
 };
 
 class SolidCounter {
  public:
-  /// `avatar`: an index.
-  void shown(std::size_t avatar, const SolidMessage& message);
+  /// `pushes`: of a moving world; else null.
+  void shown(const SolidMessage& message, const PushesMessage* pushes = nullptr);
   [[nodiscard]] SolidCounts counts() const;
 
  private:
   mutable std::mutex mutex_;
-  std::vector<SolidCount> avatars_;  // by index
-  std::vector<bool> hasShown_;
+  std::map<std::int32_t, SolidCount> avatars_;
   LatencyHistogram times_;
 };
 

@@ -12,13 +12,16 @@ constexpr std::chrono::milliseconds kReportWait{100}, kReportLook{1};
 }  // namespace
 
 WorldDesk::WorldDesk(WorldSolver solver, const SpeakerPolicy& policy, const std::string& suffix,
-                     const Clock& clock, Outlet& outlet)
+                     const Clock& clock, Outlet& outlet, SolidCounter& solids)
     : bodyChannel_(kBodyChannel + suffix),
       rigidChannel_(kRigidPoseChannel + suffix),
       eventsChannel_(kEventsChannel + suffix),
       speakerChannel_(kSpeakerChannel + suffix),
+      solidChannel_(kSolidChannel + suffix),
+      pushesChannel_(kPushesChannel + suffix),
       clock_(clock),
       outlet_(outlet),
+      solids_(solids),
       world_(std::move(solver), policy) {}
 
 void WorldDesk::take(Mail& mail) {
@@ -42,16 +45,29 @@ void WorldDesk::refused(MailKind kind, std::size_t poses, Reject reason) {
   for (std::size_t i = 0; i < poses; ++i) world_.solver().refusedPose(kNoBody, reason, 0);
 }
 
+template <typename Message>
+void WorldDesk::send(Message& message, const std::string& channel, std::int64_t receiveUtimeUs) {
+  message.receiveUtimeUs = receiveUtimeUs;
+  message.sendUtimeUs = clock_.utimeUs();
+  encode(message, payload_);
+  outlet_.publish(channel, payload_);
+  outlet_.record(message.sendUtimeUs, channel, payload_);
+}
+
+/// What is shown comes before the events that are about it.
+void WorldDesk::show(std::int64_t receiveUtimeUs) {
+  for (ShownBody& body : world_.solver().shown()) {
+    send(body.solid, solidChannel_, receiveUtimeUs);
+    send(body.pushes, pushesChannel_, receiveUtimeUs);
+    solids_.shown(body.solid, &body.pushes);
+  }
+}
+
 void WorldDesk::advance(std::int64_t receiveUtimeUs) {
   const auto start = std::chrono::steady_clock::now();
   world_.solver().advance(answers_);
-  for (EventsMessage& answer : answers_) {
-    answer.receiveUtimeUs = receiveUtimeUs;
-    answer.sendUtimeUs = clock_.utimeUs();
-    encode(answer, payload_);
-    outlet_.publish(eventsChannel_, payload_);
-    outlet_.record(answer.sendUtimeUs, eventsChannel_, payload_);
-  }
+  show(receiveUtimeUs);
+  for (EventsMessage& answer : answers_) send(answer, eventsChannel_, receiveUtimeUs);
   if (answers_.empty()) return;
   times_.latency.record(static_cast<double>(clock_.utimeUs() - receiveUtimeUs));
   const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;

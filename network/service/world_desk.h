@@ -10,6 +10,7 @@
 
 #include "network/service/clock.h"
 #include "network/service/mail_room.h"
+#include "network/service/solid_counts.h"
 #include "network/service/world_report.h"
 #include "network/stream/bound_stream.h"
 #include "network/world_stream/bound_world.h"
@@ -19,7 +20,7 @@ namespace foretouch::internal {
 class WorldDesk final : WorldRecord {
  public:
   WorldDesk(WorldSolver solver, const SpeakerPolicy& policy, const std::string& suffix,
-            const Clock& clock, Outlet& outlet);
+            const Clock& clock, Outlet& outlet, SolidCounter& solids);
 
   /// A message about bodies; or what an avatar's stream said, which is recorded, and the step that
   /// its pose ended.
@@ -38,9 +39,15 @@ class WorldDesk final : WorldRecord {
   [[nodiscard]] Reject tell(Mail& mail);
   void advance(std::int64_t receiveUtimeUs);
 
-  const std::string bodyChannel_, rigidChannel_, eventsChannel_, speakerChannel_;
+  void show(std::int64_t receiveUtimeUs);
+  template <typename Message>
+  void send(Message& message, const std::string& channel, std::int64_t receiveUtimeUs);
+
+  const std::string bodyChannel_, rigidChannel_, eventsChannel_, speakerChannel_, solidChannel_,
+      pushesChannel_;
   const Clock& clock_;
   Outlet& outlet_;
+  SolidCounter& solids_;
   mutable std::mutex mutex_;  // of the next members, but the last two
   BoundWorld world_;
   std::vector<EventsMessage> answers_;

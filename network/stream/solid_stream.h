@@ -46,13 +46,8 @@ class SolidStream {
 
  private:
   SolidStream(std::int32_t id, SolidAvatar solid);
-  [[nodiscard]] bool findTracked(const StreamStep& step);
   void tick(const StreamStep& step, SolidMessage& answer);
-  /// Nothing to follow yet: says where the joints are as far as they are known.
-  void wait(const StreamStep& step, SolidMessage& answer) const;
   void fillHead(const StreamStep& step, SolidMessage& answer) const;
-  void fillWay(SolidMessage& answer) const;
-  void fillContacts(SolidMessage& answer) const;
 
   std::int32_t id_ = 0;
   SolidAvatar solid_;

@@ -26,6 +26,11 @@ struct LiveKnot {
   std::int64_t utimeUs = 0;
   /// Nothing: it is not known. For the world it is then where it was.
   std::optional<Pose> pose;
+  // Of a solid body.
+  std::int64_t session = 0, sequence = 0, lost = 0;
+  bool isGap = false;  ///< Something before it is not known.
+  bool areRootsKnown = true;
+  std::vector<std::uint8_t> isTracked{};  ///< One per joint; none: all are.
 };
 
 /// From an instant on, another one carries the body, or nobody, or it is gone.
@@ -65,6 +70,7 @@ struct LiveBody {
   BodyNumber number = 0;
   std::size_t shape = 0;
   bool isAvatar = false;  ///< Its poses are those of an avatar's stream.
+  bool isSolid = false;   ///< They are targets, and the world knows what it shows.
 
   // What its stream has said.
   bool hasStream = false;  ///< A pose was accepted; the next four are of the last one.

@@ -49,11 +49,34 @@ RigidPose rigidPoseOf(const Pose& pose) {
 }  // namespace
 
 Result<LiveWorld> LiveWorld::make(const WorldSetup& setup, bool holdsStill, std::int64_t fromUs) {
-  FORETOUCH_TRY(auto world, setup.build());
   FollowOptions options;
   options.mostWindows = kMostWindowsPerAdvance;
   FORETOUCH_TRY(auto follower, WorldFollower::start(fromUs, options));
-  return LiveWorld(setup, holdsStill, std::move(world), std::move(follower));
+  LiveWorld made(setup, holdsStill, std::move(follower));
+  if (hasSolidBodies(setup)) {
+    FORETOUCH_TRY(made.solids_, SolidBodies::make(setup, fromUs));
+    made.slots_.push_back({kNoBody, kEarliest});
+    return made;
+  }
+  FORETOUCH_TRY(made.world_, World::build(setup.still, setup.options));
+  if (setup.ask) FORETOUCH_CHECK(setup.ask(made.world()));
+  return made;
+}
+
+Result<Done> LiveWorld::show(LiveBodies& bodies, std::int64_t untilUs, std::int64_t timeline,
+                             std::vector<ShownBody>& shown) {
+  shown.clear();
+  if (!solids_) return Done{};
+  const auto numberOfSlot = [&](BodyId slot) { return numberOf(slot, untilUs); };
+  FORETOUCH_CHECK(solids_->tick(untilUs, timeline, numberOfSlot, shown));
+  for (const ShownBody& body : shown) {
+    const SolidMessage& solid = body.solid;
+    const auto known = bodies.find(solid.avatar);
+    if (solid.state != SolidState::Placing || known == bodies.end()) continue;
+    known->second.addUnknown(kEveryLink, UndecidedReason::Gap, solid.utimeUs - solid.stepUs,
+                             solid.utimeUs);
+  }
+  return Done{};
 }
 
 bool LiveWorld::hasRoomFor(std::size_t bodies) const {
@@ -198,6 +221,14 @@ void LiveWorld::giveUp(LiveBody& body) {
   body.changes.pop_front();
 }
 
+Result<BodyId> LiveWorld::add(const LiveBody& body, const BodyOptions& options) {
+  const WorldShape& shape = setup_->shapes[body.shape];
+  if (const SolidOptions* const solid = solidOptionsOf(*setup_, body.number); solid != nullptr) {
+    return solids_->add(body.number, shape, *solid, options);
+  }
+  return shape.avatar ? world().add(*shape.avatar, options) : world().add(*shape.mesh, options);
+}
+
 /// False if the world does not take it.
 bool LiveWorld::addTo(LiveBody& body) {
   if (body.slot) return true;
@@ -206,8 +237,7 @@ bool LiveWorld::addTo(LiveBody& body) {
   options.group = shape.group;
   options.whenSilent = WhenSilent::Undecided;  // the watermark decides who is waited for
   options.self = shape.self;
-  const auto added =
-      shape.avatar ? world_.add(*shape.avatar, options) : world_.add(*shape.mesh, options);
+  const auto added = add(body, options);
   if (!added.ok()) {
     ++failures_;
     return false;
@@ -217,10 +247,13 @@ bool LiveWorld::addTo(LiveBody& body) {
   return true;
 }
 
-void LiveWorld::push(LiveBody& body, std::int64_t utimeUs, const Pose& pose) {
+/// `knot`: the pose is its.
+void LiveWorld::push(LiveBody& body, std::int64_t utimeUs, const Pose& pose, const LiveKnot* knot) {
   const bool isNew = !body.slot;
   if (!addTo(body)) return;
-  if (!world_.push(*body.slot, utimeUs, pose).ok()) {
+  if (body.isSolid) {
+    knot != nullptr ? solids_->follow(*body.slot, *knot) : solids_->hold(*body.slot, utimeUs);
+  } else if (!world().push(*body.slot, utimeUs, pose).ok()) {
     ++failures_;
     body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, utimeUs);
     body.isElsewhere = true;
@@ -247,7 +280,7 @@ void LiveWorld::takeKnot(LiveBody& body, const LiveKnot& knot) {
     return;
   }
   if (knot.pose) {
-    push(body, knot.utimeUs, *knot.pose);
+    push(body, knot.utimeUs, *knot.pose, &knot);
   } else if (body.slot) {
     const Pose still = body.told;
     push(body, knot.utimeUs, still);
@@ -306,7 +339,7 @@ bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change,
   if (!addTo(body)) return true;
   const Carrier by{*carrier->second.slot, change.link, change.movesInFrame};
   const Pose pose = poseOf(change.pose);
-  if (!world_.attach(*body.slot, by, change.sinceUs, pose).ok()) {
+  if (!world().attach(*body.slot, by, change.sinceUs, pose).ok()) {
     ++failures_;
     body.isElsewhere = true;
     return true;
@@ -343,7 +376,7 @@ void LiveWorld::letGo(LiveBody& body, const LiveChange& change) {
   }
   if (!isCarried) return letGoUnheard(body, change);
   holdUntil(body, change.sinceUs);
-  if (!world_.detach(*body.slot, change.sinceUs, pose).ok()) {
+  if (!world().detach(*body.slot, change.sinceUs, pose).ok()) {
     ++failures_;
     body.isElsewhere = true;
     return;

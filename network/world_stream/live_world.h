@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "middleware/events/world_follower.h"
 #include "middleware/world/world.h"
 #include "network/world_stream/live_body.h"
+#include "network/world_stream/solid_bodies.h"
 #include "network/world_stream/world_setup.h"
 
 namespace foretouch::internal {
@@ -26,7 +28,7 @@ struct GoneBody {
 class LiveWorld {
  public:
   /// Nobody is there yet. `holdsStill`: whoever says nothing stays where he was. Errors: those of
-  /// WorldSetup::build.
+  /// World::build(), WorldSetup::ask and SolidBodies::make().
   static Result<LiveWorld> make(const WorldSetup& setup, bool holdsStill, std::int64_t fromUs);
 
   /// Whether so many more bodies may come before it must be made anew.
@@ -34,13 +36,19 @@ class LiveWorld {
   /// Tells the world what all have said until `untilUs`, and of each the next pose after it.
   /// O(n log n) of what there is to tell.
   void tell(LiveBodies& bodies, std::int64_t untilUs);
+  /// After tell(): solid bodies go until then, as SolidBodies::tick(). Where one has no place yet,
+  /// nothing is known of it.
+  Result<Done> show(LiveBodies& bodies, std::int64_t untilUs, std::int64_t timeline,
+                    std::vector<ShownBody>& shown);
+  /// What that took, as SolidOptions::workBudget.
+  [[nodiscard]] std::uint64_t solidWork() const { return solids_ ? solids_->work() : 0; }
   /// As WorldFollower::follow().
   Result<Done> follow(std::int64_t untilUs, WorldEvents& events) {
-    return follower_.follow(world_, untilUs, events);
+    return follower_.follow(world(), untilUs, events);
   }
-  void forgetBefore(std::int64_t utimeUs) { world_.forgetBefore(utimeUs); }
+  void forgetBefore(std::int64_t utimeUs) { world().forgetBefore(utimeUs); }
   /// The latest pose that it was told.
-  [[nodiscard]] std::optional<std::int64_t> knownUntilUs() const { return world_.knownUntilUs(); }
+  [[nodiscard]] std::optional<std::int64_t> knownUntilUs() { return world().knownUntilUs(); }
 
   /// Whose place in the world this is, if it was there at that instant.
   [[nodiscard]] std::optional<BodyNumber> numberOf(BodyId slot, std::int64_t utimeUs) const;
@@ -54,11 +62,10 @@ class LiveWorld {
     BodyNumber number = 0;
     std::optional<std::int64_t> goneUs;
   };
-  LiveWorld(const WorldSetup& setup, bool holdsStill, World world, WorldFollower follower)
-      : setup_(&setup),
-        holdsStill_(holdsStill),
-        world_(std::move(world)),
-        follower_(std::move(follower)) {}
+  LiveWorld(const WorldSetup& setup, bool holdsStill, WorldFollower follower)
+      : setup_(&setup), holdsStill_(holdsStill), follower_(std::move(follower)) {}
+  [[nodiscard]] World& world() { return solids_ ? solids_->world() : *world_; }
+  [[nodiscard]] Result<BodyId> add(const LiveBody& body, const BodyOptions& options);
   /// What a body has to tell next. What everybody tells comes in the order of time, whoever tells
   /// it: so where one is to carry another, all is told that came before.
   struct Due {
@@ -81,7 +88,7 @@ class LiveWorld {
   static void markSince(LiveBody& body, const LiveChange& change, std::int64_t untilUs);
   static void giveUp(LiveBody& body);
   [[nodiscard]] bool addTo(LiveBody& body);
-  void push(LiveBody& body, std::int64_t utimeUs, const Pose& pose);
+  void push(LiveBody& body, std::int64_t utimeUs, const Pose& pose, const LiveKnot* knot = nullptr);
   void takeKnot(LiveBody& body, const LiveKnot& knot);
   void holdUntil(LiveBody& body, std::int64_t utimeUs);
   /// False: its carrier is not there yet.
@@ -94,7 +101,8 @@ class LiveWorld {
 
   const WorldSetup* setup_;
   bool holdsStill_;
-  World world_;
+  std::optional<World> world_;           // or, where a body is solid:
+  std::unique_ptr<SolidBodies> solids_;  // which has the world
   WorldFollower follower_;
   std::vector<Slot> slots_;
   std::vector<GoneBody> gone_;

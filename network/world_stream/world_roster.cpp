@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lss/index.h"
+#include "network/stream/solid_answer.h"
 #include "network/world_stream/carrier_times.h"
 
 namespace foretouch::internal {
@@ -34,6 +35,7 @@ WorldRoster::WorldRoster(const WorldSetup& setup, const WorldPolicy& policy)
     body.number = avatar.number;
     body.shape = avatar.shape;
     body.isAvatar = true;
+    body.isSolid = avatar.solid.has_value();
     bodies_.emplace(avatar.number, std::move(body));
   }
 }
@@ -103,6 +105,7 @@ Reject WorldRoster::carrierFaultOf(const BodyMessage& message) const {
   if (message.carrier == kNoBody) return Reject::None;
   const auto carrier = bodies_.find(message.carrier);
   if (carrier == bodies_.end()) return Reject::UnknownBody;
+  if (carrier->second.isSolid) return Reject::SolidCarrier;
   const WorldShape& shape = setup_.shapes[carrier->second.shape];
   const std::int32_t links = shape.avatar ? shape.avatar->numLinks() : 1;
   if (message.carrierLink >= links) return Reject::UnknownBody;
@@ -256,7 +259,12 @@ Reject WorldRoster::take(BodyNumber avatar, const StreamStep& step, std::int64_t
   const bool isGap =
       step.kind != StepKind::Consecutive || body.skips || step.utimeFromUs != body.knownUntilUs;
   const bool hadStream = body.hasStream;
-  keep(body, {step.utimeToUs, *step.to}, isGap, receiveUtimeUs);
+  LiveKnot knot{step.utimeToUs, *step.to, step.session, step.sequenceTo, step.lost, isGap};
+  if (body.isSolid && step.unknownJoints != nullptr) {
+    const Skeleton& skeleton = setup_.shapes[body.shape].avatar->skeleton();
+    knot.areRootsKnown = findTracked(skeleton, *step.unknownJoints, knot.isTracked);
+  }
+  keep(body, std::move(knot), isGap, receiveUtimeUs);
   body.skips = false;
   const std::int64_t fromUs = hadStream && !isGap ? step.utimeFromUs : step.utimeToUs;
   for (std::size_t link = 0; link < step.unknown->size(); ++link) {

@@ -14,6 +14,7 @@
 #include "articulated/result.h"
 #include "articulated/track.h"
 #include "middleware/scene/scene.h"
+#include "middleware/solid/solid_options.h"
 #include "middleware/world/world.h"
 #include "network/wire/world_messages.h"
 
@@ -33,17 +34,24 @@ struct WorldShape {
 [[nodiscard]] std::int64_t shapeHash(const WorldShape& shape);
 
 struct WorldSetup {
-  /// An empty world, with its scene, its tolerance and what is asked. Called again where a timeline
-  /// begins anew.
-  std::function<Result<World>()> build;
-  double tolerance = kDefaultTolerance;  ///< Of that world.
-  std::vector<WorldShape> shapes;        ///< Names differ.
+  std::optional<Scene> still;  ///< What never moves; solid bodies need one.
+  WorldOptions options;
+  /// Tells an empty world what is asked; none: everything. Called again where a timeline begins
+  /// anew.
+  std::function<Result<Done>(World&)> ask;
+  std::vector<WorldShape> shapes;  ///< Names differ.
   struct ServedAvatar {
     BodyNumber number = 0;  ///< As in pose_t.
     std::size_t shape = 0;
+    /// It is solid: its tracked poses are targets, and what is in the world is what it shows.
+    std::optional<SolidOptions> solid{};
   };
   std::vector<ServedAvatar> avatars;  ///< Numbers differ.
 };
+/// Whether any body of the world is solid.
+[[nodiscard]] bool hasSolidBodies(const WorldSetup& setup);
+/// Of a solid body; null: it is none.
+[[nodiscard]] const SolidOptions* solidOptionsOf(const WorldSetup& setup, BodyNumber body);
 
 /// Times in microseconds.
 struct WorldPolicy {
@@ -76,5 +84,13 @@ inline constexpr std::uint64_t kMostWindowsPerAdvance = 64;
 inline constexpr std::int64_t kLeastAdvanceUs = 1000;
 /// How many bodies may hang on one another.
 inline constexpr int kMostCarriers = 8;
+/// Solid bodies of one world: each may cost a tick its whole budget.
+inline constexpr std::size_t kMostSolidBodies = 64;
+/// Solid bodies go from pose to pose, but in at most so many ticks per advance; once so much work
+/// is done, the next tick goes to its end: 50 ms, perhaps.
+inline constexpr std::size_t kMostTicksPerAdvance = 16;
+inline constexpr std::uint64_t kSolidWorkPerAdvance = 5'000'000;
+/// The group of what shows to solid worlds how late it is; no body may have it.
+inline constexpr BodyGroup kClockGroup = kNumBodyGroups - 1;
 
 }  // namespace foretouch

@@ -74,14 +74,46 @@ Result<Done> checkedSetup(const WorldSetup& setup, const WorldPolicy& policy) {
 
 /// How far the watermark should move until the next answer (us), so that no more than half of all
 /// time goes by in answering. By what was counted, and not by a clock: a replay does the same.
-std::int64_t costOf(const WorldEvents& found, std::size_t bodies) {
+std::int64_t costOf(const WorldEvents& found, std::size_t bodies, std::uint64_t solidWork) {
   constexpr std::uint64_t kBody = 20, kPair = 50, kSpan = 500, kEvent = 200, kPerUs = 50;
   constexpr std::uint64_t kMostUs = 1'000'000;
   const std::uint64_t work = found.counters.windows * bodies * kBody + found.world.pairs * kPair +
                              found.world.spans * kSpan + found.counters.pairs * kPair +
                              internal::WorkMeter::workOf(found.world.queries) +
-                             found.events.size() * kEvent;
+                             found.events.size() * kEvent + solidWork;
   return static_cast<std::int64_t>(std::min(work / kPerUs, kMostUs));
+}
+
+Result<Done> checkedSolids(const WorldSetup& setup) {
+  if (!hasSolidBodies(setup)) return Done{};
+  std::size_t count = 0;
+  for (const WorldShape& shape : setup.shapes) {
+    if (shape.group == kClockGroup) {
+      return Error::in("group", ErrorCode::LimitExceeded,
+                       "expected at most 31 groups beside solid bodies");
+    }
+  }
+  FORETOUCH_TRY(const auto solids, internal::SolidBodies::make(setup, 0));
+  for (const WorldSetup::ServedAvatar& avatar : setup.avatars) {
+    if (!avatar.solid) continue;
+    const WorldShape& shape = setup.shapes[avatar.shape];
+    if (shape.self) {
+      return Error::in("self", ErrorCode::Mismatch,
+                       inQuotes(shape.name) +
+                           ": of a solid body, own links are not asked; expected no own links");
+    }
+    if (++count > kMostSolidBodies) {
+      return Error::in("solid", ErrorCode::LimitExceeded,
+                       "expected at most " + std::to_string(kMostSolidBodies) +
+                           " solid bodies, found " + inQuotes(shape.name) + " as one more");
+    }
+    const auto added = solids->add(avatar.number, shape, *avatar.solid, {});
+    if (added.ok()) continue;
+    Error error = added.error();
+    error.message = inQuotes(shape.name) + ": " + error.message;
+    return error;
+  }
+  return Done{};
 }
 
 bool comesFirst(const ToldEvent& x, const ToldEvent& y) {
@@ -103,6 +135,7 @@ struct WorldSolver::Impl {
   std::int64_t leastAdvanceUs = kLeastAdvanceUs;
   WorldEvents found;
   std::vector<ToldEvent> told;
+  std::vector<ShownBody> shown;
 
   [[nodiscard]] bool holdsStill() const { return policy.whenSilent == WhenSilent::HoldStill; }
 
@@ -132,6 +165,7 @@ struct WorldSolver::Impl {
 
   void advance(std::vector<EventsMessage>& answers) {
     std::size_t count = 0;
+    shown.clear();
     if (roster.isSetBack()) {
       roster.beginAnew(0, false);
       world.reset();
@@ -148,16 +182,18 @@ struct WorldSolver::Impl {
     const WorldClock::time_point start = WorldClock::now();
     if (!world->hasRoomFor(roster.bodies().size())) begin(fromUs, true);
     world->tell(roster.bodies(), untilUs);
+    const bool isShown = show(untilUs);
     // Nobody may be there yet: then there is no world to ask.
     const auto knownUs = world->knownUntilUs();
-    bool isAnswered = knownUs && *knownUs >= untilUs;
+    bool isAnswered = isShown && knownUs && *knownUs >= untilUs;
     if (isAnswered && !world->follow(untilUs, found).ok()) {
       ++roster.counts().failures;
       isAnswered = false;
     }
     told.clear();
     if (isAnswered) {
-      leastAdvanceUs = std::max(kLeastAdvanceUs, costOf(found, roster.bodies().size()));
+      leastAdvanceUs =
+          std::max(kLeastAdvanceUs, costOf(found, roster.bodies().size(), world->solidWork()));
       translate(untilUs);
     }
     addGone();
@@ -173,6 +209,18 @@ struct WorldSolver::Impl {
     const double tookUs =
         std::chrono::duration<double, std::micro>(WorldClock::now() - start).count();
     for (std::size_t i = 0; i < count; ++i) answers[i].worldUs = tookUs;
+  }
+
+  /// False: solid bodies could not go on.
+  bool show(std::int64_t untilUs) {
+    const WorldClock::time_point start = WorldClock::now();
+    const auto timeline = static_cast<std::int64_t>(roster.counts().timelines);
+    const bool isDone = world->show(roster.bodies(), untilUs, timeline, shown).ok();
+    if (!isDone) ++roster.counts().failures;
+    const double tookUs =
+        std::chrono::duration<double, std::micro>(WorldClock::now() - start).count();
+    for (ShownBody& body : shown) body.solid.solidUs = body.pushes.tickUs = tookUs;
+    return isDone;
   }
 
   void finish(std::int64_t untilUs, bool isAnswered) {
@@ -230,7 +278,7 @@ struct WorldSolver::Impl {
       answer.fromUs = fromUs;
       answer.toUs = untilUs;
       answer.hasMore = last < told.size();
-      answer.tolerance = setup.tolerance;
+      answer.tolerance = setup.options.tolerance;
       answer.events.assign(told.begin() + static_cast<std::ptrdiff_t>(first),
                            told.begin() + static_cast<std::ptrdiff_t>(last));
       fillBodies(answer);
@@ -274,7 +322,8 @@ WorldSolver::~WorldSolver() = default;
 Result<WorldSolver> WorldSolver::make(WorldSetup setup, const WorldPolicy& policy) {
   FORETOUCH_CHECK(checkedPolicy(policy));
   FORETOUCH_CHECK(checkedSetup(setup, policy));
-  FORETOUCH_CHECK(setup.build());
+  FORETOUCH_CHECK(checkedSolids(setup));
+  FORETOUCH_CHECK(LiveWorld::make(setup, false, 0));
   return WorldSolver(std::make_unique<Impl>(std::move(setup), policy));
 }
 
@@ -318,6 +367,14 @@ void WorldSolver::advance(std::vector<EventsMessage>& answers) {
 
 bool WorldSolver::isThere(BodyNumber body) const {
   return impl_->roster.bodies().count(body) > 0;
+}
+
+std::vector<ShownBody>& WorldSolver::shown() {
+  return impl_->shown;
+}
+
+bool WorldSolver::isSolid(BodyNumber body) const {
+  return solidOptionsOf(impl_->setup, body) != nullptr;
 }
 
 std::size_t WorldSolver::numBodies() const {

@@ -10,6 +10,8 @@
 // by one clock: no sender can hold up the others for longer than waitUs, or hurry them: the
 // watermark never passes the newest receipt, and whoever comes too late for it, but in time, is
 // waited for from then on.
+// Solid bodies (WorldSetup::ServedAvatar::solid) go on with the watermark: what they show, and what
+// presses against them, comes beside the events, which are about what is shown.
 // docs/streaming.md, "A moving world", has the whole story.
 #pragma once
 
@@ -22,6 +24,7 @@
 #include "network/stream/avatar_stream.h"
 #include "network/wire/reject.h"
 #include "network/wire/world_messages.h"
+#include "network/world_stream/shown_body.h"
 #include "network/world_stream/world_counts.h"
 #include "network/world_stream/world_setup.h"
 
@@ -30,7 +33,8 @@ namespace foretouch {
 class WorldSolver {
  public:
   /// Errors: a policy out of range (names the field); shapes or avatars that do not differ, or are
-  /// not there; those of WorldSetup::build.
+  /// not there; solid bodies without a scene, too many of them, with own links that are asked, or
+  /// beside a body of kClockGroup; those of World::build(), WorldSetup::ask and SolidWorld::add().
   static Result<WorldSolver> make(WorldSetup setup, const WorldPolicy& policy);
   WorldSolver(WorldSolver&&) noexcept;
   WorldSolver& operator=(WorldSolver&&) noexcept;
@@ -57,11 +61,15 @@ class WorldSolver {
   /// After each take(): moves the watermark as far as it can, and fills `answers`, but for the
   /// stamps of receiving and sending; nothing if it did not move. Keeps their memory.
   void advance(std::vector<EventsMessage>& answers);
+  /// What solid bodies showed in the last advance(), tick by tick; events are about that.
+  [[nodiscard]] std::vector<ShownBody>& shown();
 
   [[nodiscard]] bool isThere(BodyNumber body) const;
   [[nodiscard]] std::size_t numBodies() const;
   /// It is one of WorldSetup::avatars: pose_t says where it is.
   [[nodiscard]] bool isAvatar(BodyNumber body) const;
+  /// It is one of those that are solid.
+  [[nodiscard]] bool isSolid(BodyNumber body) const;
   [[nodiscard]] WorldCounts counts() const;
   [[nodiscard]] const WorldPolicy& policy() const;
 

@@ -1,6 +1,7 @@
 #include "tools/commands/log_replay_command.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -15,7 +16,7 @@
 #include "tools/progress.h"
 #include "tools/settings/stream_settings.h"
 #include "tools/settings/world_settings.h"
-#include "tools/world/serving.h"
+#include "tools/stream/serving.h"
 
 namespace foretouch::tools {
 namespace {
@@ -26,6 +27,7 @@ struct AskedLogReplay {
   WorldRequest query;  ///< Scene and avatars are the world file's.
   StreamPolicy stream;
   WorldPolicy world;
+  StreamSolidRequest solid;
   bool asJson = false;
 };
 
@@ -37,6 +39,13 @@ std::int64_t eventsOf(const WorldCounts& counts) {
   std::uint64_t sum = 0;
   for (const std::uint64_t count : counts.events) sum += count;
   return static_cast<std::int64_t>(sum);
+}
+
+std::string outcomeOf(const JournalCheck& check, const char* what, std::int64_t answers) {
+  std::string text = LogReplaySummary::compared(check, what, answers);
+  const auto first = check.hasRecord() ? check.firstDifference() : std::optional<std::string>();
+  if (first) text += "first: " + *first + "\n";
+  return text;
 }
 
 std::string summaryOf(const LogReplayReport& report, const ReplayedWorld& world) {
@@ -62,11 +71,9 @@ std::string summaryOf(const LogReplayReport& report, const ReplayedWorld& world)
   if (!journal.hasRecord()) {
     return text + "the log has no events of a moving world: there is nothing to compare\n";
   }
-  text += fmt::format("{} of {} messages of events equal the journal's, byte for byte\n",
-                      journal.equal(),
-                      std::max(world.answers() - journal.beyondEnd(), journal.recorded()));
-  if (const auto first = journal.firstDifference()) text += "first: " + *first + "\n";
-  return text;
+  return text + outcomeOf(journal, "messages of events", world.answers()) +
+         outcomeOf(world.solids(), "poses of solid bodies", world.shown()) +
+         outcomeOf(world.pushes(), "messages of pushes", world.shown());
 }
 
 std::string jsonOf(const LogReplayReport& report, const ReplayedWorld& world) {
@@ -83,6 +90,11 @@ std::string jsonOf(const LogReplayReport& report, const ReplayedWorld& world) {
   out.field("messages", world.answers());
   out.field("messages_recorded", world.journal().recorded());
   out.field("messages_equal", world.journal().equal());
+  if (world.shown() > 0) {
+    out.field("shown", world.shown());
+    out.field("shown_equal", world.solids().equal());
+    out.field("pushes_equal", world.pushes().equal());
+  }
   const bool agrees = report.agrees() && world.agrees();
   if (agrees && !world.journal().hasRecord()) {
     out.rawField("agrees", "null");  // no contradiction, but also nothing that could be one
@@ -95,9 +107,9 @@ std::string jsonOf(const LogReplayReport& report, const ReplayedWorld& world) {
 
 ExitCode run(AskedLogReplay& asked) {
   FORETOUCH_TRY_OR(failed, auto loaded,
-                   loadWorldToServe(asked.worldPath, asked.world, asked.query));
+                   loadWorldToServe(asked.worldPath, asked.world, asked.solid, asked.query));
   const LogReplayRequest request{asked.logPath, asked.query,  std::move(loaded.avatars),
-                                 asked.stream,  asked.suffix, {}};
+                                 asked.stream,  asked.suffix, asked.solid};
   FORETOUCH_TRY_OR(failed, const auto inputs, loadLogReplayInputs(request));
   ReplayedWorld world(std::move(loaded.solver));
   const InterruptGuard guard;
@@ -136,6 +148,8 @@ Command logReplayCommand() {
   addQuerySettings(settings, asked->query);
   addStreamSettings(settings, asked->stream);
   addWorldStreamSettings(settings, asked->world);
+  addStreamSolidSettings(settings, asked->solid);
+  addWorldSolidSetting(settings, asked->solid);
   settings.asJson(asked->asJson);
   Command command{
       "replay", "Answer what a service with a moving world recorded, and compare byte for byte",

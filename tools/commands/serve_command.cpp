@@ -24,9 +24,9 @@
 #include "tools/stream/serve_config.h"
 #include "tools/stream/served_world.h"
 #include "tools/stream/service_manager.h"
+#include "tools/stream/serving.h"
 #include "tools/stream/stop_signal.h"
 #include "tools/view/serve_view.h"
-#include "tools/world/serving.h"
 
 namespace foretouch::tools {
 namespace {
@@ -65,7 +65,8 @@ Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
 /// All that is served.
 Result<ServedWorld> loadAll(ServeConfig& config) {
   if (config.worldPath.empty()) return loadServedWorld(config);
-  FORETOUCH_TRY(auto world, loadWorldToServe(config.worldPath, config.worldPolicy, config.world));
+  FORETOUCH_TRY(auto world,
+                loadWorldToServe(config.worldPath, config.worldPolicy, config.solid, config.world));
   config.avatars = std::move(world.avatars);
   FORETOUCH_TRY(auto served, loadServedWorld(config));
   served.world.emplace(std::move(world.solver));
@@ -209,6 +210,10 @@ ExitCode run(const Settings& settings, ServeConfig& config) {
                    "the world file has the scene and the avatars; expected no --scene and no "
                    "--avatar beside it"});
   }
+  if (config.worldPath.empty() && !config.solid.worldBodies.empty()) {
+    return failed(Error::in("--world-solid", ErrorCode::Mismatch,
+                            "is of the bodies of a world; expected --world as well"));
+  }
   if (!config.worldPath.empty()) {
     const auto served = serve(config);
     return served.ok() ? ExitCode::Done : failed(served.error());
@@ -250,6 +255,7 @@ constexpr char kServeExamples[] = R"(Examples:
       --workers 2 --log today.lcmlog --http 127.0.0.1:9464
   foretouch serve --scene room.obj --avatar dancer.avatar.json --view
   foretouch serve --world stage.toml --view
+  foretouch serve --world stage.toml --solid --world-solid '*'
   foretouch serve --config service.toml --workers 4
 
 Prints "ready" once it takes poses. SIGINT, SIGTERM and SIGHUP end it in order: what waits is

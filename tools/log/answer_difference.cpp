@@ -147,6 +147,37 @@ Fields answerOf(const SolidMessage& message) {
   return fields;
 }
 
+/// All fields. What says more comes first.
+Fields answerOf(const PushesMessage& message) {
+  Fields fields{{"end of the tick", std::to_string(message.utimeUs)},
+                {"length of the tick", std::to_string(message.stepUs)},
+                {"timeline", std::to_string(message.timeline)},
+                {"mark", message.isAssumed ? "true" : "false"},
+                {"number of contacts", std::to_string(message.contacts.size())},
+                {"number of crushes", std::to_string(message.crushes.size())}};
+  for (std::size_t i = 0; i < message.contacts.size(); ++i) {
+    const SolidBodyContact& contact = message.contacts[i].contact;
+    const std::string of = fmt::format(" of contact {}", i);
+    fields.push_back({"link" + of, inQuotes(message.contacts[i].linkName)});
+    fields.push_back({"body" + of, std::to_string(contact.body)});
+    fields.push_back({"triangle" + of, std::to_string(contact.triangle)});
+    fields.push_back({"point" + of, textOf(contact.p_W)});
+    fields.push_back({"normal" + of, textOf(contact.nhat_W)});
+    fields.push_back({"gap" + of, numberText(contact.gap)});
+    fields.push_back({"push" + of, numberText(contact.push)});
+    fields.push_back({"slip speed" + of, numberText(contact.slipSpeed)});
+  }
+  for (std::size_t i = 0; i < message.crushes.size(); ++i) {
+    const SolidCrush& crush = message.crushes[i].crush;
+    const std::string of = fmt::format(" of crush {}", i);
+    fields.push_back({"body" + of, std::to_string(crush.body)});
+    fields.push_back({"link" + of, inQuotes(message.crushes[i].linkName)});
+    fields.push_back({"begin" + of, std::to_string(crush.sinceUs)});
+    fields.push_back({"depth" + of, numberText(crush.depth)});
+  }
+  return fields;
+}
+
 std::string textOf(const WorldTime& time) {
   return fmt::format("{} us and {}", time.us, numberText(time.fraction));
 }
@@ -209,6 +240,12 @@ std::string firstDifference(const EventsMessage& recorded, const EventsMessage& 
   return fmt::format("{}, in the window from {} to {} us",
                      difference.empty() ? "their bytes alone differ" : difference, replayed.fromUs,
                      replayed.toUs);
+}
+
+std::string firstDifference(const PushesMessage& recorded, const PushesMessage& replayed) {
+  const std::string difference = differenceIn(answerOf(recorded), answerOf(replayed));
+  return fmt::format("{}, at {} us", difference.empty() ? "their bytes alone differ" : difference,
+                     replayed.utimeUs);
 }
 
 std::string firstDifference(const SolidMessage& recorded, const SolidMessage& replayed) {

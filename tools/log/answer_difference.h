@@ -17,6 +17,9 @@ namespace foretouch::tools {
 [[nodiscard]] std::string firstDifference(const SolidMessage& recorded,
                                           const SolidMessage& replayed);
 
+/// The same of what moves and presses against a solid body.
+[[nodiscard]] std::string firstDifference(const PushesMessage& recorded,
+                                          const PushesMessage& replayed);
 /// The same of what a moving world tells.
 [[nodiscard]] std::string firstDifference(const EventsMessage& recorded,
                                           const EventsMessage& replayed);

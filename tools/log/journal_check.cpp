@@ -30,6 +30,9 @@ Sayings sayingsOf(AnswerKind kind) {
     case AnswerKind::Solid:
       return {" is shown differently: ", "is shown in the log, and not here",
               "is shown here, and not in the log"};
+    case AnswerKind::Pushes:
+      return {" is pressed differently: ", "is pressed in the log, and not here",
+              "is pressed here, and not in the log"};
     case AnswerKind::Events: break;
   }
   return {" tells differently: ", "is told in the log, and not here",
@@ -41,6 +44,10 @@ AnswerKey keyOf(const ContactsMessage& message) {
 }
 
 AnswerKey keyOf(const SolidMessage& message) {
+  return {message.avatar, message.session, message.sequence};
+}
+
+AnswerKey keyOf(const PushesMessage& message) {
   return {message.avatar, message.session, message.sequence};
 }
 
@@ -79,6 +86,14 @@ void JournalCheck::addRecorded(const EventsMessage& message, ByteView payload) {
 }
 
 void JournalCheck::addReplayed(const EventsMessage& message, ByteView payload) {
+  addReplayed(keyOf(message), payload);
+}
+
+void JournalCheck::addRecorded(const PushesMessage& message, ByteView payload) {
+  addRecorded(keyOf(message), payload);
+}
+
+void JournalCheck::addReplayed(const PushesMessage& message, ByteView payload) {
   addReplayed(keyOf(message), payload);
 }
 
@@ -142,6 +157,7 @@ std::string JournalCheck::differenceOf(ByteView recorded, ByteView replayed) con
   switch (kind_) {
     case AnswerKind::Contacts: return differenceOfAnswers<ContactsMessage>(recorded, replayed);
     case AnswerKind::Solid: return differenceOfAnswers<SolidMessage>(recorded, replayed);
+    case AnswerKind::Pushes: return differenceOfAnswers<PushesMessage>(recorded, replayed);
     case AnswerKind::Events: break;
   }
   return differenceOfAnswers<EventsMessage>(recorded, replayed);

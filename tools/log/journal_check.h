@@ -16,7 +16,7 @@
 namespace foretouch::tools {
 
 /// What is compared.
-enum class AnswerKind : std::uint8_t { Contacts, Solid, Events };
+enum class AnswerKind : std::uint8_t { Contacts, Solid, Events, Pushes };
 
 /// Compares verdictBytes() by avatar, session and sequence, of events by timeline and sequence;
 /// several answers to one sequence (a sender without sessions) in their order. Keeps answers
@@ -29,10 +29,12 @@ class JournalCheck {
   void addRecorded(const ContactsMessage& message, ByteView payload);
   void addRecorded(const SolidMessage& message, ByteView payload);
   void addRecorded(const EventsMessage& message, ByteView payload);
+  void addRecorded(const PushesMessage& message, ByteView payload);
   /// Adds an answer of the replay.
   void addReplayed(const ContactsMessage& message, ByteView payload);
   void addReplayed(const SolidMessage& message, ByteView payload);
   void addReplayed(const EventsMessage& message, ByteView payload);
+  void addReplayed(const PushesMessage& message, ByteView payload);
 
   /// The log was cut off: each avatar's replayed answers after its last recorded one are not
   /// missing, but beyond the log's end. Call after all answers are added.

@@ -31,7 +31,9 @@ Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
                   inFile(StreamSolver::make(inputs.request.avatars[i].id, inputs.avatars[i],
                                             inputs.scene, options, inputs.request.policy),
                          path));
-    FORETOUCH_CHECK(makeSolid(inputs.request.solid, path, solver));
+    if (!inputs.request.avatars[i].isSolidInWorld) {
+      FORETOUCH_CHECK(makeSolid(inputs.request.solid, path, solver));
+    }
     solvers.push_back(std::move(solver));
   }
   return solvers;
@@ -89,7 +91,10 @@ class LogReplay {
     if (event.channel == inputs_.channels.pose) return takePose(event);
     if (event.channel == inputs_.channels.skeleton) takeSkeleton(event);
     if (event.channel == inputs_.channels.contacts) takeRecorded(event);
-    if (event.channel == inputs_.channels.solid) takeRecordedSolid(event);
+    if (event.channel == inputs_.channels.solid &&
+        (world_ == nullptr || !world_->takeShown(event))) {
+      takeRecordedSolid(event);
+    }
     if (event.channel == inputs_.channels.speaker) takeSpeaker(event);
     if (world_ != nullptr) {
       world_->take(event, inputs_.channels);

@@ -29,8 +29,10 @@ std::string damage(const LogCounts& log) {
   return text;
 }
 
-/// "N of N verdicts equal the journal's"; empty if the log has none.
-std::string compared(const JournalCheck& journal, const char* what, std::int64_t answers) {
+}  // namespace
+
+std::string LogReplaySummary::compared(const JournalCheck& journal, const char* what,
+                                       std::int64_t answers) {
   if (!journal.hasRecord()) return "";
   std::string text =
       fmt::format("{} of {} {} equal the journal's, byte for byte\n", journal.equal(),
@@ -41,8 +43,6 @@ std::string compared(const JournalCheck& journal, const char* what, std::int64_t
   }
   return text;
 }
-
-}  // namespace
 
 LogReplaySummary::LogReplaySummary(const LogReplayInputs& inputs) : inputs_(inputs) {
   for (const Avatar& avatar : inputs.avatars) {

@@ -29,6 +29,10 @@ class LogReplaySummary {
   /// "N of N verdicts equal the journal's, byte for byte", and the first difference; empty if the
   /// log has no verdicts.
   [[nodiscard]] static std::string comparison(const LogReplayReport& report);
+  /// "N of N ... equal the journal's, byte for byte"; empty if the log has none. `answers`: of the
+  /// replay.
+  [[nodiscard]] static std::string compared(const JournalCheck& journal, const char* what,
+                                            std::int64_t answers);
 
   struct Counts {
     std::int64_t contacts = 0, startsInContact = 0, undecided = 0;

@@ -26,35 +26,54 @@ class ReplayedWorld {
   void compare(bool hasRecord) { compares_ = hasRecord; }
   /// An event about bodies, or a recorded answer; no other changes anything.
   void take(const LogEvent& event, const ChannelNames& channels);
+  /// A recorded solid_t; false if it is not of a solid body of the world.
+  [[nodiscard]] bool takeShown(const LogEvent& event);
   /// The step that an accepted pose of an avatar ended.
   void take(BodyNumber avatar, const StreamStep& step, std::int64_t receiveUtimeUs);
   /// Another sender speaks of a body that is no avatar.
   void changeSpeaker(BodyNumber body) { solver_.changeSpeaker(body); }
   /// The log was cut off.
-  void endIsOpen() { journal_.endIsOpen(); }
+  void endIsOpen() {
+    for (JournalCheck* const check : {&journal_, &solids_, &pushes_}) check->endIsOpen();
+  }
 
   [[nodiscard]] const JournalCheck& journal() const { return journal_; }
+  /// Of what solid bodies show, and of what presses against them.
+  [[nodiscard]] const JournalCheck& solids() const { return solids_; }
+  [[nodiscard]] const JournalCheck& pushes() const { return pushes_; }
   [[nodiscard]] WorldCounts counts() const { return solver_.counts(); }
   [[nodiscard]] std::int64_t answers() const { return numAnswers_; }
+  /// solid_t, and as many pushes_t.
+  [[nodiscard]] std::int64_t shown() const { return numShown_; }
   /// In the log: of bodies, or answers.
   [[nodiscard]] std::int64_t unreadable() const { return unreadable_; }
   [[nodiscard]] bool agrees() const {
-    return unreadable_ == 0 && (!journal_.hasRecord() || journal_.isEqual());
+    const auto isEqual = [](const JournalCheck& check) {
+      return !check.hasRecord() || check.isEqual();
+    };
+    return unreadable_ == 0 && isEqual(journal_) && isEqual(solids_) && isEqual(pushes_);
   }
 
  private:
   template <typename Message>
   void tell(const LogEvent& event, Message& message);
+  template <typename Message>
+  void compare(const LogEvent& event, Message& message, JournalCheck& check);
+  template <typename Message>
+  void add(const Message& message, JournalCheck& check);
   void advance();
 
   WorldSolver solver_;
   EventsSink sink_;
   bool compares_ = false;
   JournalCheck journal_{AnswerKind::Events};
-  std::int64_t numAnswers_ = 0, unreadable_ = 0;
+  JournalCheck solids_{AnswerKind::Solid}, pushes_{AnswerKind::Pushes};
+  std::int64_t numAnswers_ = 0, numShown_ = 0, unreadable_ = 0;
   BodyMessage body_;
   RigidPoseMessage rigid_;
   EventsMessage recorded_;
+  SolidMessage recordedSolid_;
+  PushesMessage recordedPushes_;
   std::vector<EventsMessage> answers_;
   Bytes payload_;
 };

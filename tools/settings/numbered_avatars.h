@@ -12,6 +12,8 @@ namespace foretouch::tools {
 struct NumberedAvatar {
   std::int32_t id = 1;
   std::string path;
+  /// Solid among all that moves in a world, and so not by itself; nobody types that in here.
+  bool isSolidInWorld = false;
 };
 
 /// A whole number from 0 to 2^31 - 1.

@@ -151,6 +151,7 @@ void addServeSettings(Settings& settings, ServeConfig& config) {
   addStreamSettings(settings, config.stream);
   addWorldStreamSettings(settings, config.worldPolicy);
   addStreamSolidSettings(settings, config.solid);
+  addWorldSolidSetting(settings, config.solid);
 }
 
 }  // namespace foretouch::tools

@@ -38,6 +38,16 @@ void addStreamSolidSettings(Settings& settings, StreamSolidRequest& request) {
       .needing("--solid");
 }
 
+void addWorldSolidSetting(Settings& settings, StreamSolidRequest& request) {
+  settings
+      .list("--world-solid", "NAME", request.worldBodies,
+            "Avatars of the world file, as 'anna' or '*', that are solid among all that moves, not "
+            "in the still scene alone; may be repeated. They carry nothing")
+      .in(kSolidGroup)
+      .inConfig("solid", "world")
+      .needing("--solid");
+}
+
 Setting& addSuffixSetting(Settings& settings, std::string& suffix) {
   return settings
       .parsed(

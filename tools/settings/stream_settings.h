@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "network/stream/stream_policy.h"
 #include "network/world_stream/world_setup.h"
@@ -16,11 +17,16 @@ struct StreamSolidRequest {
   SolidRequest solid;
   bool stopsItself = false;      ///< Own links stop each other, too.
   std::int64_t budgetUs = 2000;  ///< Time per pose, converted to SolidOptions::workBudget.
+  /// Of a moving world: names or patterns of the avatars that are solid among all that moves.
+  std::vector<std::string> worldBodies{};
 };
 
 /// Those of addSolidSettings(), --solid-self and --solid-budget-us. `request` outlives the
 /// settings.
 void addStreamSolidSettings(Settings& settings, StreamSolidRequest& request);
+
+/// --world-solid. `request` outlives the settings, which have --solid and --world.
+void addWorldSolidSetting(Settings& settings, StreamSolidRequest& request);
 
 /// The ending of all channels' names. `suffix` outlives the settings.
 Setting& addSuffixSetting(Settings& settings, std::string& suffix);

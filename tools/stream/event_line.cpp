@@ -7,6 +7,7 @@
 #include "assets/json_writer.h"
 #include "network/wire/codec.h"
 #include "tools/stream/contacts_line.h"
+#include "tools/stream/pushes_text.h"
 #include "tools/stream/solid_text.h"
 
 namespace foretouch::tools {
@@ -75,6 +76,11 @@ void write(const SolidMessage& message, JsonWriter& out) {
   writeSolid(message, Stamps::With, out);
 }
 
+void write(const PushesMessage& message, JsonWriter& out) {
+  out.key("pushes");
+  writePushes(message, out);
+}
+
 void write(const SpeakerMessage& message, JsonWriter& out) {
   constexpr unsigned kByteBits = 8, kLowByte = 0xff;
   const auto byte = [&](unsigned i) { return message.address >> (kByteBits * i) & kLowByte; };
@@ -106,6 +112,7 @@ void writeContent(const LogEvent& event, const ChannelNames& channels, JsonWrite
   if (event.channel == channels.skeleton) return writeMessage<SkeletonMessage>(event, out);
   if (event.channel == channels.contacts) return writeMessage<ContactsMessage>(event, out);
   if (event.channel == channels.solid) return writeMessage<SolidMessage>(event, out);
+  if (event.channel == channels.pushes) return writeMessage<PushesMessage>(event, out);
   if (event.channel == channels.speaker) return writeMessage<SpeakerMessage>(event, out);
   if (event.channel == channels.status) return writeMessage<StatusMessage>(event, out);
   out.field("bytes", event.payload.size());

@@ -22,6 +22,7 @@
 #include "tools/settings/world_settings.h"
 #include "tools/stream/answer_tracker.h"
 #include "tools/stream/contacts_line.h"
+#include "tools/stream/pushes_text.h"
 #include "tools/stream/solid_text.h"
 #include "tools/stream/stop_signal.h"
 #include "tools/stream/stream_touches.h"
@@ -52,8 +53,12 @@ Result<std::unique_ptr<Receiver>> receiverFor(const ListenJob& job) {
   const auto url = parseUdpmUrl(job.url);
   if (!url.ok()) return inFile(url.error(), "--url");
   FORETOUCH_CHECK(testMulticast(url.value()));
-  std::vector<std::string> channels{job.channels.contacts, job.channels.solid};
-  if (!job.worldPath.empty()) channels = {job.channels.events, job.channels.body};
+  std::vector<std::string> channels{job.channels.solid, job.channels.pushes};
+  if (job.worldPath.empty()) {
+    channels.push_back(job.channels.contacts);
+  } else {
+    channels.insert(channels.end(), {job.channels.events, job.channels.body});
+  }
   if (job.status) channels.push_back(job.channels.status);
   auto receiver = openUdpmReceiver(url.value(), channels);
   if (!receiver.ok()) return inFile(receiver.error(), "--url");
@@ -61,8 +66,15 @@ Result<std::unique_ptr<Receiver>> receiverFor(const ListenJob& job) {
 }
 
 /// What a sender's messages are guarded by, each with its avatar.
-enum Topic : std::uint8_t { kStatusTopic, kContactsTopic, kSolidTopic, kEventsTopic, kBodyTopic };
-constexpr std::size_t kMostGuards = 2 * kMostAvatars + 1;
+enum Topic : std::uint8_t {
+  kStatusTopic,
+  kContactsTopic,
+  kSolidTopic,
+  kPushesTopic,
+  kEventsTopic,
+  kBodyTopic
+};
+constexpr std::size_t kMostGuards = 3 * kMostAvatars + 1;
 
 /// Prints messages as they arrive, line by line.
 class Listener {
@@ -104,6 +116,9 @@ class Listener {
     if (message.channel == channels.solid) {
       return read(message, shown_, kSolidTopic, [this] { printSolid(); });
     }
+    if (message.channel == channels.pushes) {
+      return read(message, pushes_, kPushesTopic, [this] { printPushes(); });
+    }
     if (!events_) return read(message, contacts_, kContactsTopic, [this] { printContacts(); });
     if (message.channel == channels.body) {
       return read(message, body_, kBodyTopic, [this] { events_->take(body_); });
@@ -138,10 +153,19 @@ class Listener {
     if (guards_.size() >= kMostGuards && guards_.count(guarded) == 0) return Reject::Limit;
     return guards_[guarded].take(opened.sentUtimeUs, arrived.receiveUtimeUs);
   }
+  /// An events file begins with its header.
+  void printLine(const std::string& line) {
+    if (!events_ || verdicts_ > 0) print(line);
+  }
   void printSolid() {
-    if (job_.json) return print(solidLine(shown_, Stamps::With));
+    if (job_.json) return printLine(solidLine(shown_, Stamps::With));
     const bool isNews = news_.isNews(shown_);
     if (job_.each || isNews) print(solidText(shown_));
+  }
+  void printPushes() {
+    if (job_.json) return printLine(pushesLine(pushes_));
+    const bool isNews = pushesNews_.isNews(pushes_);
+    if (job_.each || isNews) print(pushesText(pushes_));
   }
   void printEvents() {
     const ToldEvents::Lines lines = events_->take(told_);
@@ -180,6 +204,8 @@ class Listener {
   ContactsMessage contacts_;
   SolidMessage shown_;
   SolidNews news_;
+  PushesMessage pushes_;
+  PushesNews pushesNews_;
   StatusMessage status_;
   std::unique_ptr<ToldEvents> events_;  // of a moving world, if it is heard
   EventsMessage told_;
@@ -243,9 +269,9 @@ constexpr char kListenExamples[] = R"(Examples:
 
 With --world it prints what happens in the moving world of a service (serve --world) in place of
 verdicts, and --count and --timeout are about its messages; --json writes an events file.
-Of a solid avatar (serve --solid) it also prints where the state of what is shown changes. The lines
-of --json are described in docs/formats.md. With --count, exit code 1 says that so many verdicts did
-not come.)";
+Of a solid avatar (serve --solid) it also prints where the state of what is shown changes, and of
+one in a moving world what moves and presses against it. The lines of --json are described in
+docs/formats.md. With --count, exit code 1 says that so many verdicts did not come.)";
 
 }  // namespace
 

@@ -19,7 +19,7 @@ Result<StreamSolver> loadAvatar(const ServeConfig& config, const NumberedAvatar&
   FORETOUCH_TRY(
       auto solver,
       inFile(StreamSolver::make(served.id, avatar, scene, query, config.stream), served.path));
-  FORETOUCH_CHECK(makeSolid(config.solid, served.path, solver));
+  if (!served.isSolidInWorld) FORETOUCH_CHECK(makeSolid(config.solid, served.path, solver));
   return solver;
 }
 

@@ -1,16 +1,17 @@
-#include "tools/world/serving.h"
+#include "tools/stream/serving.h"
 
 #include <utility>
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
+#include "tools/stream/solid_bodies.h"
 #include "tools/world/load_world.h"
 #include "tools/world/served_bodies.h"
 
 namespace foretouch::tools {
 
 Result<WorldToServe> loadWorldToServe(const std::string& path, const WorldPolicy& policy,
-                                      WorldRequest& request) {
+                                      const StreamSolidRequest& solid, WorldRequest& request) {
   FORETOUCH_TRY(auto parsed, readWorldFile(path));
   FORETOUCH_TRY(const auto loaded, loadWorld(std::move(parsed)));
   const WorldFile& file = loaded.file;
@@ -20,16 +21,18 @@ Result<WorldToServe> loadWorldToServe(const std::string& path, const WorldPolicy
   }
   request.scenePath = file.scene.scenePath;
   request.sceneImport = file.scene.sceneImport;
+  WorldSetup setup = servedBodies(loaded);
+  FORETOUCH_CHECK(makeSolidBodies(loaded, request, solid, setup));
   std::vector<NumberedAvatar> avatars;
-  for (std::size_t i = 0; i < file.bodies.size(); ++i) {
-    const std::string& avatar = file.bodies[i].shape.avatarPath;
-    if (!avatar.empty()) avatars.push_back({numberInMessages(i), avatar});
+  for (const WorldSetup::ServedAvatar& avatar : setup.avatars) {
+    avatars.push_back(
+        {avatar.number, file.bodies[avatar.shape].shape.avatarPath, avatar.solid.has_value()});
   }
   if (avatars.empty()) {
     return Error::inLine(file.path, -1, ErrorCode::Empty,
                          "expected a [[body]] with an avatar: poses are answered for avatars");
   }
-  FORETOUCH_TRY(auto solver, inFile(WorldSolver::make(servedBodies(loaded), policy), path));
+  FORETOUCH_TRY(auto solver, inFile(WorldSolver::make(std::move(setup), policy), path));
   return WorldToServe{std::move(solver), std::move(avatars), remarksOnServing(loaded)};
 }
 

@@ -2,12 +2,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "articulated/result.h"
 #include "network/stream/stream_solver.h"
 #include "tools/settings/stream_settings.h"
 
 namespace foretouch::tools {
+
+/// As the request says of an avatar whose query ignores these pairs. Errors name the avatar's file.
+[[nodiscard]] Result<SolidOptions> solidOptionsFor(const StreamSolidRequest& request,
+                                                   const std::string& avatarPath,
+                                                   const Avatar& avatar,
+                                                   const std::vector<IgnoredPair>& ignored);
 
 /// Makes the solver's avatar solid if the request asks for it. What its query ignores stops no
 /// solid avatar. Errors name the avatar's file.

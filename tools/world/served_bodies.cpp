@@ -34,29 +34,24 @@ std::vector<GroupAsk> asksOf(const LoadedWorld& world) {
   return asks;
 }
 
-Result<World> emptyWorld(const std::optional<Scene>& scene, double tolerance,
-                         const std::vector<GroupAsk>& asks) {
-  WorldOptions options;
-  options.tolerance = tolerance;
-  // Strangers may put a thousand bodies into one place.
-  options.workPerWindow = kServedWorkPerWindow;
-  options.mostNear = kServedMostNear;
-  FORETOUCH_TRY(auto world, World::build(scene, options));
+Result<Done> askAll(World& world, const std::vector<GroupAsk>& asks) {
   for (const GroupAsk& ask : asks) {
     FORETOUCH_CHECK(ask.with ? world.ask(ask.group, *ask.with, ask.isAsked)
                              : world.askStill(ask.group, ask.isAsked));
   }
-  return world;
+  return Done{};
 }
 
 }  // namespace
 
 WorldSetup servedBodies(const LoadedWorld& world) {
   WorldSetup setup;
-  setup.tolerance = world.file.tolerance;
-  setup.build = [scene = world.scene, tolerance = world.file.tolerance, asks = asksOf(world)] {
-    return emptyWorld(scene, tolerance, asks);
-  };
+  setup.still = world.scene;
+  setup.options.tolerance = world.file.tolerance;
+  // Strangers may put a thousand bodies into one place.
+  setup.options.workPerWindow = kServedWorkPerWindow;
+  setup.options.mostNear = kServedMostNear;
+  setup.ask = [asks = asksOf(world)](World& asked) { return askAll(asked, asks); };
   for (std::size_t i = 0; i < world.numBodies(); ++i) {
     const LoadedBody& body = world.bodies[i];
     setup.shapes.push_back(

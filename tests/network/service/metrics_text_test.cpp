@@ -122,10 +122,10 @@ TEST(MetricsText, SaysWhatSolidAvatarsShow) {
   message.counters.queries = 3;
   message.counters.work = 100;
   message.solidUs = 40.0;
-  counter.shown(2, message);
+  counter.shown(message);
   message.state = SolidState::Placing;
   message.isCertified = false;
-  counter.shown(2, message);
+  counter.shown(message);
   const Page page = read(metricsText({}, {}, {}, counter.counts()));
   const auto value = [&](const std::string& name) {
     const auto found = page.values.find(name);

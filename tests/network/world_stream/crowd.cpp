@@ -145,16 +145,12 @@ void Drawing::makeSetup() {
   setup.shapes.push_back({"ball", ball(), std::nullopt, 0, std::nullopt});
   setup.shapes.push_back({"rod", rigid(rod), std::nullopt, 0, std::nullopt});
   setup.shapes.push_back({"board", std::nullopt, plate, 0, std::nullopt});
-  std::optional<Scene> still;
   if (random_.chance(0.3)) {
-    still = board(0.4);
-    crowd_.truth.still = judged(*still);
+    setup.still = board(0.4);
+    crowd_.truth.still = judged(*setup.still);
     crowd_.truth.still->episodes = {{0, -1, 0, {0}, {{OraclePlace()}}}};
   }
-  setup.tolerance = random_.magnitude(1e-4, 3e-3);
-  WorldOptions options;
-  options.tolerance = setup.tolerance;
-  setup.build = [still, options] { return World::build(still, options); };
+  setup.options.tolerance = random_.magnitude(1e-4, 3e-3);
 }
 
 Drawing::Sender Drawing::sender() {

@@ -37,7 +37,7 @@ class Judging {
         told_(told),
         tally_(tally),
         violations_(violations),
-        tolerance_(crowd.setup.tolerance),
+        tolerance_(crowd.setup.options.tolerance),
         numBodies_(static_cast<BodyNumber>(crowd.truth.world.bodies.size())) {
     if (truth_.still) world_.bodies.push_back(*truth_.still);
     whole_ = {after(told.answers.front().fromUs), after(told.answers.back().toUs)};

@@ -31,7 +31,6 @@ inline Avatar ball(double radius = kBallRadius) {
 /// Shapes "dancer" (of avatars 1 to `avatars`) and "ball", and no scene.
 inline WorldSetup smallWorld(std::int32_t avatars = 0) {
   WorldSetup setup;
-  setup.build = [] { return World::build(std::nullopt); };
   setup.shapes.push_back({"dancer", smallAvatar(), std::nullopt, 0, std::nullopt});
   setup.shapes.push_back({"ball", ball(), std::nullopt, 0, std::nullopt});
   for (std::int32_t i = 1; i <= avatars; ++i) setup.avatars.push_back({i, 0});

@@ -13,7 +13,7 @@
 #include "tests/tools/program_run.h"
 #include "tests/tools/world/small_stage.h"
 #include "tools/stream/served_world.h"
-#include "tools/world/serving.h"
+#include "tools/stream/serving.h"
 
 namespace foretouch::test {
 namespace {
@@ -42,7 +42,7 @@ class ServedStage : public SmallStage {
   /// The man walks through the wall; a ball flies through him. Half of the ball's poses are lost.
   [[nodiscard]] std::string journal(const WorldPolicy& policy = {}) const {
     tools::ServeConfig config;
-    auto loaded = tools::loadWorldToServe(world, policy, config.world);
+    auto loaded = tools::loadWorldToServe(world, policy, config.solid, config.world);
     EXPECT_TRUE(loaded.ok()) << describe(loaded.error());
     config.avatars = loaded.value().avatars;
     auto served = tools::loadServedWorld(config);

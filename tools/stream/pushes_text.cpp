@@ -1,0 +1,117 @@
+#include "tools/stream/pushes_text.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "articulated/quoted.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// Beyond this many avatars, forgets the known ones.
+constexpr std::size_t kMostPushedAvatars = 4096;
+constexpr double kMillimetres = 1e3;
+
+void writeContact(const ToldPush& told, JsonWriter& out) {
+  const SolidBodyContact& contact = told.contact;
+  out.beginObject();
+  out.field("link", told.linkName);
+  out.field("lss", contact.lss);
+  out.field("body", contact.body);
+  if (contact.triangle >= 0) out.field("triangle", contact.triangle);
+  out.field("point", contact.p_W);
+  out.field("normal", contact.nhat_W);
+  out.field("gap", contact.gap);
+  out.field("push", contact.push);
+  out.field("slip", contact.slipSpeed);
+  out.endObject();
+}
+
+void writeCrush(const ToldCrush& told, JsonWriter& out) {
+  out.beginObject();
+  out.field("body", told.crush.body);
+  out.field("link", told.linkName);
+  out.field("since", told.crush.sinceUs);
+  if (told.crush.isOver) out.field("over", true);
+  out.field("depth", told.crush.depth);
+  out.endObject();
+}
+
+std::string textOf(const ToldCrush& told) {
+  const SolidCrush& crush = told.crush;
+  if (crush.isOver) return fmt::format("body {} crushes it no longer", crush.body);
+  return fmt::format("body {} crushes {} ({:.1f} mm)", crush.body, inQuotes(told.linkName),
+                     kMillimetres * crush.depth);
+}
+
+}  // namespace
+
+void writePushes(const PushesMessage& message, JsonWriter& out) {
+  out.beginObject();
+  out.field("avatar", message.avatar);
+  out.field("session", message.session);
+  out.field("sequence", message.sequence);
+  out.field("utime", message.utimeUs);
+  out.field("step_us", message.stepUs);
+  out.field("timeline", message.timeline);
+  if (message.isAssumed) out.field("assumed", true);
+  out.list("contacts", message.contacts, [&](const ToldPush& told) { writeContact(told, out); });
+  if (message.contactsLeftOut > 0) out.field("contacts_left_out", message.contactsLeftOut);
+  out.list("crushes", message.crushes, [&](const ToldCrush& told) { writeCrush(told, out); });
+  if (message.crushesLeftOut > 0) out.field("crushes_left_out", message.crushesLeftOut);
+  out.field("receive_utime", message.receiveUtimeUs);
+  out.field("send_utime", message.sendUtimeUs);
+  out.field("tick_us", message.tickUs);
+  out.endObject();
+}
+
+std::string pushesLine(const PushesMessage& message) {
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.key("pushes");
+  writePushes(message, out);
+  out.endObject();
+  return text + "\n";
+}
+
+std::string pushesText(const PushesMessage& message) {
+  constexpr std::size_t kShown = 4;
+  std::vector<std::string> said;
+  for (const ToldCrush& told : message.crushes) said.push_back(textOf(told));
+  // The hardest push of each pair.
+  std::map<std::pair<std::int32_t, LinkId>, const ToldPush*> hardest;
+  for (const ToldPush& told : message.contacts) {
+    const ToldPush*& most = hardest[{told.contact.body, told.contact.link}];
+    if (most == nullptr || told.contact.push > most->contact.push) most = &told;
+  }
+  for (const auto& [pair, told] : hardest) {
+    said.push_back(fmt::format("body {} presses {} ({:.1f} mm)", pair.first,
+                               inQuotes(told->linkName), kMillimetres * told->contact.push));
+  }
+  std::string text = fmt::format("avatar {}, pose {}: ", message.avatar, message.sequence);
+  if (said.empty()) text += "nothing that moves presses it";
+  for (std::size_t i = 0; i < said.size() && i < kShown; ++i)
+    text += (i == 0 ? "" : "; ") + said[i];
+  if (said.size() > kShown) text += fmt::format("; and {} more", said.size() - kShown);
+  return text + "\n";
+}
+
+bool PushesNews::isNews(const PushesMessage& message) {
+  if (last_.size() >= kMostPushedAvatars && last_.count(message.avatar) == 0) last_.clear();
+  Last now;
+  for (const ToldPush& told : message.contacts) {
+    now.pressing.insert({told.contact.body, told.contact.link});
+  }
+  for (const ToldCrush& told : message.crushes) {
+    if (!told.crush.isOver) now.crushing.insert({told.crush.body, told.crush.link});
+  }
+  Last& last = last_[message.avatar];
+  const bool isNews = now.pressing != last.pressing || now.crushing != last.crushing;
+  last = std::move(now);
+  return isNews;
+}
+
+}  // namespace foretouch::tools
