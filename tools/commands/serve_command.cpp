@@ -255,7 +255,7 @@ constexpr char kServeExamples[] = R"(Examples:
       --workers 2 --log today.lcmlog --http 127.0.0.1:9464
   foretouch serve --scene room.obj --avatar dancer.avatar.json --view
   foretouch serve --world stage.toml --view
-  foretouch serve --world stage.toml --solid --world-solid '*'
+  foretouch serve --world stage.toml --solid --world-solid ben
   foretouch serve --config service.toml --workers 4
 
 Prints "ready" once it takes poses. SIGINT, SIGTERM and SIGHUP end it in order: what waits is

@@ -29,12 +29,23 @@ WorldSolver worldOf(std::int32_t avatars, const WorldPolicy& policy = {}) {
   return WorldSolver::make(std::move(setup), policy).value();
 }
 
+/// The same with a wall at x = 1, and avatar 0 solid among all that moves.
+WorldSolver solidWorldOf(std::int32_t avatars) {
+  WorldSetup setup = smallWorld();
+  setup.still = farWall();
+  for (std::int32_t id = 0; id < avatars; ++id) setup.avatars.push_back({id, 0});
+  setup.avatars[0].solid.emplace();
+  return WorldSolver::make(std::move(setup), {}).value();
+}
+
 /// A stage whose service has a world.
 class WorldStage : public Stage {
  public:
   explicit WorldStage(std::int32_t avatars, const WorldPolicy& policy = {}, int workers = 2)
       : Stage(avatars, withWorkers(workers), /*isRecorded=*/true, nullptr, false,
               worldOf(avatars, policy)) {}
+  WorldStage(std::int32_t avatars, WorldSolver world)
+      : Stage(avatars, withWorkers(2), /*isRecorded=*/true, nullptr, false, std::move(world)) {}
 
   void say(const BodyMessage& message, std::int64_t receiveUtimeUs, const UdpmSender& sender = {}) {
     ++said_;
@@ -94,20 +105,23 @@ class WorldStage : public Stage {
 };
 
 /// What the journal holds, told to fresh solvers in its order, gives what the journal holds.
-void expectReplaysAlike(const WorldStage& stage, std::int32_t avatars,
-                        const WorldPolicy& policy = {}) {
+void expectReplaysAlike(const WorldStage& stage, std::int32_t avatars, WorldSolver world) {
   std::vector<StreamSolver> streams = solversOf(avatars);
-  WorldSolver world = worldOf(avatars, policy);
   std::vector<Bytes> recorded, replayed;
   std::vector<EventsMessage> answers;
+  const auto keep = [&](const auto& message) {
+    const Bytes bytes = bytesOf(message);
+    const ByteView view = verdictBytes(bytes);
+    replayed.emplace_back(view.data, view.data + view.size);
+  };
   const auto advance = [&](Reject reason) {
     if (reason != Reject::None) return;
     world.advance(answers);
-    for (const EventsMessage& answer : answers) {
-      const Bytes bytes = bytesOf(answer);
-      const ByteView view = verdictBytes(bytes);
-      replayed.emplace_back(view.data, view.data + view.size);
+    for (const ShownBody& body : world.shown()) {
+      keep(body.solid);
+      keep(body.pushes);
     }
+    for (const EventsMessage& answer : answers) keep(answer);
   };
   ContactsMessage contacts;
   for (const Recorded& event : stage.book->events()) {
@@ -137,7 +151,8 @@ void expectReplaysAlike(const WorldStage& stage, std::int32_t avatars,
       } else {
         world.changeSpeaker(speaker.avatar);
       }
-    } else if (event.channel == kEvents) {
+    } else if (event.channel == kEvents || event.channel == kSolidChannel ||
+               event.channel == kPushesChannel) {
       const ByteView view = verdictBytes(event.payload);
       recorded.emplace_back(view.data, view.data + view.size);
     }
@@ -145,6 +160,68 @@ void expectReplaysAlike(const WorldStage& stage, std::int32_t avatars,
   EXPECT_GT(recorded.size(), 3U);
   ASSERT_EQ(replayed.size(), recorded.size());
   EXPECT_EQ(replayed, recorded);
+}
+
+void expectReplaysAlike(const WorldStage& stage, std::int32_t avatars,
+                        const WorldPolicy& policy = {}) {
+  expectReplaysAlike(stage, avatars, worldOf(avatars, policy));
+}
+
+TEST(WorldService, ShowsSolidBodiesAndCountsWhatPressesAgainstThem) {
+  WorldStage stage(2, solidWorldOf(2));
+  stage.sendSkeletons(2);
+  stage.say(ballMessage(10), tick(0));
+  // Avatar 0 walks at the wall, and a ball flies at its hips; avatar 1 stands far away.
+  for (std::int64_t n = 0; n <= 60; ++n) {
+    stage.move(0, n, {0.03 * static_cast<double>(n), 1.0, 0.0});
+    stage.move(1, n, {-5.0, 1.0, 3.0});
+    const double x = 0.05 * static_cast<double>(n) - 2.5;
+    stage.say(rigidPoses(n, tick(n), {ballAt(10, {x, 1.1, 0.0})}));
+    if (n % 8 != 0) continue;
+    ASSERT_TRUE(stage.isTold());
+    ASSERT_TRUE(stage.settles(static_cast<std::uint64_t>(2 * (n + 1))));
+  }
+  ASSERT_TRUE(stage.settles(2 * 61));
+  ASSERT_TRUE(stage.isTold());
+  const std::string metrics = stage.metrics();
+  const SolidCounts counts = stage.service().solidCounts();
+  stage.service().stop();
+  EXPECT_EQ(stage.outbox->on(kContacts).size(), 122U) << "every accepted pose has its answer";
+  const std::vector<Bytes> solids = stage.outbox->on(kSolidChannel);
+  EXPECT_GE(solids.size(), 55U);
+  EXPECT_EQ(stage.outbox->on(kPushesChannel).size(), solids.size());
+  int held = 0;
+  for (const Bytes& payload : solids) {
+    SolidMessage message;
+    ASSERT_EQ(decode(payload, message), Reject::None);
+    EXPECT_EQ(message.avatar, 0);
+    EXPECT_LT(message.shown().translations[0].x(), 1.0);
+    held += message.contacts.empty() ? 0 : 1;
+  }
+  EXPECT_GT(held, 10);
+  ASSERT_EQ(counts.avatars.size(), 1U);
+  EXPECT_EQ(counts.avatars[0].avatar, 0);
+  EXPECT_NE(metrics.find("\nforetouch_solid_poses_total{avatar=\"0\",state=\"equal\"} "),
+            std::string::npos);
+  EXPECT_NE(metrics.find("\nforetouch_solid_crushed_total{avatar=\"0\"} "), std::string::npos);
+  const auto isOfWall = [](const ToldEvent& told) {
+    return told.event.kind == EventKind::Enter && told.event.a.body == 0 &&
+           told.event.b.body == kStillScene;
+  };
+  const std::vector<ToldEvent> events = stage.events();
+  EXPECT_TRUE(std::any_of(events.begin(), events.end(), isOfWall));
+  expectReplaysAlike(stage, 2, solidWorldOf(2));
+}
+
+TEST(WorldService, RefusesAnAvatarThatIsSolidTwice) {
+  ServiceParts parts;
+  parts.receiver = std::make_unique<FakeReceiver>(std::make_shared<Inbox>());
+  parts.publisher = std::make_unique<FakePublisher>(std::make_shared<Outbox>());
+  parts.world = solidWorldOf(1);
+  const auto started = Service::start(solversOf(1, /*areSolid=*/true), std::move(parts), {});
+  ASSERT_FALSE(started.ok());
+  EXPECT_NE(describe(started.error()).find("expected avatar 0 to be solid by itself, or in the"),
+            std::string::npos);
 }
 
 TEST(WorldService, TellsOfBodiesThatComeAndGoAmongAvatars) {

@@ -40,8 +40,10 @@ class ServedStage : public SmallStage {
                     sphereNamed("ball", "position = [9, 0, 0]\n"))) {}
 
   /// The man walks through the wall; a ball flies through him. Half of the ball's poses are lost.
-  [[nodiscard]] std::string journal(const WorldPolicy& policy = {}) const {
+  [[nodiscard]] std::string journal(const WorldPolicy& policy = {},
+                                    const tools::StreamSolidRequest& solid = {}) const {
     tools::ServeConfig config;
+    config.solid = solid;
     auto loaded = tools::loadWorldToServe(world, policy, config.solid, config.world);
     EXPECT_TRUE(loaded.ok()) << describe(loaded.error());
     config.avatars = loaded.value().avatars;
@@ -171,6 +173,41 @@ TEST(LogReplayProgram, RepeatsContactsAndEventsByteForByte) {
   EXPECT_GE(found["events"].get<int>(), 2);
 }
 
+TEST(LogReplayProgram, RepeatsWhatASolidBodyShowsAndWhatPressesAgainstIt) {
+  const ServedStage stage;
+  tools::StreamSolidRequest solid;
+  solid.solid.isAsked = true;
+  solid.worldBodies = {"m*"};
+  const std::string log = stage.journal({}, solid);
+  const std::vector<std::string> options{"--solid", "--world-solid", "man"};
+  const Ended ended = stage.replayed(log, options);
+  ASSERT_EQ(ended.exitCode, 0) << ended.err << ended.out;
+  for (const char* const what :
+       {"61 of 61 verdicts", "messages of events", "poses of solid bodies", "messages of pushes"}) {
+    EXPECT_TRUE(holds(ended.out, std::string(what) + " equal the journal's, byte for byte"))
+        << ended.out;
+  }
+  const json found =
+      json::parse(stage.replayed(log, {"--json", "--solid", "--world-solid", "man"}).out);
+  EXPECT_EQ(found["agrees"], true);
+  EXPECT_GT(found["shown"].get<int>(), 30);
+  EXPECT_EQ(found["shown_equal"], found["shown"]);
+  EXPECT_EQ(found["pushes_equal"], found["shown"]);
+  // It is the wall that he enters, and does not go through; and what he shows is another thing than
+  // what is tracked.
+  const Ended thicker =
+      stage.replayed(log, {"--solid", "--world-solid", "man", "--solid-skin", "0.004"});
+  EXPECT_EQ(thicker.exitCode, 1);
+  EXPECT_TRUE(holds(thicker.out, "is shown differently: the skin is 0.002 in the log, 0.004 here"))
+      << thicker.out;
+  const Ended tracked = stage.replayed(log);
+  EXPECT_EQ(tracked.exitCode, 1) << tracked.out;
+  EXPECT_TRUE(holds(tracked.out, "the log also has")) << tracked.out;
+  const std::string lines = stage.folder / "lines.jsonl";
+  ASSERT_EQ(runForetouch({"log", "convert", log, "--output", lines}).exitCode, 0);
+  EXPECT_TRUE(holds(contentOf(lines), "\"pushes\":{\"avatar\":1,"));
+}
+
 TEST(LogReplayProgram, NamesTheFirstThatDiffers) {
   const ServedStage stage;
   const std::string log = stage.journal();
@@ -235,6 +272,20 @@ TEST(LogReplayProgram, RefusesByName) {
       "empty.toml", "format = \"foretouch-world\"\nversion = 1\n[scene]\nfile = \"wall.obj\"\n" +
                         sphereNamed("ball", "position = [9, 0, 0]\n"));
   refused({"log", "replay", log, "--world", empty}, "expected a [[body]] with an avatar");
+  refused({"log", "replay", log, "--world", stage.world, "--solid", "--world-solid", "ball"},
+          "--world-solid: expected the name of a body with an avatar");
+  refused({"log", "replay", log, "--world", stage.world, "--world-solid", "man"}, "--solid");
+  const std::string carried = stage.folder.write(
+      "carried.toml", "format = \"foretouch-world\"\nversion = 1\n[scene]\nfile = \"wall.obj\"\n" +
+                          kManWalks +
+                          sphereNamed("ball",
+                                      "[[body.attach]]\ntime = 0.1\nto = \"man\"\nlink = \"Arm\"\n"
+                                      "position = [0, 0.2, 0]\n"));
+  refused({"log", "replay", log, "--world", carried, "--solid", "--world-solid", "*"},
+          "'man' carries 'ball'; expected that a solid body of a service carries nothing");
+  refused(
+      {"log", "replay", log, "--world", stage.world, "--solid", "--world-solid", "man", "--snap"},
+      "'man'");
   // A log without a moving world has nothing to compare, and says so.
   const std::string without =
       stage.changed(log, "without.lcmlog", [](EventsMessage&) { return false; });

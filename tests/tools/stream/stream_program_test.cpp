@@ -287,6 +287,52 @@ TEST_F(StreamPrograms, TellWhatHappensInAMovingWorld) {
   EXPECT_GT(same, told.size() * 9 / 10);
 }
 
+// What a solid body of the world shows, enters and is pushed by is sent, heard, and repeated from
+// the journal.
+TEST_F(StreamPrograms, TellWhatASolidBodyOfAWorldShows) {
+  const std::string world = std::string(FORETOUCH_EXAMPLE_FOLDER) + "/stage.toml";
+  const std::string journal = folder_ / "journal.lcmlog";
+  ProgramRun serving({"serve", "--world", world, "--solid", "--world-solid", "ben", "--url", kUrl,
+                      "--log", journal});
+  ASSERT_TRUE(waitFor([&] { return holds(serving.outSoFar(), "ready\n"); })) << serving.errSoFar();
+  ProgramRun listening(
+      {"listen", "--world", world, "--json", "--status", "--url", kUrl, "--timeout", "3"});
+  ProgramRun reading({"listen", "--world", world, "--url", kUrl, "--timeout", "3"});
+  ASSERT_TRUE(waitFor([&] { return holds(listening.outSoFar(), "\"status\""); }))
+      << listening.errSoFar();
+  ASSERT_EQ(runForetouch({"publish", "--world", world, "--url", kUrl}).exitCode, 0);
+  const Ended heard = listening.ended(), read = reading.ended();
+  EXPECT_EQ(heard.exitCode, 0) << heard.err;
+  const std::vector<json> shown = eventsOf(heard.out, "solid"),
+                          pushes = eventsOf(heard.out, "pushes");
+  EXPECT_GT(shown.size(), 100U);
+  std::size_t certified = 0;
+  for (const json& one : shown) {
+    EXPECT_EQ(one["avatar"], 2);
+    certified += one["certified"].get<bool>() ? 1 : 0;
+  }
+  EXPECT_GT(certified, shown.size() / 2);
+  EXPECT_GE(pushes.size() + 5, shown.size());
+  EXPECT_TRUE(holds(read.out, "avatar 2, pose ")) << read.out;
+  expectEndsInOrder(serving);
+  const Ended again = runForetouch(
+      {"log", "replay", journal, "--world", world, "--solid", "--world-solid", "ben", "--json"});
+  EXPECT_EQ(again.exitCode, 0) << again.out << again.err;
+  const json found = json::parse(again.out);
+  EXPECT_EQ(found["agrees"], true) << found;
+  EXPECT_GE(found["shown"].get<std::size_t>(), shown.size());
+  EXPECT_EQ(found["shown_equal"], found["shown"]);
+  EXPECT_EQ(found["pushes_equal"], found["shown"]);
+
+  const Ended all = runForetouch({"serve", "--world", world, "--solid", "--world-solid", "*"});
+  EXPECT_EQ(all.exitCode, 2);
+  EXPECT_TRUE(holds(all.err, "'anna' carries 'ball'")) << all.err;
+  const Ended bare = runForetouch(joined(
+      {"serve", "--avatar", stage_.avatar, "--solid", "--world-solid", "ben"}, stage_.ofScene));
+  EXPECT_EQ(bare.exitCode, 2);
+  EXPECT_TRUE(holds(bare.err, "--world-solid")) << bare.err;
+}
+
 TEST_F(StreamPrograms, AreRecordedByLcmLogger) {
   const std::string log = folder_ / "recorded.lcmlog";
   const std::vector<std::string> replayed = replayedClip();
