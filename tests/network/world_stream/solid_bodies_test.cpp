@@ -30,6 +30,17 @@ WorldSetup fistWorld() {
   return setup;
 }
 
+/// Links that are asked about each other.
+Avatar ballsInARow() {
+  RawSkeleton raw;
+  for (JointId i = 0; i < 4; ++i) {
+    raw.joints.push_back(
+        {"ball" + std::to_string(i), i - 1, {0.0, 1.0, 0.0}, Quaternion::Identity()});
+  }
+  const Lss lss{Vector3d::Zero(), Vector3d::Zero(), kBallRadius};
+  return Avatar::build(Skeleton::build(raw).value(), {{lss}, {lss}, {lss}, {lss}}).value();
+}
+
 /// Where the shown fist is, by what was sent.
 struct ShownWay {
   std::vector<std::pair<double, Vector3d>> places;  // microseconds
@@ -438,9 +449,9 @@ TEST(SolidBodiesSetup, RefusesByNameWhatItCannotDo) {
   EXPECT_TRUE(has(refused([](WorldSetup& setup) { setup.still.reset(); }), "scene"));
   EXPECT_TRUE(
       has(refused([](WorldSetup& setup) { setup.avatars[0].solid->maySnap = true; }), "fist"));
-  EXPECT_TRUE(
-      has(refused([](WorldSetup& setup) { setup.avatars[0].solid->skin = -1.0; }), "fist"));
+  EXPECT_TRUE(has(refused([](WorldSetup& setup) { setup.avatars[0].solid->skin = -1.0; }), "fist"));
   EXPECT_TRUE(has(refused([](WorldSetup& setup) {
+                    setup.shapes[0].avatar = ballsInARow();
                     setup.shapes[0].self = PairRules::derive(*setup.shapes[0].avatar, {}).value();
                   }),
                   "own links"));
