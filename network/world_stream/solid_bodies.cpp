@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "articulated/quoted.h"
 #include "articulated/raw_skeleton.h"
 #include "articulated/track.h"
 #include "articulated/try.h"
@@ -64,6 +65,38 @@ void fillPushes(const SolidBodyTick& tick, const Skeleton& skeleton,
 }
 
 }  // namespace
+
+Result<Done> checkedSolids(const WorldSetup& setup) {
+  if (!hasSolidBodies(setup)) return Done{};
+  std::size_t count = 0;
+  for (const WorldShape& shape : setup.shapes) {
+    if (shape.group == kClockGroup) {
+      return Error::in("group", ErrorCode::LimitExceeded,
+                       "expected at most 31 groups beside solid bodies");
+    }
+  }
+  FORETOUCH_TRY(const auto solids, SolidBodies::make(setup, 0));
+  for (const WorldSetup::ServedAvatar& avatar : setup.avatars) {
+    if (!avatar.solid) continue;
+    const WorldShape& shape = setup.shapes[avatar.shape];
+    if (shape.self) {
+      return Error::in("self", ErrorCode::Mismatch,
+                       inQuotes(shape.name) +
+                           ": of a solid body, own links are not asked; expected no own links");
+    }
+    if (++count > kMostSolidBodies) {
+      return Error::in("solid", ErrorCode::LimitExceeded,
+                       "expected at most " + std::to_string(kMostSolidBodies) +
+                           " solid bodies, found " + inQuotes(shape.name) + " as one more");
+    }
+    const auto added = solids->add(avatar.number, shape, *avatar.solid, {});
+    if (added.ok()) continue;
+    Error error = added.error();
+    error.message = inQuotes(shape.name) + ": " + error.message;
+    return error;
+  }
+  return Done{};
+}
 
 Result<std::unique_ptr<SolidBodies>> SolidBodies::make(const WorldSetup& setup,
                                                        std::int64_t fromUs) {

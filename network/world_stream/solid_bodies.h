@@ -23,6 +23,9 @@
 
 namespace foretouch::internal {
 
+/// Whether a world can have its solid bodies. Errors: as WorldSolver::make() says.
+[[nodiscard]] Result<Done> checkedSolids(const WorldSetup& setup);
+
 /// One thread.
 class SolidBodies {
  public:

@@ -84,38 +84,6 @@ std::int64_t costOf(const WorldEvents& found, std::size_t bodies, std::uint64_t 
   return static_cast<std::int64_t>(std::min(work / kPerUs, kMostUs));
 }
 
-Result<Done> checkedSolids(const WorldSetup& setup) {
-  if (!hasSolidBodies(setup)) return Done{};
-  std::size_t count = 0;
-  for (const WorldShape& shape : setup.shapes) {
-    if (shape.group == kClockGroup) {
-      return Error::in("group", ErrorCode::LimitExceeded,
-                       "expected at most 31 groups beside solid bodies");
-    }
-  }
-  FORETOUCH_TRY(const auto solids, internal::SolidBodies::make(setup, 0));
-  for (const WorldSetup::ServedAvatar& avatar : setup.avatars) {
-    if (!avatar.solid) continue;
-    const WorldShape& shape = setup.shapes[avatar.shape];
-    if (shape.self) {
-      return Error::in("self", ErrorCode::Mismatch,
-                       inQuotes(shape.name) +
-                           ": of a solid body, own links are not asked; expected no own links");
-    }
-    if (++count > kMostSolidBodies) {
-      return Error::in("solid", ErrorCode::LimitExceeded,
-                       "expected at most " + std::to_string(kMostSolidBodies) +
-                           " solid bodies, found " + inQuotes(shape.name) + " as one more");
-    }
-    const auto added = solids->add(avatar.number, shape, *avatar.solid, {});
-    if (added.ok()) continue;
-    Error error = added.error();
-    error.message = inQuotes(shape.name) + ": " + error.message;
-    return error;
-  }
-  return Done{};
-}
-
 bool comesFirst(const ToldEvent& x, const ToldEvent& y) {
   return comesBefore(x.event, y.event);
 }
@@ -322,7 +290,7 @@ WorldSolver::~WorldSolver() = default;
 Result<WorldSolver> WorldSolver::make(WorldSetup setup, const WorldPolicy& policy) {
   FORETOUCH_CHECK(checkedPolicy(policy));
   FORETOUCH_CHECK(checkedSetup(setup, policy));
-  FORETOUCH_CHECK(checkedSolids(setup));
+  FORETOUCH_CHECK(internal::checkedSolids(setup));
   FORETOUCH_CHECK(LiveWorld::make(setup, false, 0));
   return WorldSolver(std::make_unique<Impl>(std::move(setup), policy));
 }

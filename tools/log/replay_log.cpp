@@ -169,6 +169,7 @@ class LogReplay {
 
   void show(StreamSolver& solver) {
     solver.solid()->follow(solver.lastStep(), shown_);
+    ++report_.shown;
     if (!compares_.solids) return;
     encode(shown_, payload_);
     report_.solids.addReplayed(shown_, payload_);

@@ -54,6 +54,7 @@ struct LogReplayReport {
   /// Avatars with poses in the log that are not replayed; how many poses.
   std::map<std::int32_t, std::int64_t> others;
   std::int64_t unreadableAnswers = 0;  ///< In the log: nothing can be equal to them.
+  std::int64_t shown = 0;              ///< Poses that avatars showed that are solid by themselves.
   JournalCheck journal;
   JournalCheck solids{AnswerKind::Solid};  ///< Of the shown poses, if solid avatars are asked for.
   std::int64_t solidsNotAsked = 0;         ///< Shown poses in the log otherwise.

@@ -88,7 +88,7 @@ std::string LogReplaySummary::comparison(const LogReplayReport& report) {
     text += fmt::format("{} of the log's verdicts cannot be read\n", report.unreadableAnswers);
   }
   text += compared(report.journal, "verdicts", report.answers);
-  text += compared(report.solids, "shown poses", report.answers);
+  text += compared(report.solids, "shown poses", report.shown);
   if (report.solidsNotAsked > 0) {
     text += fmt::format("the log also has {} shown poses: --solid compares them\n",
                         report.solidsNotAsked);

@@ -42,7 +42,7 @@ void writeCrush(const ToldCrush& told, JsonWriter& out) {
 std::string textOf(const ToldCrush& told) {
   const SolidCrush& crush = told.crush;
   if (crush.isOver) return fmt::format("body {} crushes it no longer", crush.body);
-  return fmt::format("body {} crushes {} ({:.1f} mm)", crush.body, inQuotes(told.linkName),
+  return fmt::format("body {} crushes {} ({:.2g} mm)", crush.body, inQuotes(told.linkName),
                      kMillimetres * crush.depth);
 }
 
@@ -88,7 +88,7 @@ std::string pushesText(const PushesMessage& message) {
     if (most == nullptr || told.contact.push > most->contact.push) most = &told;
   }
   for (const auto& [pair, told] : hardest) {
-    said.push_back(fmt::format("body {} presses {} ({:.1f} mm)", pair.first,
+    said.push_back(fmt::format("body {} presses {} ({:.2g} mm)", pair.first,
                                inQuotes(told->linkName), kMillimetres * told->contact.push));
   }
   std::string text = fmt::format("avatar {}, pose {}: ", message.avatar, message.sequence);

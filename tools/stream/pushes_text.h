@@ -19,7 +19,7 @@ void writePushes(const PushesMessage& message, JsonWriter& out);
 /// {"pushes":...} around it, and a line break.
 [[nodiscard]] std::string pushesLine(const PushesMessage& message);
 
-/// For people: "avatar 1, pose 42: body 3 presses 'LeftHand' (12.3 mm)".
+/// For people: "avatar 1, pose 42: body 3 presses 'LeftHand' (12 mm)".
 [[nodiscard]] std::string pushesText(const PushesMessage& message);
 
 /// Finds what is news for people. Bounded memory, whatever arrives.
