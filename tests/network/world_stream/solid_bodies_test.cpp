@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/network/world_stream/small_world.h"
+#include "tests/support/random_geometry.h"
 
 namespace foretouch::test {
 namespace {
@@ -433,6 +434,76 @@ TEST_F(SolidBodiesTest, RepeatsItselfByteForByte) {
   play(other, second);
   EXPECT_GT(first.size(), 100U);
   EXPECT_EQ(first, second);
+}
+
+/// Poses are lost, doubled and late, senders fall silent, balls come and go, hang on one another
+/// and would hang on the fist: whatever is sent, what is shown is proven, and on this side of the
+/// wall.
+TEST_F(SolidBodiesTest, KeepsItsPromisesWhateverIsSent) {
+  std::uint64_t refused = 0, carried = 0, pushed = 0, enters = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    WorldPolicy policy;
+    policy.waitUs = 40'000 + 1000 * random.below(200);
+    policy.whenSilent = random.chance(0.3) ? WhenSilent::HoldStill : WhenSilent::Undecided;
+    build(policy);
+    shown_.clear();
+    told_.answers.clear();
+    sequence_ = lastUs_ = 0;
+    std::int64_t state = 0;
+    for (std::int64_t n = 0; n < 150; ++n) {
+      const double s = std::sin(0.07 * static_cast<double>(n) + static_cast<double>(seed));
+      const bool isLate = random.chance(0.05);
+      const std::int64_t us = tick(n) + random.below(4000) - (isLate ? 100'000 : 0);
+      if (random.chance(0.8) && n % 50 < 40) {
+        const auto unknown =
+            random.chance(0.1) ? UndecidedReason::StaleJoint : UndecidedReason::None;
+        const Vector3d place(0.4 + s, 1.0 + 0.2 * random.uniform(-1.0, 1.0), 0.0);
+        const Reject reason = reach(us, shown_.empty() ? Vector3d(0.0, 1.0, 0.0) : place, unknown);
+        refused += reason == Reject::None ? 0 : 1;
+      }
+      if (random.chance(0.1)) {
+        BodyMessage told = ballMessage(kBall + random.below(2), ++state);
+        told.isPresent = random.chance(0.9);
+        told.utimeUs = told.sinceUs = tick(n) - random.below(20'000);
+        if (told.isPresent && random.chance(0.4)) {
+          told.carrier = random.chance(0.5) ? kFist : kBall + kBall + 1 - told.body;
+          told.movesInFrame = random.chance(0.5);
+        }
+        const Reject reason = solver_->take(told, tick(n));
+        carried += reason == Reject::SolidCarrier ? 1 : 0;
+        EXPECT_TRUE(told.carrier != kFist || reason != Reject::None);
+        hear();
+      }
+      for (int i = 0; i < 2; ++i) {
+        if (random.chance(0.3)) continue;
+        const Vector3d place(0.6 * s - 0.3 * i, 1.0, 0.3 * random.uniform(-1.0, 1.0));
+        const auto poses = rigidPoses(n, us, {ballAt(kBall + i, place)}, i + 1);
+        static_cast<void>(solver_->take(poses, tick(n) + 100));
+        hear();
+        if (random.chance(0.1)) static_cast<void>(solver_->take(poses, tick(n) + 150));
+      }
+    }
+    EXPECT_EQ(solver_->counts().failures, 0U);
+    for (const ShownBody& body : shown_) {
+      const SolidMessage& message = body.solid;
+      pushed += body.pushes.contacts.empty() ? 0 : 1;
+      if (message.state == SolidState::Placing) continue;
+      EXPECT_TRUE(message.isCertified || !body.pushes.crushes.empty());
+      for (const Pose& pose : message.way) {
+        EXPECT_LT(pose.translations[0].x(), 1.0 - kBallRadius) << "at " << message.utimeUs;
+      }
+    }
+    for (std::size_t i = 1; i < told_.answers.size(); ++i) {
+      EXPECT_EQ(told_.answers[i].fromUs, told_.answers[i - 1].toUs);
+    }
+    enters += eventsWith(kStillScene).size() + eventsWith(kBall).size();
+  }
+  EXPECT_GT(refused, 100U);
+  EXPECT_GT(carried, 30U);
+  EXPECT_GT(pushed, 300U);
+  EXPECT_GT(enters, 100U);
 }
 
 TEST(SolidBodiesSetup, RefusesByNameWhatItCannotDo) {
