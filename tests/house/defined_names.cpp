@@ -162,7 +162,7 @@ class Reader {
       statement_.assign(1, {"type", tokens_[at_ - 1].line});
       return;
     } else if (isFunction(words) && !isInitializer(words)) {
-      addFunction(words);
+      addFunction(words, tokens_[past - 1].line);
       at_ = past;
       statement_.clear();
       return;
@@ -200,7 +200,7 @@ class Reader {
                words.begin() + static_cast<std::ptrdiff_t>(end)),
         words);
   }
-  void addFunction(const Tokens& words) {
+  void addFunction(const Tokens& words, int lastLine) {
     std::size_t bracket = findOutsideAngles(words, "(");
     const auto isOperator = [](const Token& token) { return token.text == "operator"; };
     const auto named = std::find_if(words.begin(), words.end(), isOperator);
@@ -217,7 +217,7 @@ class Reader {
       name = nameBefore(words, bracket);
     }
     if (bracket < words.size()) name += "(" + parametersAt(words, bracket) + ")";
-    add(NameKind::Function, name, words);
+    add(NameKind::Function, name, words, lastLine);
   }
 
   /// A statement without a body: a variable, or nothing that defines.
@@ -253,11 +253,12 @@ class Reader {
     add(NameKind::Variable, nameBefore(words, nameEnd == 0 ? words.size() : nameEnd), words);
   }
 
-  void add(NameKind kind, const std::string& name, const Tokens& words) {
+  void add(NameKind kind, const std::string& name, const Tokens& words, int lastLine = 0) {
     if (name.empty()) return;
     DefinedName found;
     found.kind = kind;
     found.line = words.front().line;
+    found.lastLine = std::max(found.line, lastLine);
     for (const std::string& scope : scopes_) {
       if (scope.empty()) found.isLocal = true;
       if (scope != "extern") found.name += scope + "::";

@@ -14,6 +14,7 @@ struct DefinedName {
   NameKind kind = NameKind::Variable;
   std::string name;      ///< With its namespaces; a function with its parameter types.
   int line = 0;          ///< Counted from 1.
+  int lastLine = 0;      ///< Of its body, if it has one; else as `line`.
   bool isLocal = false;  ///< In an anonymous namespace: another file may have the same.
 };
 
