@@ -32,12 +32,11 @@ constexpr float kTiny = 1e-30f;
 /// normal.
 constexpr float kNoisyDistance = 0.1f;
 
-/// An approximate 1/x, x > 0: for proposals only.
+/// 1/x, x > 0, for proposals. By division: processors' approximate reciprocals differ from maker to
+/// maker, and what is proposed decides the last places of answers.
 template <class V>
-HWY_INLINE V roughInverse(V x) {
-  const V y = hn::ApproximateReciprocal(x);
-  const hn::DFromV<V> d;
-  return hn::Mul(y, hn::NegMulAdd(x, y, hn::Set(d, 2.0f)));
+HWY_INLINE V inverseOf(V x) {
+  return hn::Div(hn::Set(hn::DFromV<V>(), 1.0f), x);
 }
 /// Point and derivative of one axis end at the lanes' times.
 template <class V>
@@ -266,9 +265,8 @@ HWY_INLINE void offerEdge(const Point<V>& p, const Point<V>& axis, V squaredAxis
   const V onAxis = dot(axis, p), onEdge = dot(edge, p);
   const V determinant = hn::NegMulAdd(mixed, mixed, hn::Mul(squaredAxis, squaredEdge));
   V s = clamp01(hn::Mul(hn::NegMulAdd(onAxis, squaredEdge, hn::Mul(mixed, onEdge)),
-                        roughInverse(hn::Max(determinant, tiny))));
-  const V t =
-      clamp01(hn::Mul(hn::MulAdd(mixed, s, onEdge), roughInverse(hn::Max(squaredEdge, tiny))));
+                        inverseOf(hn::Max(determinant, tiny))));
+  const V t = clamp01(hn::Mul(hn::MulAdd(mixed, s, onEdge), inverseOf(hn::Max(squaredEdge, tiny))));
   s = clamp01(hn::Mul(hn::MulSub(mixed, t, onAxis), inverseAxis));
   const Point<V> w = along(along(p, s, axis), hn::Neg(t), edge);
   best.offer(dot(w, w), w, cross(axis, edge));
@@ -315,11 +313,11 @@ HWY_INLINE Widest<V> widestPlane(const Moving<V>& a, const Moving<V>& b,
   const Point<V> e1 = sub(v[1], v[0]), e2 = sub(v[2], v[0]), e3 = sub(v[2], v[1]);
   const Point<V> p = sub(a.position, v[0]), p3 = sub(a.position, v[1]);
   const V squaredAxis = dot(axis, axis);
-  const V inverseAxis = roughInverse(hn::Max(squaredAxis, hn::Set(d, kTiny)));
+  const V inverseAxis = inverseOf(hn::Max(squaredAxis, hn::Set(d, kTiny)));
   const Point<V> normal = cross(e1, e2);
   const V d00 = dot(e1, e1), d01 = dot(e1, e2), d11 = dot(e2, e2);
   const V inverse =
-      roughInverse(hn::Max(hn::NegMulAdd(d01, d01, hn::Mul(d00, d11)), hn::Set(d, kTiny)));
+      inverseOf(hn::Max(hn::NegMulAdd(d01, d01, hn::Mul(d00, d11)), hn::Set(d, kTiny)));
 
   Closest<V> best{hn::Set(d, 1e30f), p, normal};
   offerEdge(p, axis, squaredAxis, inverseAxis, e1, best);
@@ -391,7 +389,7 @@ HWY_INLINE SpherePlane<V> planeAbove(const Moving<V>& a, const Moving<V>& b,
   const hn::DFromV<V> d;
   const Point<V> axis = sub(b.position, a.position), p = sub(a.position, spheres.centre);
   const V s = clamp01(
-      hn::Neg(hn::Mul(dot(axis, p), roughInverse(hn::Max(dot(axis, axis), hn::Set(d, kTiny))))));
+      hn::Neg(hn::Mul(dot(axis, p), inverseOf(hn::Max(dot(axis, axis), hn::Set(d, kTiny))))));
   const Point<V> n = direction(along(p, s, axis));
   const V top = dot(n, spheres.centre);
   return {n,

@@ -54,9 +54,9 @@ HWY_INLINE void propose(D d, ProposalBlock& block, std::size_t lane) {
   const V a = hn::Max(dot(d1, d1), tiny), e = hn::Max(dot(d2, d2), tiny), b = dot(d1, d2);
   const V c = dot(d1, r), f = dot(d2, r);
   const V determinant = hn::Max(hn::NegMulAdd(b, b, hn::Mul(a, e)), tiny);
-  V s = clamp01(hn::Mul(hn::MulSub(b, f, hn::Mul(c, e)), roughInverse(determinant)));
-  const V t = clamp01(hn::Mul(hn::MulAdd(b, s, f), roughInverse(e)));
-  s = clamp01(hn::Mul(hn::MulSub(b, t, c), roughInverse(a)));
+  V s = clamp01(hn::Mul(hn::MulSub(b, f, hn::Mul(c, e)), inverseOf(determinant)));
+  const V t = clamp01(hn::Mul(hn::MulAdd(b, s, f), inverseOf(e)));
+  s = clamp01(hn::Mul(hn::MulSub(b, t, c), inverseOf(a)));
   const Point<V> n = direction(along(along(r, s, d1), hn::Neg(t), d2));
   hn::Store(n.x, d, block.n[0] + lane);
   hn::Store(n.y, d, block.n[1] + lane);
