@@ -44,6 +44,7 @@ Result<Done> makeSolidBody(const LoadedWorld& world, const WorldRequest& query,
 
 Result<Done> makeSolidBodies(const LoadedWorld& world, const WorldRequest& query,
                              const StreamSolidRequest& request, WorldSetup& setup) {
+  if (!request.solid.isAsked) return Done{};
   for (const std::string& pattern : request.worldBodies) {
     bool isAny = false;
     for (WorldSetup::ServedAvatar& served : setup.avatars) {
