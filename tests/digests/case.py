@@ -27,6 +27,7 @@ class Case:
     data: list = field(default_factory=list)  # files of the data folder that it needs
     tools: list = field(default_factory=list)  # what else it needs: see World.TOOLS
     short: bool = False  # also in the short form, which runs with every test
+    everyWidth: bool = False  # at every width of vectors that the processor has
 
 
 def run(command, out="", status=0):

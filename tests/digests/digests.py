@@ -7,11 +7,14 @@ what must not change is seen to have stayed the same, byte for byte.
     ./run digests --keep /tmp/old     and keeps the outputs, as they are compared
     ./run digests --against /tmp/old  and says where an output that differs does so first
     ./run digests --record            records what is made now, after each case gave the same twice
+    ./run digests --width sse4        runs all cases at that width
 
-The cases are in bundled.py and recordings.py; what may differ, and is masked, in normalise.py.
-Answers follow from the processor too (the width of its vectors, its approximate reciprocals, the C
-library's mathematics), so recorded.json says on what it was recorded. On another one nothing is
-compared: exit code 77.
+The cases are in bundled.py, moving.py and recordings.py; what may differ, and is masked, in
+normalise.py. Answers follow from the width of the processor's vectors, so recorded.json has digests
+by width. All cases run at the widest that is recorded and that the processor has, some at every
+width; a wider one is named and not taken. They follow from the C library's mathematics as well: its
+plain ones are asked for, which do not depend on the processor, and where they answer otherwise than
+those of the library that was recorded, nothing is compared: exit code 77.
 Exit code 0: all as recorded; 1: something differs; 2: a case could not be run.
 """
 import argparse
@@ -19,6 +22,7 @@ import fnmatch
 import json
 import os
 import platform
+import subprocess
 import sys
 import tempfile
 import time
@@ -28,6 +32,8 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 
 import bundled  # noqa: E402
+import mathematics  # noqa: E402
+import moving  # noqa: E402
 import normalise  # noqa: E402
 import recordings  # noqa: E402
 import running  # noqa: E402
@@ -38,27 +44,11 @@ RECORDED = HERE / "recorded.json"
 SKIPPED = 77
 
 
-# The widest vectors as foretouch names them, and what a processor must have for them.
-VECTORS = (
-    ("avx512", {"avx512f", "avx512vl", "avx512dq", "avx512bw", "avx512cd"}),
-    ("avx2", {"avx2", "fma", "bmi1", "bmi2", "abm", "f16c"}),
-    ("sse4", {"sse4_2", "aes", "pclmulqdq"}),
-    ("ssse3", {"ssse3"}),
-    ("scalar", set()),
-)
-
-
-def machine():
-    """What answers follow from besides the inputs."""
-    facts = {}
-    with open("/proc/cpuinfo", encoding="utf-8") as file:
-        for line in file:
-            key, _, value = line.partition(":")
-            facts.setdefault(key.strip(), value.strip())
-    flags = set(facts.get("flags", "").split())
-    widest = next(name for name, needed in VECTORS if needed <= flags)
-    return {"vectors": widest, "processor": facts.get("vendor_id", platform.machine()),
-            "library": os.confstr("CS_GNU_LIBC_VERSION")}
+def mathematics_here():
+    """The C library, and what its mathematics answer as the cases ask them."""
+    said = subprocess.run([sys.executable, HERE / "mathematics.py"], check=True, text=True,
+                          env={**os.environ, **mathematics.PLAIN}, capture_output=True)
+    return {"library": " ".join(platform.libc_ver()), "mathematics": said.stdout.strip()}
 
 
 def arguments():
@@ -66,6 +56,8 @@ def arguments():
     parser.add_argument("--record", action="store_true", help="record what is made now")
     parser.add_argument("--only", metavar="NAME", help="cases with this name, which may have a *")
     parser.add_argument("--short", action="store_true", help="the bundled example alone, briefly")
+    parser.add_argument("--width", choices=running.WIDTHS,
+                        help="vectors of all cases, in place of the widest that is recorded")
     parser.add_argument("--program", metavar="FOLDER", type=Path, default=SOURCE / "build/release",
                         help="what is run: a build folder, with bin/foretouch in it")
     parser.add_argument("--keep", metavar="DIR", type=Path, help="keep normalised outputs there")
@@ -79,7 +71,7 @@ def arguments():
 def chosen_cases(options, world):
     """Those asked for, and why others of them cannot be run."""
     chosen, skipped = [], {}
-    for case in (*bundled.every_case(), *recordings.every_case()):
+    for case in (*bundled.every_case(), *moving.every_case(), *recordings.every_case()):
         named = options.only is None or fnmatch.fnmatch(case.name, options.only)
         if not named or (options.short and not case.short):
             continue
@@ -91,11 +83,25 @@ def chosen_cases(options, world):
     return chosen, skipped
 
 
-def outputs_of(case, world):
+def widths_of(options, world, known):
+    """At which width all cases run, and some of them besides."""
+    if options.width not in (None, *world.widths):
+        sys.exit(f"--width {options.width}: this processor lacks it")
+    recorded = {width for digests in known.values() for width in digests} or {*world.widths}
+    common = [width for width in world.widths if width in recorded]
+    absent = [width for width in world.widths if width not in recorded]
+    if absent and not options.record:
+        print(f"not recorded, and not compared: {', '.join(absent)}", flush=True)
+    widest = options.width or common[-1]
+    others = world.widths if options.record else common
+    return widest, [width for width in others if width != widest]
+
+
+def outputs_of(case, world, width):
     """Each part of each output, normalised, by its name."""
     made = {}
     with tempfile.TemporaryDirectory(prefix="foretouch-digests-") as folder:
-        running.run(case, world, Path(folder))
+        running.run(case, world, width, Path(folder))
         for file, normal in case.outputs.items():
             for part, content in normal((Path(folder) / file).read_bytes()).items():
                 made[f"{case.name}/{file}" + (f".{part}" if part else "")] = content
@@ -130,30 +136,30 @@ class Comparison:
         self.options, self.recorded = options, recorded
         self.digests, self.moved, self.failed = {}, [], []
 
-    def add(self, made):
+    def add(self, width, made):
         if self.options.keep:
-            keep(self.options.keep, made)
+            keep(self.options.keep / width, made)
         for name, content in made.items():
             now = {"sha256": normalise.digest(content), "holds": normalise.holds(content)}
-            self.digests[name] = now
-            was = self.recorded.get(name)
+            self.digests.setdefault(name, {})[width] = now
+            was = self.recorded.get(name, {}).get(width)
             if was != now:
-                self.moved.append(name)
-                self.tell(name, was, now, content)
+                self.moved.append((name, width))
+                self.tell(name, width, was, now, content)
 
-    def tell(self, name, was, now, content):
+    def tell(self, name, width, was, now, content):
         if was is None:
             if not self.options.record:
-                print(f"{name}: is not recorded; {now['holds']}", flush=True)
+                print(f"{name} at {width}: is not recorded; {now['holds']}", flush=True)
             return
-        print(f"{name}: differs; was {was['holds']}, is {now['holds']}", flush=True)
-        kept = self.options.against / name if self.options.against else None
+        print(f"{name} at {width}: differs; was {was['holds']}, is {now['holds']}", flush=True)
+        kept = self.options.against / width / name if self.options.against else None
         if kept and kept.is_file():
             print("  " + first_difference(kept.read_bytes(), content), flush=True)
 
-    def fail(self, case, why):
+    def fail(self, case, width, why):
         self.failed.append(case.name)
-        print(f"{case.name}: {why}", flush=True)
+        print(f"{case.name} at {width}: {why}", flush=True)
 
     def gone(self, chosen):
         """Recorded outputs of these cases that are made no more."""
@@ -162,32 +168,66 @@ class Comparison:
                 if name.startswith(names) and name not in self.digests]
 
 
-def run_all(chosen, world, comparison):
+def run_all(chosen, world, widths, comparison):
+    widest, others = widths
+    runs = [(case, widest) for case in chosen]
+    runs += [(case, width) for case in chosen if case.everyWidth for width in others]
     twice = comparison.options.record
 
-    def attempt(case):
+    def attempt(run):
         try:
-            made = outputs_of(case, world)
-            again = outputs_of(case, world) if twice else made
+            made = outputs_of(*run)
+            again = outputs_of(*run) if twice else made
             return made, [name for name in made if made[name] != again.get(name)]
         except Exception as failure:  # also of an output that is not what it should be
             return failure, []
 
     with ThreadPoolExecutor(comparison.options.jobs) as pool:
-        for case, (made, unsteady) in zip(chosen, pool.map(attempt, chosen)):
+        attempts = pool.map(attempt, [(case, world, width) for case, width in runs])
+        for (case, width), (made, unsteady) in zip(runs, attempts):
             if isinstance(made, Exception):
-                comparison.fail(case, made)
+                comparison.fail(case, width, made)
             elif unsteady:
-                comparison.fail(case, f"not the same twice: {', '.join(unsteady)}")
+                comparison.fail(case, width, f"not the same twice: {', '.join(unsteady)}")
             else:
-                comparison.add(made)
+                comparison.add(width, made)
+
+
+def by_width(kinds):
+    return {width: digest for widths, digest in kinds.items() for width in widths.split()}
+
+
+def read_record():
+    """On what was recorded, and the digests: by output, then by width."""
+    if not RECORDED.exists():
+        return {}, {}
+    written = json.loads(RECORDED.read_text(encoding="utf-8"))
+    digests = {name: by_width(kinds) for name, kinds in written["digests"].items()}
+    return written["recorded_on"], digests
+
+
+def renewed(was, now):
+    """Digests of one output by width. Those of widths that were not run are out of date if any
+    other moved."""
+    kept = was if all(was.get(width) == now[width] for width in now if width in was) else {}
+    return {**kept, **now}
+
+
+def by_digest(digests):
+    """The widths that agree on a digest, narrowest first, in place of each width."""
+    kinds = {}
+    for width in (width for width in running.WIDTHS if width in digests):
+        kinds.setdefault(json.dumps(digests[width]), []).append(width)
+    return ", ".join(f"{json.dumps(' '.join(widths))}: {digest}"
+                     for digest, widths in kinds.items())
 
 
 def record(comparison, here, gone):
     """A line an output, so that a change shows by itself what moved."""
-    digests = {**comparison.recorded, **comparison.digests}
-    lines = [f"{json.dumps(name, ensure_ascii=False)}: {json.dumps(digests[name])}"
-             for name in sorted(digests) if name not in gone]
+    digests = {name: renewed(comparison.recorded.get(name, {}), comparison.digests.get(name, {}))
+               for name in {*comparison.recorded, *comparison.digests}.difference(gone)}
+    lines = [f"{json.dumps(name, ensure_ascii=False)}: {{{by_digest(digests[name])}}}"
+             for name in sorted(digests)]
     text = ",\n".join(lines)
     RECORDED.write_text(f'{{"recorded_on": {json.dumps(here)},\n"digests": {{\n{text}\n}}}}\n',
                         encoding="utf-8")
@@ -200,7 +240,8 @@ def told_and_done(comparison, gone, skipped, seconds):
     for name, why in skipped.items():
         print(f"{name}: skipped: {why}")
     moved, failed = len(comparison.moved) + len(gone), len(comparison.failed)
-    print(f"{len(comparison.digests)} outputs, {moved} other than recorded; {failed} cases failed, "
+    made = sum(len(widths) for widths in comparison.digests.values())
+    print(f"{made} outputs, {moved} other than recorded; {failed} cases failed, "
           f"{len(skipped)} skipped; {seconds:.0f} s")
     if failed:
         return 2
@@ -209,18 +250,18 @@ def told_and_done(comparison, gone, skipped, seconds):
 
 def main():
     options = arguments()
-    known = json.loads(RECORDED.read_text(encoding="utf-8")) if RECORDED.exists() else {}
-    here = machine()
-    if known.get("recorded_on", here) != here:
+    known, digests = read_record()
+    here = mathematics_here()
+    if known.get("mathematics", here["mathematics"]) != here["mathematics"]:
         if not options.record or options.only or options.short:
-            print(f"skipped: recorded on {known['recorded_on']}, this is {here}")
+            print(f"skipped: recorded with {known}, this is {here}")
             return SKIPPED
-        known = {}  # digests of two machines would be those of none
+        digests = {}  # digests of two libraries would be those of none
     begun = time.monotonic()
     with running.World(SOURCE, options.program) as world:
         chosen, skipped = chosen_cases(options, world)
-        comparison = Comparison(options, known.get("digests", {}))
-        run_all(chosen, world, comparison)
+        comparison = Comparison(options, digests)
+        run_all(chosen, world, widths_of(options, world, digests), comparison)
     gone = comparison.gone(chosen)
     if options.record and not comparison.failed:
         record(comparison, here, gone)

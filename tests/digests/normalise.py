@@ -2,7 +2,7 @@
 
 Masked are
 - times that were measured (latencies, when a message came and went): they are the machine's;
-- the version of the program: a new version is no other answer;
+- the version of the program: a new version is no other answer, and what is a mark of it;
 - the identity of an event log, which is drawn at random, and the check sums that it seeds;
 - the time at which a live sender began, and the order of events in a service's journal, which is
   that of arrival.
@@ -34,6 +34,19 @@ def plain(content):
 def results(content):
     """Results of `replay`: the version, and how long each query took."""
     return {"": _masked(rb'("latency_us":)[0-9.e+-]+', _without_version(content))}
+
+
+def summary(content):
+    """What `--json` prints of a replay: how long questions took, and where files are that were
+    named by their folders."""
+    content = re.sub(rb'("latency_us":)\{[^}]*\}', rb"\1#", content)
+    return {"": re.sub(rb'":"/[^"]*/', b'":"', content)}
+
+
+def marked(content):
+    """Shown poses: the version, and the marks of lines, which follow from it. Not those of poses
+    and of input files."""
+    return {"": _masked(rb'("mark":")[^"]*', _without_version(content))}
 
 
 def figures(content):

@@ -76,6 +76,35 @@ class Normalised(unittest.TestCase):
                     FIGURES.replace(b"63.5", b"63.6"))
 
 
+    def test_summaries_but_for_latencies_and_folders(self):
+        content = b'{"motion":"/a/b.bvh","ticks":3,"latency_us":{"p50":1.5,"p99":2},"output":"c"}'
+        self.expect(normalise.summary, content,
+                    content.replace(b"1.5", b"2.5").replace(b"/a/", b"/x/y/"),
+                    content.replace(b"b.bvh", b"c.bvh"))
+
+    def test_shown_poses_but_for_the_version_and_marks_of_lines(self):
+        content = b'{"tool":"0.1.0","motion_mark":"ab","mark":"01"}\n{"from":"cd","mark":"02"}\n'
+        self.expect(normalise.marked, content,
+                    content.replace(b"0.1.0", b"0.2.0").replace(b'"mark":"0', b'"mark":"1'),
+                    content.replace(b"cd", b"ce"))
+
+
+class Recorded(unittest.TestCase):
+    def test_widths_that_agree_share_a_digest(self):
+        one, other = {"sha256": "1"}, {"sha256": "2"}
+        written = digests.by_digest({"avx2": other, "scalar": one, "sse4": one})
+        self.assertEqual(written, '"scalar sse4": {"sha256": "1"}, "avx2": {"sha256": "2"}')
+        self.assertEqual(digests.by_width({"scalar sse4": one, "avx2": other}),
+                         {"scalar": one, "sse4": one, "avx2": other})
+
+    def test_widths_that_were_not_run_stay_unless_others_moved(self):
+        was = {"sse4": "a", "avx2": "b"}
+        self.assertEqual(digests.renewed(was, {"avx2": "b", "scalar": "c"}),
+                         {"sse4": "a", "avx2": "b", "scalar": "c"})
+        self.assertEqual(digests.renewed(was, {"avx2": "d"}), {"avx2": "d"})
+        self.assertEqual(digests.renewed(was, {}), was)
+
+
 class FirstDifference(unittest.TestCase):
     def test_names_line_and_column(self):
         told = digests.first_difference(b"one\ntwo three\nfour", b"one\ntwo throe\nfour")

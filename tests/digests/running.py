@@ -6,7 +6,12 @@ import sys
 import tempfile
 from pathlib import Path
 
+import mathematics
+
 PATIENCE_S = 1200  # of a machine that has much else to do
+
+# Vectors as foretouch names them, from the narrowest to the widest.
+WIDTHS = ("scalar", "ssse3", "sse4", "avx2", "avx512")
 
 
 class Failed(Exception):
@@ -25,8 +30,15 @@ class World:
         self.data = Path(named or source.parent / "shared/data").resolve()
         self._tools = {}
         self._folder = tempfile.TemporaryDirectory(prefix="foretouch-digests-")
+        self.at_width = self.build / "bin/at_width"
+        self.widths = [width for width in WIDTHS if self._has_width(width)]
 
     def __enter__(self):
+        for width in self.widths[:-1]:
+            script = self.program_at(width)
+            script.write_text(f"#!/bin/sh\nexec '{self.at_width}' {width} \"$@\"\n",
+                              encoding="utf-8")
+            script.chmod(0o755)
         return self
 
     def __exit__(self, *_):
@@ -34,7 +46,6 @@ class World:
 
     # What a case may need, and how it is found or made: the first time that it is asked for.
     TOOLS = {
-        "at_width": ("bin/at_width, a test's program", "_at_width"),
         "c": ("libforetouch.so, or a C compiler", "_c_programs"),
         "packages": ("the Python package", "_packages"),
         "network": ("a network namespace", "_network"),
@@ -43,25 +54,26 @@ class World:
     def tool(self, name):
         """Where it is, or whether there is one; None or False where it is absent."""
         if name not in self._tools:
-            known = self.TOOLS.get(name)
-            self._tools[name] = getattr(self, known[1])() if known else self._has_width(name)
+            self._tools[name] = getattr(self, self.TOOLS[name][1])()
         return self._tools[name]
 
     def lacks(self, case):
         """What the case needs and is not here; "" where nothing is missing."""
         absent = [file for file in case.data if not (self.data / file).exists()]
-        absent += [self.TOOLS[tool][0] if tool in self.TOOLS else f"the processor's {tool}"
-                   for tool in case.tools if not self.tool(tool)]
+        absent += [self.TOOLS[tool][0] for tool in case.tools if not self.tool(tool)]
         return "absent: " + ", ".join(absent) if absent else ""
 
-    def _at_width(self):
-        program = self.build / "bin/at_width"
-        return program if program.exists() else None
-
     def _has_width(self, width):
-        program = self.tool("at_width")
-        return program and subprocess.run([program, width, "--version"], capture_output=True,
-                                          check=False).returncode == 0
+        if not self.at_width.exists():
+            sys.exit(f"{self.at_width}: no such program; build the tests")
+        return subprocess.run([self.at_width, width, "--version"], capture_output=True,
+                              check=False).returncode == 0
+
+    def program_at(self, width):
+        """The program; where it would take wider vectors by itself, one that takes these."""
+        if width == self.widths[-1]:
+            return self.program
+        return Path(self._folder.name) / f"foretouch-{width}"
 
     def _packages(self):
         packages = self.build / "lib/python3/dist-packages"
@@ -73,37 +85,45 @@ class World:
         return tried.returncode == 0
 
     def _c_programs(self):
-        """Both C programs, linked with the library of the build; their folder."""
+        """The C programs, linked with the library of the build; their folder."""
         library = next(iter(sorted(self.build.rglob("libforetouch.so"))), None)
         compiler = shutil.which("cc")
         if library is None or compiler is None:
             return None
         folder = Path(self._folder.name)
         bindings = self.source / "bindings/c"
-        for source in (self.source / "tests/digests/contacts.c", bindings / "example/swing.c"):
+        digests = self.source / "tests/digests"
+        examples = [bindings / f"example/{name}.c"
+                    for name in ("swing", "table", "solid_hand", "swinging_door")]
+        for source in (digests / "contacts.c", digests / "moving_world.c", *examples):
             subprocess.run([compiler, "-std=c99", "-O1", "-I", bindings / "include", source, "-o",
                             folder / source.stem, library, "-lm", f"-Wl,-rpath,{library.parent}"],
                            check=True)
         return folder
 
-    def words(self, words):
+    def words(self, words, width):
         """A command line with what its {names} stand for."""
-        names = {"foretouch": self.program, "data": self.data, "source": self.source,
+        names = {"foretouch": self.program_at(width), "data": self.data, "source": self.source,
                  "examples": self.build / "share/foretouch/examples", "python": "/usr/bin/python3",
-                 "at_width": self._tools.get("at_width"), "c": self._tools.get("c")}
+                 "verify": self.build / "bin/foretouch-verify", "c": self._tools.get("c")}
         return [word.format_map(names) for word in words]
 
-    def environment(self):
+    def environment(self, words, width):
         packages = str(self._tools.get("packages") or "")
-        return {**os.environ, "FORETOUCH_IMPORTER": str(self.build / "bin/foretouch-import"),
-                "LC_ALL": "C.UTF-8", "PYTHONPATH": packages, "PYTHONDONTWRITEBYTECODE": "1"}
+        narrowed = {}
+        if width != self.widths[-1] and words[0].startswith(("{c}", "{python}")):
+            narrowed = {"FORETOUCH_AT_WIDTH": width,
+                        "LD_PRELOAD": str(self.build / "tests/digests/libat_width_preload.so")}
+        return {**os.environ, **mathematics.PLAIN, **narrowed,
+                "FORETOUCH_IMPORTER": str(self.build / "bin/foretouch-import"), "LC_ALL": "C.UTF-8",
+                "PYTHONPATH": packages, "PYTHONDONTWRITEBYTECODE": "1"}
 
 
-def _run_program(step, world, folder):
-    words = world.words(step.words)
+def _run_program(step, world, width, folder):
+    words = world.words(step.words, width)
     try:
-        ended = subprocess.run(words, cwd=folder, env=world.environment(), capture_output=True,
-                               timeout=PATIENCE_S, check=False)
+        ended = subprocess.run(words, cwd=folder, env=world.environment(step.words, width),
+                               capture_output=True, timeout=PATIENCE_S, check=False)
     except subprocess.TimeoutExpired as late:
         raise Failed(f"{' '.join(words)}\n  did not end within {PATIENCE_S} s") from late
     if step.exit not in (None, ended.returncode):
@@ -114,13 +134,13 @@ def _run_program(step, world, folder):
         (folder / step.out).write_bytes(ended.stdout + last)
 
 
-def run(case, world, folder):
-    """Runs the steps of a case in a folder of its own."""
+def run(case, world, width, folder):
+    """Runs the steps of a case in a folder of its own, by vectors of this width."""
     for step in case.steps:
         if callable(step):
             step(folder)
         else:
-            _run_program(step, world, folder)
+            _run_program(step, world, width, folder)
     for file in case.outputs:
         if not (folder / file).exists():
             raise Failed(f"made no {file}")
