@@ -134,7 +134,7 @@ class Comparison:
 
     def __init__(self, options, recorded):
         self.options, self.recorded = options, recorded
-        self.digests, self.moved, self.failed = {}, [], []
+        self.digests, self.moved, self.uncompared, self.failed = {}, [], [], []
 
     def add(self, width, made):
         if self.options.keep:
@@ -142,10 +142,12 @@ class Comparison:
         for name, content in made.items():
             now = {"sha256": normalise.digest(content), "holds": normalise.holds(content)}
             self.digests.setdefault(name, {})[width] = now
-            was = self.recorded.get(name, {}).get(width)
-            if was != now:
+            known = self.recorded.get(name, {})
+            if known and width not in known and not self.options.record:
+                self.uncompared.append((name, width))
+            elif known.get(width) != now:
                 self.moved.append((name, width))
-                self.tell(name, width, was, now, content)
+                self.tell(name, width, known.get(width), now, content)
 
     def tell(self, name, width, was, now, content):
         if was is None:
@@ -241,6 +243,10 @@ def told_and_done(comparison, gone, skipped, seconds):
         print(f"{name}: skipped: {why}")
     moved, failed = len(comparison.moved) + len(gone), len(comparison.failed)
     made = sum(len(widths) for widths in comparison.digests.values())
+    if comparison.uncompared:
+        widths = sorted({width for _, width in comparison.uncompared})
+        print(f"{len(comparison.uncompared)} outputs are not recorded at {', '.join(widths)}, and "
+              "not compared")
     print(f"{made} outputs, {moved} other than recorded; {failed} cases failed, "
           f"{len(skipped)} skipped; {seconds:.0f} s")
     if failed:
