@@ -234,8 +234,7 @@ static void follow_solid(stage* s) {
   must(ft_solid_create(s->room, s->avatar, NULL, &solid));
   for (i = 0; i < 40; ++i) {
     tick.size = sizeof tick;
-    must(ft_solid_follow(solid, dancer_at(s, 240 + 2 * i, 0.0, 0.004 * (double)i), NULL,
-                         1e-6 * TICK_US, &tick));
+    must(ft_solid_follow(solid, dancer_at(s, 240 + 2 * i, 0.9, 0.4), NULL, 1e-6 * TICK_US, &tick));
     print_tick(&tick);
     must(ft_solid_shown(solid, s->rotations, s->translations, s->joints, NULL));
     print_pose(s);
@@ -255,7 +254,7 @@ static void follow_solid_world(stage* s) {
   must(ft_world_push(world, door, 0, door_at(s, 0)));
   for (i = 1; i <= 20; ++i) {
     must(ft_world_push(world, door, i * (int64_t)TICK_US, door_at(s, i)));
-    target.pose = dancer_at(s, 240 + 2 * (size_t)i, 0.0, 0.0);
+    target.pose = dancer_at(s, 480 - 3 * (size_t)i, 0.1, -0.3);
     must(ft_solid_world_tick(world, i * (int64_t)TICK_US, &target, 1));
     tick.size = sizeof tick;
     must(ft_solid_world_get_tick(world, target.body, &tick, NULL));
