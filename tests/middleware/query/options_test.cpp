@@ -152,7 +152,7 @@ TEST(QueryOptions, ThatExcludeEachOtherAreRefusedByName) {
 // options: a surface or a skin that nobody asks for is not looked at.
 TEST(QueryOptions, WithASurfaceThatNobodyNeedsChangeNothing) {
   int touched = 0;
-  for (int seed = 0; seed < 20; ++seed) {
+  for (int seed = 0; seed < 200; ++seed) {
     const World world{Random(static_cast<std::uint64_t>(seed))};
     for (const Fidelity fidelity : kFidelities) {
       SCOPED_TRACE(std::string(toString(fidelity)) + " " + std::to_string(seed));
