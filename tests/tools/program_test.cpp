@@ -109,8 +109,8 @@ TEST(Program, HelpsByEveryUsualWord) {
   const std::string version = runForetouch({"--version"}).out;
   for (const char* const word : {"-V", "version"}) EXPECT_EQ(runForetouch({word}).out, version);
   EXPECT_TRUE(holds(runForetouch({"--help-all"}).out, help));
-  for (const char* const title : {"Input:", "Units, axes and place:", "What touches:", "Output:",
-                                  "Comparison:", "Effort:", "General:"}) {
+  for (const char* const title :
+       {"Input:", "Units, axes and place:", "What touches:", "Output:", "Effort:", "General:"}) {
     EXPECT_TRUE(holds(help, std::string("\n") + title + "\n")) << title;
   }
   std::istringstream lines(help);

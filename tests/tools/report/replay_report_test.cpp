@@ -25,7 +25,7 @@ Reported report(const ReplayInputs& inputs, const ReportOptions& options = {}) {
   ReplayReport report(inputs, options);
   ReplaySummary summary(inputs);
   ReplayTouches touches(inputs);
-  EXPECT_TRUE(replay(inputs, {}, [&](const ReplayedStep& step) {
+  EXPECT_TRUE(replay(inputs, 1, [&](const ReplayedStep& step) {
                 reported.lines.push_back(json::parse(step.line));
                 summary.add(step);
                 touches.add(step.answer);
