@@ -150,7 +150,7 @@ TEST(ContactFields, AreReadByThePage) {
 }
 
 TEST(ContactFields, AreExplainedToReaders) {
-  const std::string table = between("docs/formats.md", "A contact holds:", "\n\nAt the fidel");
+  const std::string table = between("docs/formats.md", "A contact holds:", "\n\nAn entry of `objects`");
   Names found;
   const std::regex row("\n\\|([^|]*)\\|");
   for (std::sregex_iterator at(table.begin(), table.end(), row), end; at != end; ++at) {

@@ -26,7 +26,7 @@ Cubic volumeOf(const Corners& c) {
           twiceMiddle.dot(c.to[2]) + last.dot(c.from[2]), 3.0 * last.dot(c.to[2])};
 }
 
-Side sideOf(const Corners& corners, int j, int u, int v) {
+CornerSide sideOf(const Corners& corners, int j, int u, int v) {
   const Vector3d &a = corners.from[j], &b = corners.from[corners.next(j)];
   const Vector3d &c = corners.to[j], &d = corners.to[corners.next(j)];
   return {a[u] * b[v] - a[v] * b[u], (a[u] * d[v] - a[v] * d[u]) + (c[u] * b[v] - c[v] * b[u]),

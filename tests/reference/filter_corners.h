@@ -40,11 +40,11 @@ struct Corners {
 [[nodiscard]] Cubic volumeOf(const Corners& c);
 
 /// Component u x v of corner j x corner j+1: first (1-t)^2 + twiceMiddle (1-t) t + last t^2.
-struct Side {
+struct CornerSide {
   double first, twiceMiddle, last;
 };
-[[nodiscard]] Side sideOf(const Corners& c, int j, int u, int v);
-[[nodiscard]] inline double valueAt(const Side& side, double t) {
+[[nodiscard]] CornerSide sideOf(const Corners& c, int j, int u, int v);
+[[nodiscard]] inline double valueAt(const CornerSide& side, double t) {
   const double s = 1.0 - t;
   return s * s * side.first + s * t * side.twiceMiddle + t * t * side.last;
 }

@@ -128,7 +128,7 @@ class Filter {
 
   /// Sign of component u x v of corner j x corner j+1 if it is strict throughout [low, high].
   int sideSign(int j, int u, int v, double low, double high, double bound) const {
-    const Side side = sideOf(corners_, j, u, v);
+    const CornerSide side = sideOf(corners_, j, u, v);
     const double atLow = valueAt(side, low), atHigh = valueAt(side, high);
     if (atLow > bound && atHigh > bound) return 1;
     return atLow < -bound && atHigh < -bound ? -1 : 0;
