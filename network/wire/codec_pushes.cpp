@@ -3,13 +3,11 @@
 #include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
+#include "network/wire/push_fields.h"
 #include "network/wire/world_messages.h"
 
 namespace foretouch {
 namespace {
-
-/// A unit vector's norm may be off by this much.
-constexpr double kMostNormalError = 1e-6;
 
 // The largest message fits.
 static_assert((kMaxToldPushes + kMaxToldCrushes) * (kMaxNameBytes + 5 + 4 * 4 + 9 * 8) + 1024 <=
@@ -50,33 +48,16 @@ Reject checkPair(const PushesMessage& message, LinkId link, BodyNumber other,
   return nameProblem(name) ? Reject::BadName : Reject::None;
 }
 
-Reject checkNumbers(const SolidBodyContact& contact) {
-  if (!contact.p_W.allFinite() || !contact.nhat_W.allFinite() ||
-      !allFinite({contact.gap, contact.push, contact.slipSpeed})) {
-    return Reject::NonFinite;
-  }
-  const bool isInside = contact.nhat_W.norm() <= 1.0 + kMostNormalError && contact.push >= 0.0 &&
-                        contact.slipSpeed >= 0.0;
-  return isInside ? Reject::None : Reject::OutOfRange;
-}
-
 Reject readContacts(const pushes_t& wire, PushesMessage& message) {
   message.contacts.resize(countOf(wire.num_contacts));
   for (std::size_t i = 0; i < message.contacts.size(); ++i) {
     SolidBodyContact& contact = message.contacts[i].contact;
+    readPush(wire, i, contact);
     contact.body = wire.bodies[i];
-    contact.link = wire.links[i];
-    contact.lss = wire.lss[i];
-    contact.triangle = wire.triangles[i];
-    contact.p_W = {wire.point_x[i], wire.point_y[i], wire.point_z[i]};
-    contact.nhat_W = {wire.normal_x[i], wire.normal_y[i], wire.normal_z[i]};
-    contact.gap = wire.gap[i];
-    contact.push = wire.push[i];
-    contact.slipSpeed = wire.slip_speed[i];
     message.contacts[i].linkName = wire.link_names[i];
     if (contact.lss < -1 || contact.triangle < -1) return Reject::BadIndex;
     Reject reject = checkPair(message, contact.link, contact.body, wire.link_names[i]);
-    if (reject == Reject::None) reject = checkNumbers(contact);
+    if (reject == Reject::None) reject = checkPush(contact);
     if (reject != Reject::None) return reject;
   }
   return Reject::None;
@@ -115,36 +96,16 @@ void writeHead(const PushesMessage& message, pushes_t& wire) {
   wire.tick_us = message.tickUs;
 }
 
-void resizeContacts(std::size_t n, pushes_t& wire) {
-  wire.num_contacts = static_cast<std::int32_t>(n);
-  wire.link_names.resize(n);
-  for (auto* const part : {&wire.links, &wire.lss, &wire.bodies, &wire.triangles}) part->resize(n);
-  for (auto* const part :
-       {&wire.point_x, &wire.point_y, &wire.point_z, &wire.normal_x, &wire.normal_y, &wire.normal_z,
-        &wire.gap, &wire.push, &wire.slip_speed}) {
-    part->resize(n);
-  }
-}
-
 void writeContacts(const PushesMessage& message, pushes_t& wire) {
   FORETOUCH_ASSERT(message.contacts.size() <= kMaxToldPushes);
-  resizeContacts(message.contacts.size(), wire);
-  for (std::size_t i = 0; i < message.contacts.size(); ++i) {
+  const std::size_t n = message.contacts.size();
+  resizePushes(n, wire);
+  wire.bodies.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
     const SolidBodyContact& contact = message.contacts[i].contact;
-    wire.links[i] = contact.link;
+    writePush(contact, i, wire);
     wire.link_names[i] = message.contacts[i].linkName;
-    wire.lss[i] = contact.lss;
     wire.bodies[i] = contact.body;
-    wire.triangles[i] = contact.triangle;
-    wire.point_x[i] = contact.p_W.x();
-    wire.point_y[i] = contact.p_W.y();
-    wire.point_z[i] = contact.p_W.z();
-    wire.normal_x[i] = contact.nhat_W.x();
-    wire.normal_y[i] = contact.nhat_W.y();
-    wire.normal_z[i] = contact.nhat_W.z();
-    wire.gap[i] = contact.gap;
-    wire.push[i] = contact.push;
-    wire.slip_speed[i] = contact.slipSpeed;
   }
 }
 

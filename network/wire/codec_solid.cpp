@@ -6,6 +6,7 @@
 #include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
+#include "network/wire/push_fields.h"
 
 namespace foretouch {
 namespace {
@@ -26,9 +27,6 @@ static_assert(static_cast<int>(SolidJointState::Sliding) == solid_t::JOINT_SLIDI
 static_assert(static_cast<int>(SolidJointState::Held) == solid_t::JOINT_HELD);
 static_assert(static_cast<int>(SolidJointState::Lost) == solid_t::JOINT_LOST);
 constexpr auto kLastSolidKind = static_cast<std::int8_t>(StepKind::AcrossGap);
-/// A unit vector's norm may be off by this much.
-constexpr double kMaxNormalError = 1e-6;
-
 // The largest message fits: poses, joints, contacts with their texts, and the rest.
 static_assert(kMaxSolidPoses * (kMaxSolidJoints * 7 + 1) * sizeof(double) +
                   kMaxSolidJoints * (sizeof(double) + 1) +
@@ -159,31 +157,14 @@ Reject checkPlace(const SolidContact& contact, std::int32_t numJoints) {
   return isOfScene || isOwn ? Reject::None : Reject::BadIndex;
 }
 
-Reject checkNumbers(const SolidContact& contact) {
-  if (!contact.p_W.allFinite() || !contact.nhat_W.allFinite() ||
-      !allFinite({contact.gap, contact.push, contact.slipSpeed})) {
-    return Reject::NonFinite;
-  }
-  const bool isInside = contact.nhat_W.norm() <= 1.0 + kMaxNormalError && contact.push >= 0.0 &&
-                        contact.slipSpeed >= 0.0;
-  return isInside ? Reject::None : Reject::OutOfRange;
-}
-
 Reject readContacts(const solid_t& wire, SolidMessage& message) {
   message.contacts.resize(countOf(wire.num_contacts));
   for (std::size_t i = 0; i < message.contacts.size(); ++i) {
     SolidContact contact;
-    contact.link = wire.links[i];
-    contact.lss = wire.lss[i];
-    contact.triangle = wire.triangles[i];
+    readPush(wire, i, contact);
     contact.other = wire.others[i];
-    contact.p_W = {wire.point_x[i], wire.point_y[i], wire.point_z[i]};
-    contact.nhat_W = {wire.normal_x[i], wire.normal_y[i], wire.normal_z[i]};
-    contact.gap = wire.gap[i];
-    contact.push = wire.push[i];
-    contact.slipSpeed = wire.slip_speed[i];
     Reject reject = checkPlace(contact, wire.num_joints);
-    if (reject == Reject::None) reject = checkNumbers(contact);
+    if (reject == Reject::None) reject = checkPush(contact);
     if (reject == Reject::None && nameProblem(wire.link_names[i])) reject = Reject::BadName;
     if (reject != Reject::None) return reject;
     message.contacts[i].contact = contact;
@@ -264,37 +245,18 @@ void writeWay(const SolidMessage& message, solid_t& wire) {
   for (std::size_t i = 0; i < n; ++i) writePose(message.way[i], i, wire);
 }
 
-void resizeContacts(std::size_t n, solid_t& wire) {
-  wire.num_contacts = static_cast<std::int32_t>(n);
-  for (auto* const part : {&wire.links, &wire.lss, &wire.triangles, &wire.others}) part->resize(n);
-  for (auto* const part : {&wire.link_names, &wire.objects}) part->resize(n);
-  for (auto* const part :
-       {&wire.point_x, &wire.point_y, &wire.point_z, &wire.normal_x, &wire.normal_y, &wire.normal_z,
-        &wire.gap, &wire.push, &wire.slip_speed}) {
-    part->resize(n);
-  }
-}
-
 void writeContacts(const SolidMessage& message, solid_t& wire) {
   FORETOUCH_ASSERT(message.contacts.size() <= kMaxSolidContacts);
-  resizeContacts(message.contacts.size(), wire);
-  for (std::size_t i = 0; i < message.contacts.size(); ++i) {
+  const std::size_t n = message.contacts.size();
+  resizePushes(n, wire);
+  wire.objects.resize(n);
+  wire.others.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
     const SolidContact& contact = message.contacts[i].contact;
-    wire.links[i] = contact.link;
+    writePush(contact, i, wire);
     wire.link_names[i] = message.contacts[i].linkName;
-    wire.lss[i] = contact.lss;
-    wire.triangles[i] = contact.triangle;
     wire.objects[i] = message.contacts[i].otherName;
     wire.others[i] = contact.other;
-    wire.point_x[i] = contact.p_W.x();
-    wire.point_y[i] = contact.p_W.y();
-    wire.point_z[i] = contact.p_W.z();
-    wire.normal_x[i] = contact.nhat_W.x();
-    wire.normal_y[i] = contact.nhat_W.y();
-    wire.normal_z[i] = contact.nhat_W.z();
-    wire.gap[i] = contact.gap;
-    wire.push[i] = contact.push;
-    wire.slip_speed[i] = contact.slipSpeed;
   }
 }
 
