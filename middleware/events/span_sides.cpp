@@ -102,9 +102,7 @@ bool SpanSides::setPair(LinkId one, LinkId other, MovingSides& sides) {
   if (lssOf(ofOther, other).empty()) return false;
   const PairPlan plan = plan_->pair();
   const PairsAsked& asked = plan.asked;
-  // The plan's first side is who is first among the members; of own links, the lower one.
-  const bool isTurned =
-      plan.isOfOwnLinks() ? b < a : scratch_.spans.placeOf(ofOther) < scratch_.spans.placeOf(one_);
+  const bool isTurned = plan.isOfOwnLinks() ? b < a : query_.isTurned(one_, other_);
   const LinkId first = isTurned ? b : a, second = isTurned ? a : b;
   const std::int32_t i = plan.one.table.first(first), j = plan.other.table.first(second);
   if (!asked.asked().has(i, j)) return false;
@@ -118,8 +116,8 @@ bool SpanSides::setPair(LinkId one, LinkId other, MovingSides& sides) {
 
 bool SpanSides::setMesh(LinkId link, MovingSides& sides) {
   const LinkId seen = plan_->seen->linkOf(inSystem(one_, link));
-  if (plan_->query->avatar().lss(seen).empty())
-    return false;  // it carries the mesh, or is carried by it
+  // It may carry the mesh, or be carried by it.
+  if (plan_->query->avatar().lss(seen).empty()) return false;
   frame_ = kNoParent;
   sides.begin(frame_);
   sides.setLink(evaluator_, seen, lssOf(one_, link));

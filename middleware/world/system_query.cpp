@@ -198,7 +198,6 @@ PairMotions SystemQuery::beginStep(const SystemPlan& plan) {
   return {scratch_.motion, other};
 }
 
-/// The plan's first side is b.
 bool SystemQuery::isTurned(BodyId a, BodyId b) const {
   return b != kStillScene && scratch_.spans.placeOf(b) < scratch_.spans.placeOf(a);
 }

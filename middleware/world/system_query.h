@@ -77,6 +77,10 @@ class SystemQuery {
   void giveUp(BodyId a, BodyId b, std::vector<WorldContact>& found,
               UndecidedReason reason = UndecidedReason::Resolution) const;
 
+  /// Of Pair, the plan's first side is b; never of one body. Precondition: as prepare() has left
+  /// it.
+  [[nodiscard]] bool isTurned(BodyId a, BodyId b) const;
+
  private:
   [[nodiscard]] Eigen::Vector3d originOf(SystemQuestion question) const;
   void answer(const SystemPlan& plan);
@@ -96,7 +100,6 @@ class SystemQuery {
                                    const Eigen::Vector3d& p_W) const;
   [[nodiscard]] WorldContact ofPair(const SystemPlan& plan, BodyId a, BodyId b,
                                     const PairContact& contact) const;
-  [[nodiscard]] bool isTurned(BodyId a, BodyId b) const;
 
   [[nodiscard]] bool isUndone(BodyId b, const LinkContact& contact);
   static WorldContact givenUp(BodyId a, BodyId b, const WorldTime& from, UndecidedReason reason);
