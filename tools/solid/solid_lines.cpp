@@ -11,6 +11,7 @@
 #include "assets/avatar/pairs_file.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
+#include "tools/contact_json.h"
 #include "tools/replay/results_writer.h"
 #include "tools/settings/file_mark.h"
 
@@ -218,11 +219,7 @@ void SolidLines::write(const SolidContact& contact, JsonWriter& out) const {
   } else if (contact.other >= 0) {
     out.rawField("other", links_[slotOf(contact.other)]);
   }
-  out.field("point", contact.p_W);
-  out.field("normal", contact.nhat_W);
-  out.field("gap", contact.gap);
-  out.field("push", contact.push);
-  out.field("slip", contact.slipSpeed);
+  writePush(contact, out);
   out.endObject();
 }
 

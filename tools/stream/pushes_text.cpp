@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "articulated/quoted.h"
+#include "tools/contact_json.h"
 
 namespace foretouch::tools {
 namespace {
@@ -21,11 +22,7 @@ void writeContact(const ToldPush& told, JsonWriter& out) {
   out.field("lss", contact.lss);
   out.field("body", contact.body);
   if (contact.triangle >= 0) out.field("triangle", contact.triangle);
-  out.field("point", contact.p_W);
-  out.field("normal", contact.nhat_W);
-  out.field("gap", contact.gap);
-  out.field("push", contact.push);
-  out.field("slip", contact.slipSpeed);
+  writePush(contact, out);
   out.endObject();
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "articulated/quoted.h"
+#include "tools/contact_json.h"
 #include "tools/microseconds.h"
 
 namespace foretouch::tools {
@@ -46,11 +47,7 @@ void writeShown(const ShownContact& shown, JsonWriter& out) {
   } else {
     out.field("other", shown.otherName);
   }
-  out.field("point", contact.p_W);
-  out.field("normal", contact.nhat_W);
-  out.field("gap", contact.gap);
-  out.field("push", contact.push);
-  out.field("slip", contact.slipSpeed);
+  writePush(contact, out);
   out.endObject();
 }
 
