@@ -142,4 +142,15 @@ std::optional<JointId> Skeleton::find(std::string_view name) const {
   return std::nullopt;
 }
 
+JointId appendChain(const Skeleton& chain, JointId carrier, RawSkeleton& raw) {
+  const auto first = static_cast<JointId>(raw.joints.size());
+  for (JointId joint = 0; joint < chain.numJoints(); ++joint) {
+    const JointId parent = chain.parent(joint);
+    raw.joints.push_back({std::to_string(raw.joints.size()),
+                          parent == kNoParent ? carrier : parent + first, chain.restOffset(joint),
+                          chain.restRotation(joint)});
+  }
+  return first;
+}
+
 }  // namespace foretouch

@@ -87,4 +87,8 @@ class Skeleton {
   std::vector<JointId> parents_;
 };
 
+/// Appends a chain to `raw`, whose joints are named by their numbers then: its roots hang on
+/// `carrier`, a joint of `raw`, or on nothing. Returns the number of its first joint.
+JointId appendChain(const Skeleton& chain, JointId carrier, RawSkeleton& raw);
+
 }  // namespace foretouch

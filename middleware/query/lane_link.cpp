@@ -92,8 +92,7 @@ LinkContact LaneLink::answerAtStart(LinkId link, QueryCounters& counters) {
   tolerances_.contact = kNeverCertain;
   // Nothing that may be within the tolerance goes on.
   tolerances_.handOver = floatAbove(kBeyond * tolerance_);
-  float best = kBegin;
-  const LinkContact contact = answerBefore(link, best, counters, true);
+  const LinkContact contact = answerBefore(link, Ask::AtStart, kBegin, counters).contact;
   useTolerance(tolerance_);
   return contact;
 }
@@ -102,45 +101,44 @@ LinkContact LaneLink::answer(LinkId link, float limit, QueryCounters& counters) 
   prepare(link);
   // A triangle that touches an LSS may still miss the triangles in it.
   tolerances_.contact = hasTriangles() ? kNeverCertain : floatBelow(kCertainShare * tolerance_);
-  float best = limit;
   if (hasTriangles() && begin_ == 0.0) {
     // The triangles that a link inside furniture touches at once settle it, whatever it sweeps
     // afterwards.
-    best = kBegin;
-    const LinkContact atStart = answerBefore(link, best, counters);
-    if (atStart.verdict != Verdict::Clear) return atStart;
-    best = limit;
+    const LinkContact atStart = answerBefore(link, Ask::AtStart, kBegin, counters).contact;
+    if (atStart.verdict != Verdict::Clear || limit == kBegin) return atStart;
   }
-  const LinkContact contact = answerBefore(link, best, counters);
-  const bool isBelieved = best == limit;
-  if (isBelieved || (contact.verdict != Verdict::Clear && contact.freeUntil <= timeOf(best))) {
+  const auto [contact, until] = answerBefore(link, Ask::Along, limit, counters);
+  const bool isBelieved = until == limit;
+  if (isBelieved || (contact.verdict != Verdict::Clear && contact.freeUntil <= timeOf(until))) {
     return contact;
   }
   // Lanes dropped pairs later than a contact that the scalar code then did not find. Both are
   // proved, so this does not happen; if it did, we must still miss nothing.
   tolerances_.contact = kNeverCertain;
-  best = limit;
-  return answerBefore(link, best, counters);
+  return answerBefore(link, Ask::Along, limit, counters).contact;
 }
 
-/// Looks for nothing later than `best`, and lowers it by certain contacts. Of a mesh or a skin: if
-/// `best` is the step's beginning, tests for contact then, else looks after it. `startAlone`:
-/// `best` is the step's beginning, and nothing after it counts.
-LinkContact LaneLink::answerBefore(LinkId link, float& best, QueryCounters& counters,
-                                   bool startAlone) {
+LaneLink::Answer LaneLink::answerBefore(LinkId link, Ask ask, float limit,
+                                        QueryCounters& counters) {
   scratch_.candidates.clear();
   const std::int32_t firstLss = table_.first(link);
   for (std::int32_t lss = firstLss; lss < table_.first(link + 1); ++lss) {
     lanes_.handed.count = 0;
-    if (!advanceLss(lss, best, counters)) return undone(link);
+    const std::optional<float> lowered = advanceLss(lss, limit, counters);
+    if (!lowered) return {undone(link), limit};
+    limit = *lowered;
     addCandidates(lss - firstLss);
   }
-  const double latest = timeOf(best);
+  const double latest = timeOf(limit);
   auto& candidates = scratch_.candidates;
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
                                   [&](const Candidate& c) { return c.freeUntil > latest; }),
                    candidates.end());
-  if (candidates.empty()) return clearContact(link);
+  return {candidates.empty() ? clearContact(link) : scalarAnswer(link, ask, counters), limit};
+}
+
+/// Of the pairs that lanes left.
+LinkContact LaneLink::scalarAnswer(LinkId link, Ask ask, QueryCounters& counters) {
   prepareScalar(link);
   const LinkPlan& asked = plan_.of(link);
   const LinkQuery query{
@@ -153,19 +151,15 @@ LinkContact LaneLink::answerBefore(LinkId link, float& best, QueryCounters& coun
       plan_.leafProver.get(),
       *this,
       &scratch_.states};
-  const bool atStart = best == kBegin && begin_ == 0.0;
-  if (asked.skin != nullptr) return skinContact(query, atStart, counters);
-  if (asked.surface == nullptr && startAlone) {
-    const auto contact = contactAtStart(query, candidates, counters);
-    return contact ? *contact : clearContact(link);
-  }
-  if (asked.surface == nullptr) return backtrack(query, candidates, counters);
-  return surfaceContact(query, atStart, counters);
+  if (asked.skin != nullptr) return skinContact(query, ask, counters);
+  if (asked.surface != nullptr) return surfaceContact(query, ask, counters);
+  if (ask == Ask::Along) return backtrack(query, scratch_.candidates, counters);
+  const auto contact = contactAtStart(query, scratch_.candidates, counters);
+  return contact ? *contact : clearContact(link);
 }
 
 /// At exact fidelity: of the link's triangles, by the LSS candidates' times.
-LinkContact LaneLink::surfaceContact(const LinkQuery& query, bool atStart,
-                                     QueryCounters& counters) {
+LinkContact LaneLink::surfaceContact(const LinkQuery& query, Ask ask, QueryCounters& counters) {
   PartScratch& parts = lanes_.parts;
   // A single lane is slower than doubles, which need fewer evaluations.
   const bool inLanes = activeSimd() != Simd::Scalar;
@@ -174,7 +168,7 @@ LinkContact LaneLink::surfaceContact(const LinkQuery& query, bool atStart,
         framePolynomialsOf(query.one.link, motion_, lanes_.nodes());
     parts.lanes.reset(polynomials, scene_.parts().origin, begin_, end_);
   }
-  if (atStart) {
+  if (ask == Ask::AtStart) {
     if (inLanes) {
       for (Candidate& candidate : scratch_.candidates) {
         candidate.laneTriangle = parts.lanes.add(scene_.triangle(candidate.triangle));
@@ -192,10 +186,10 @@ LinkContact LaneLink::surfaceContact(const LinkQuery& query, bool atStart,
 }
 
 /// At skinned fidelity likewise, by the clusters' candidates.
-LinkContact LaneLink::skinContact(const LinkQuery& query, bool atStart, QueryCounters& counters) {
+LinkContact LaneLink::skinContact(const LinkQuery& query, Ask ask, QueryCounters& counters) {
   PartScratch& parts = lanes_.parts;
   parts.lanes.reset(parts.skin.beginLink(query.one.link), scene_.parts().origin, begin_, end_);
-  if (!atStart) return backtrackInLanes(query, scratch_.candidates, parts, counters);
+  if (ask == Ask::Along) return backtrackInLanes(query, scratch_.candidates, parts, counters);
   const auto contact = skinContactAtStart(query, scratch_.candidates, parts, counters);
   return contact ? *contact : clearContact(query.one.link);
 }
@@ -237,13 +231,13 @@ double LaneLink::radiusOf(std::int32_t lss) const {
   return plan_.blends ? lanes_.parts.skin.radius(lss) : table_[lss].radius;
 }
 
-/// Advances the LSS's pairs through the slab; `handed` gets those that lanes leave. False if the
-/// work was spent before all were done.
-bool LaneLink::advanceLss(std::int32_t lss, float& best, QueryCounters& counters) {
+/// Advances the LSS's pairs through the slab; `handed` gets those that lanes leave. Returns
+/// the limit, lowered by certain contacts; nothing if the work was spent before all were done.
+std::optional<float> LaneLink::advanceLss(std::int32_t lss, float limit, QueryCounters& counters) {
   const auto begin = lanes_.first[slotOf(lss)];
   const auto end = lanes_.first[slotOf(lss) + 1];
-  if (begin == end) return true;
-  if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
+  if (begin == end) return limit;
+  if (meter_.isLimited() && meter_.isPartSpent(counters)) return std::nullopt;
   const LssTable::Entry& entry = table_[lss];
   const LssPolynomials polynomials = plan_.blends ? lanes_.parts.skin.polynomials(lss)
                                                   : polynomialsOf(entry, motion_, lanes_.nodes());
@@ -254,18 +248,18 @@ bool LaneLink::advanceLss(std::int32_t lss, float& best, QueryCounters& counters
                           kBegin);
   lanes_.clusters.count = 0;
   counters.clusterSteps +=
-      lanes_.pairs.advanceSpheres(lane, tolerances_, kClusterRounds, best, lanes_.clusters);
+      lanes_.pairs.advanceSpheres(lane, tolerances_, kClusterRounds, limit, lanes_.clusters);
   sortClusters();
   std::size_t done = 0;
   while (done < lanes_.clusters.count) {
-    if (meter_.isLimited() && meter_.isPartSpent(counters)) return false;
-    done = collectParts(begin, done, best);
+    if (meter_.isLimited() && meter_.isPartSpent(counters)) return std::nullopt;
+    done = collectParts(begin, done, limit);
     lanes_.pairs.addTriangles(lane, lanes_.leafParts.data(), lanes_.leafParts.size(),
                               sweptBox(lanes_.boxes(), lss), origin, bvh_.vertexRounding());
     counters.candidates += lanes_.pairs.count();
-    counters.laneSteps += lanes_.pairs.advanceTriangles(lane, tolerances_, best, lanes_.handed);
+    counters.laneSteps += lanes_.pairs.advanceTriangles(lane, tolerances_, limit, lanes_.handed);
   }
-  return true;
+  return limit;
 }
 
 /// Sorts clusters by the earliest time still unproven, so that an early contact lets us skip the
@@ -291,11 +285,11 @@ void LaneLink::sortClusters() {
 
 /// Collects the triangles of the next clusters that are not proven clear, each from its first
 /// unproven time. Returns where to continue.
-std::size_t LaneLink::collectParts(std::size_t begin, std::size_t done, float best) {
+std::size_t LaneLink::collectParts(std::size_t begin, std::size_t done, float limit) {
   lanes_.leafParts.clear();
   for (; done < lanes_.clusters.count && lanes_.leafParts.size() < kPartsAtOnce; ++done) {
     const std::uint32_t i = lanes_.order[done];
-    if (lanes_.clusters.time[i] > best) continue;
+    if (lanes_.clusters.time[i] > limit) continue;
     const std::size_t hit = begin + static_cast<std::size_t>(lanes_.clusters.key[i]);
     const BvhLeaf& leaf = bvh_.leaf(static_cast<std::uint32_t>(lanes_.leaf[hit]));
     const std::uint8_t asked =

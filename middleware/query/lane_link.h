@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "middleware/query/backtracking.h"
@@ -39,25 +40,33 @@ class LaneLink final : private Neighbours {
   [[nodiscard]] float lanesTimeOf(double t) const;
 
  private:
+  /// Whether a contact counts at any time up to a limit, or at the step's beginning alone.
+  enum class Ask : std::uint8_t { Along, AtStart };
+  /// Certain contacts of lanes lower the limit: then the scalar code has to find one until there.
+  struct Answer {
+    LinkContact contact;
+    float limit;
+  };
+
   void prepare(LinkId link);
   void useTolerance(double tolerance);
   [[nodiscard]] double toleranceOf(LinkId link) const;
   [[nodiscard]] bool hasTriangles() const;
-  [[nodiscard]] LinkContact answerBefore(LinkId link, float& best, QueryCounters& counters,
-                                         bool startAlone = false);
+  [[nodiscard]] Answer answerBefore(LinkId link, Ask ask, float limit, QueryCounters& counters);
+  [[nodiscard]] LinkContact scalarAnswer(LinkId link, Ask ask, QueryCounters& counters);
   [[nodiscard]] LinkContact undone(LinkId link) const;
-  [[nodiscard]] LinkContact surfaceContact(const LinkQuery& query, bool atStart,
+  [[nodiscard]] LinkContact surfaceContact(const LinkQuery& query, Ask ask,
                                            QueryCounters& counters);
-  [[nodiscard]] LinkContact skinContact(const LinkQuery& query, bool atStart,
-                                        QueryCounters& counters);
+  [[nodiscard]] LinkContact skinContact(const LinkQuery& query, Ask ask, QueryCounters& counters);
   [[nodiscard]] AxisEnds endsOf(std::int32_t lss, const PosedLink& posed) const;
   [[nodiscard]] double radiusOf(std::int32_t lss) const;
   void prepareScalar(LinkId link);
   void collect(double t, const PosedLink& posed, double reach, std::vector<Candidate>& candidates,
                QueryCounters& counters) override;
-  [[nodiscard]] bool advanceLss(std::int32_t lss, float& best, QueryCounters& counters);
+  [[nodiscard]] std::optional<float> advanceLss(std::int32_t lss, float limit,
+                                                QueryCounters& counters);
   void sortClusters();
-  [[nodiscard]] std::size_t collectParts(std::size_t begin, std::size_t done, float best);
+  [[nodiscard]] std::size_t collectParts(std::size_t begin, std::size_t done, float limit);
   void addCandidates(std::int32_t lssOfLink);
   void addCandidate(TriangleId triangle, std::int32_t lssOfLink, float gap, double freeUntil);
 

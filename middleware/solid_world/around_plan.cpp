@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include "articulated/try.h"
@@ -26,21 +25,6 @@ void moveRoots(const Skeleton& skeleton, const Pose& pose, const Eigen::Vector3d
   for (std::size_t j = 0; j < moved.translations.size(); ++j) {
     if (skeleton.parents()[j] == kNoParent) moved.translations[j] -= origin;
   }
-}
-
-/// Two that nothing joins, as one chain.
-Result<Skeleton> skeletonOfBoth(const Skeleton& one, const Skeleton& other) {
-  RawSkeleton raw;
-  for (const Skeleton* const part : {&one, &other}) {
-    const auto first = static_cast<JointId>(raw.joints.size());
-    for (JointId joint = 0; joint < part->numJoints(); ++joint) {
-      const JointId parent = part->parent(joint);
-      raw.joints.push_back({std::to_string(raw.joints.size()),
-                            parent == kNoParent ? kNoParent : parent + first,
-                            part->restOffset(joint), part->restRotation(joint)});
-    }
-  }
-  return Skeleton::build(raw);
 }
 
 void append(const Pose& more, Pose& pose) {
@@ -81,7 +65,10 @@ Result<Done> AroundPlan::makeLss(const Avatar& avatar, const AroundKind& kind,
 /// As the avatar in the scene of the mesh, seen from that.
 Result<Done> AroundPlan::makeMesh(const Avatar& avatar, const AroundKind& kind,
                                   QueryOptions options) {
-  FORETOUCH_TRY(const Skeleton both, skeletonOfBoth(skeleton_, otherSkeleton_));
+  RawSkeleton raw;
+  appendChain(skeleton_, kNoParent, raw);
+  appendChain(otherSkeleton_, kNoParent, raw);
+  FORETOUCH_TRY(const Skeleton both, Skeleton::build(raw));
   FORETOUCH_TRY(seen_, RelativeChain::build(both, avatar.numLinks() + frame_));
   std::vector<std::vector<Lss>> lss(countOf(seen_->skeleton().numJoints()));
   linkOf_.assign(lss.size(), kNoParent);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
-#include <string>
 #include <utility>
 
 #include "articulated/try.h"
@@ -24,18 +23,9 @@ Result<Skeleton> skeletonOf(const WorldParts& world, const std::vector<SystemMem
   for (std::size_t i = 0; i < members.size(); ++i) {
     const SystemMember& member = members[i];
     if (chain != kEveryChain && member.chain != chain) continue;
-    const Skeleton& own = world.kinds[slotOf(member.kind)].skeleton;
-    first[i] = static_cast<JointId>(raw.joints.size());
-    for (JointId joint = 0; joint < own.numJoints(); ++joint) {
-      JointId parent = own.parent(joint);
-      if (parent != kNoParent) {
-        parent += first[i];
-      } else if (member.carrier >= 0) {
-        parent = first[slotOf(member.carrier)] + member.link;
-      }
-      raw.joints.push_back({std::to_string(i) + " " + std::to_string(joint), parent,
-                            own.restOffset(joint), own.restRotation(joint)});
-    }
+    const JointId carrier =
+        member.carrier < 0 ? kNoParent : first[slotOf(member.carrier)] + member.link;
+    first[i] = appendChain(world.kinds[slotOf(member.kind)].skeleton, carrier, raw);
   }
   return Skeleton::build(raw);
 }
