@@ -74,7 +74,7 @@ class Comparison {
   Query query_;
   RigidComparison rigid_;
   std::optional<Query> link_;
-  QueryScratch scratch_;
+  Scratch scratch_;
   Compared counts_;
 };
 

@@ -31,7 +31,7 @@ Result<Query> askLinks(const Query& exact) {
 }
 
 FidelityCounts compareWithLink(const Query& link, const ChainMotion& motion,
-                               const StepContacts& exact, QueryScratch& scratch) {
+                               const StepContacts& exact, Scratch& scratch) {
   const auto start = std::chrono::steady_clock::now();
   const StepContacts coarse = link.answer(motion, scratch);
   const std::chrono::duration<double, std::micro> elapsed =

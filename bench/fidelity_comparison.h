@@ -27,6 +27,6 @@ struct FidelityCounts {
 [[nodiscard]] Result<Query> askLinks(const Query& exact);
 /// Compares `exact`, the answer to `motion`, with that at link fidelity.
 [[nodiscard]] FidelityCounts compareWithLink(const Query& link, const ChainMotion& motion,
-                                             const StepContacts& exact, QueryScratch& scratch);
+                                             const StepContacts& exact, Scratch& scratch);
 
 }  // namespace foretouch::tools

@@ -95,7 +95,7 @@ Result<MemoryBench> measureMemory(const MemoryRequest& request) {
   if (!done.ok()) return done.error();
   const Pose rest = restPose(avatar.value().skeleton());
   const ChainMotion still(avatar.value().skeleton(), rest, rest);
-  QueryScratch scratch;
+  Scratch scratch;
   for (const char* const name : {"first query", "second query"}) {
     static_cast<void>(query.answer(still, scratch));
     done = stages.end(name);

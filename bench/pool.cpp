@@ -4,7 +4,8 @@
 
 #include "articulated/try.h"
 #include "lss/index.h"
-#include "middleware/query/query_pool.h"
+#include "middleware/query/query.h"
+#include "middleware/worker_pool.h"
 
 namespace foretouch::tools {
 namespace {
@@ -33,13 +34,13 @@ Result<CrowdTimes> timeCrowd(const Avatar& avatar, const std::vector<StepPoses>&
                              const Scene& scene, const QueryOptions& options, int avatars,
                              int instants, int threads) {
   FORETOUCH_TRY(const auto query, Query::build(avatar, scene, options));
-  FORETOUCH_TRY(auto pool, QueryPool::start(threads));
+  FORETOUCH_TRY(auto pool, WorkerPool::start(threads));
   CrowdTimes times;
   std::vector<StepContacts> answers;
   for (int instant = 0; instant < instants; ++instant) {
     const std::vector<StepTask> tasks = tasksAt(instant, avatars, query, steps);
     const Clock::time_point start = Clock::now();
-    const auto done = pool.answer(tasks, answers);
+    const auto done = Query::answerAll(tasks, pool, answers);
     const double seconds = secondsSince(start);
     if (!done.ok()) return done.error();
     times.wallS += seconds;

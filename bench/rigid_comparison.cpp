@@ -92,7 +92,7 @@ Result<RigidComparison> RigidComparison::build(const Avatar& avatar, const Scene
 }
 
 Result<RigidCounts> RigidComparison::compare(const ChainMotion& motion, const StepContacts& truth,
-                                             QueryScratch& scratch) const {
+                                             Scratch& scratch) const {
   const Skeleton& skeleton = forest_.avatar().skeleton();
   FORETOUCH_TRY(const auto from, worldPose(skeleton, motion, 0.0));
   FORETOUCH_TRY(const auto to, worldPose(skeleton, motion, 1.0));

@@ -39,7 +39,7 @@ class RigidComparison {
 
   /// Compares `truth`, the answer to `motion`, with the rigid model's answer to the same step.
   [[nodiscard]] Result<RigidCounts> compare(const ChainMotion& motion, const StepContacts& truth,
-                                            QueryScratch& scratch) const;
+                                            Scratch& scratch) const;
 
  private:
   explicit RigidComparison(Query forest) : forest_(std::move(forest)) {}

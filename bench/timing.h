@@ -65,7 +65,7 @@ struct Timing {
 /// One thread's memory from step to step.
 struct StepMemory {
   ChainMotion motion;
-  QueryScratch scratch;
+  Scratch scratch;
   StepContacts contacts;  ///< Of the last step.
 };
 

@@ -77,7 +77,7 @@ class Classifier {
   const BenchInputs& inputs_;
   const BenchBody& body_;
   Query query_, grown_;
-  QueryScratch scratch_;
+  Scratch scratch_;
 };
 
 /// Lowest point of any LSS of the whole avatar over all frames, and the middle of the first link's

@@ -62,7 +62,7 @@ class OmplEdges {
  private:
   /// Memory that all problems of a thread share.
   struct Memory {
-    EdgeScratch scratch;
+    Scratch scratch;
     std::vector<double> q0, q1, between;
   };
   static Memory& memoryOfThread() {
@@ -128,8 +128,8 @@ class OmplMotionValidator : public ompl::base::MotionValidator {
 
 /// Lets `space` ask Foretouch about states and motions; returns what it asks.
 /// Errors: as OmplStates::of().
-inline Result<std::shared_ptr<OmplEdges>> useForetouch(
-    const ompl::base::SpaceInformationPtr& space, EdgeQuery edges) {
+inline Result<std::shared_ptr<OmplEdges>> useForetouch(const ompl::base::SpaceInformationPtr& space,
+                                                       EdgeQuery edges) {
   auto states = OmplStates::of(edges.robot(), space->getStateSpace());
   if (!states.ok()) return states.error();
   auto shared = std::make_shared<OmplEdges>(std::move(edges), std::move(states).value());

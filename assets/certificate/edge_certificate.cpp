@@ -147,7 +147,7 @@ Result<EdgeCertificate> certifyEdges(const EdgeQuery& edges, const double* q0, c
   made.edges = headOf(edges, asked);
   made.proof = "foretouch-certificate 2\n";
   CertificateWriter writer(robot.avatar(), edges.scene(), asked);
-  EdgeScratch scratch;
+  Scratch scratch;
   std::vector<ChainMotion> parts;
   for (std::size_t i = 0; i < count; ++i) {
     const double *const from = q0 + i * n, *const to = q1 + i * n;

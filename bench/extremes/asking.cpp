@@ -150,7 +150,7 @@ class Asker {
   Asked& asked_;
   QueryOptions options_;
   ReferenceOptions reference_;
-  QueryScratch scratch_;
+  Scratch scratch_;
 };
 
 }  // namespace

@@ -33,7 +33,7 @@ class ForetouchSolver : public SweepSolver {
 
   Query query_;
   Pose from_, to_;
-  QueryScratch scratch_;
+  Scratch scratch_;
   ChainMotion motion_;
   StepContacts contacts_;
 };

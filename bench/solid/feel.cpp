@@ -186,7 +186,7 @@ class BareQuery {
  private:
   Query query_;
   ChainMotion motion_;
-  QueryScratch scratch_;
+  Scratch scratch_;
   StepContacts step_;
 };
 

@@ -139,7 +139,7 @@ class HoldingFollower final : public Follower {
   HeldLimbs limbs_;
   Pose shown_;
   ChainMotion motion_;
-  QueryScratch scratch_;
+  Scratch scratch_;
   StepContacts step_;
 };
 

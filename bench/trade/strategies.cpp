@@ -244,7 +244,7 @@ class ForetouchQuery : public Strategy {
  private:
   Query query_;
   ChainMotion motion_;
-  QueryScratch scratch_;
+  Scratch scratch_;
   StepContacts contacts_;
 };
 

@@ -36,7 +36,7 @@ class WorldPair final : public PairSolver {
       push(bodies_[1], poseAt(pair.other, t));
     }
     const std::int64_t fromUs = nowUs_ - kStepUs;
-    static_cast<void>(worldContacts(world_, fromUs, nowUs_, scratch_, answer_).value());
+    static_cast<void>(world_.contacts(fromUs, nowUs_, scratch_, answer_).value());
     world_.forgetBefore(nowUs_);
     if (answer_.contacts.empty()) return {false, 1.0};
     const double us = microsecondsAfter(fromUs, answer_.contacts.front().time);
@@ -60,7 +60,7 @@ class WorldPair final : public PairSolver {
 
   World world_;
   BodyId bodies_[2] = {0, 0};
-  WorldScratch scratch_;
+  Scratch scratch_;
   WorldContacts answer_;
   std::int64_t nowUs_ = 0;
 };

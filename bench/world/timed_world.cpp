@@ -46,7 +46,7 @@ void TimedWorld::push(BodyId body, std::int64_t utimeUs, const Pose& pose) {
 
 void TimedWorld::ask(std::int64_t fromUs, std::int64_t toUs, bool isCounted) {
   const double before = threadTimeUs();
-  mustBeOk(worldContacts(world_, fromUs, toUs, scratch_, answer_));
+  mustBeOk(world_.contacts(fromUs, toUs, scratch_, answer_));
   const double us = threadTimeUs() - before;
   world_.forgetBefore(toUs);
   const double pushed = std::exchange(pushedUs_, 0.0);

@@ -7,7 +7,7 @@
 
 #include "bench/timing.h"
 #include "bench/world/people.h"
-#include "middleware/world/world_query.h"
+#include "middleware/world/world.h"
 
 namespace foretouch::tools {
 
@@ -44,7 +44,7 @@ class TimedWorld {
 
  private:
   World world_;
-  WorldScratch scratch_;
+  Scratch scratch_;
   WorldContacts answer_;
   double pushedUs_ = 0.0;
 };

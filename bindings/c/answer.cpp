@@ -176,7 +176,7 @@ ft_status ft_touches_at(ft_query* query, int32_t link, double t, int32_t* touche
       return failure(FT_ERROR_OUT_OF_RANGE, link, "link: expected 0 to %d, found %d",
                      avatar.numLinks() - 1, link);
     }
-    if (query->isScratchSuspect) query->scratch = QueryScratch();
+    if (query->isScratchSuspect) query->scratch = Scratch();
     query->isScratchSuspect = true;
     const bool isTouching = query->question->touchesAt(query->step.motion, link, t, query->scratch);
     query->isScratchSuspect = false;

@@ -102,7 +102,7 @@ ft_status ft_query_details(ft_query* query, int32_t list, size_t index,
     Found found;
     if (const auto s = find(*query, list, index, found); s != FT_OK) return s;
     if (const auto s = checkedTouch(*found.contact); s != FT_OK) return s;
-    if (query->isScratchSuspect) query->scratch = QueryScratch();
+    if (query->isScratchSuspect) query->scratch = Scratch();
     query->isScratchSuspect = true;
     const ChainMotion& motion = query->step.motion;
     const ContactDetails known =

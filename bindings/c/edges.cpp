@@ -124,7 +124,7 @@ ft_status ft_edges_create(const ft_robot* robot, const ft_scene* scene,
     }
     EdgeOptions asked;
     if (const auto s = readEdgeOptions(known, asked); s != FT_OK) return s;
-    FORETOUCH_TRY_OR(failure, auto pool, EdgePool::start(known.threads));
+    FORETOUCH_TRY_OR(failure, auto pool, WorkerPool::start(known.threads));
     FORETOUCH_TRY_OR(failure, auto question, EdgeQuery::build(robot->robot, scene->scene, asked));
     std::vector<Scene> props;
     for (const EdgeProp& prop : asked.props) props.push_back(prop.scene);
@@ -148,7 +148,8 @@ ft_status ft_edges_answer(ft_edges* edges, const double* q0, const double* q1, s
     if (const auto s = neededArray(q1, count, kMaxEdges, "q1"); s != FT_OK) return s;
     if (const auto s = neededArray(answers, count, kMaxEdges, "answers"); s != FT_OK) return s;
     edges->hasAnswers = false;
-    FORETOUCH_CHECK_OR(failure, edges->pool.answer(edges->question, q0, q1, count, edges->answers));
+    FORETOUCH_CHECK_OR(failure,
+                       edges->question.answerAll(q0, q1, count, edges->pool, edges->answers));
     edges->hasAnswers = true;
     if (count == 0) return FT_OK;
     const auto at = [&](std::size_t i) { return edgeOf(edges->answers[i]); };
@@ -163,7 +164,7 @@ ft_status ft_edges_answer_path(ft_edges* edges, const double* q, size_t count,
     if (const auto s = checkedCounts(*edges, count, coordinate_count); s != FT_OK) return s;
     if (const auto s = neededArray(q, count, kMaxEdges, "q"); s != FT_OK) return s;
     edges->hasAnswers = false;
-    FORETOUCH_TRY_OR(failure, const auto found, edges->pool.answerPath(edges->question, q, count));
+    FORETOUCH_TRY_OR(failure, const auto found, edges->question.answerPath(q, count, edges->pool));
     edges->answers.assign(1, found.answer);
     edges->hasAnswers = true;
     ft_path c{};

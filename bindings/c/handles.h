@@ -92,7 +92,7 @@ struct ft_query {
   std::shared_ptr<const foretouch::c::AvatarParts> avatar;
   std::optional<foretouch::PairRules> self;  // stay when the options change
   std::optional<foretouch::Query> question;  // from ft_query_create() on
-  foretouch::QueryScratch scratch;
+  foretouch::Scratch scratch;
   bool isScratchSuspect = false;  // an exception left it half written
   foretouch::Pose from, to;       // of the current step
   foretouch::Pose last;           // where the last step ended
@@ -111,7 +111,7 @@ struct ft_near {
   std::shared_ptr<const foretouch::c::AvatarParts> avatar;
   foretouch::NearQuery question;
   foretouch::NearDetail detail = foretouch::NearDetail::Reduced;
-  foretouch::NearScratch scratch;
+  foretouch::Scratch scratch;
   foretouch::ChainMotion still;  // of the pose that is asked
   foretouch::Pose pose;
   std::vector<foretouch::LinkState> states;

@@ -15,8 +15,7 @@ ft_status copyPose(const ft_pose* given, const char* name, const Skeleton& skele
   if (const auto s = readStruct(given, name, known); s != FT_OK) return s;
   const auto joints = countOf(skeleton.numJoints());
   if (known.joint_count != joints) {
-    return failure(FT_ERROR_MISMATCH, kNoIndex,
-                   "%s: expected %zu joints, found %u", name, joints,
+    return failure(FT_ERROR_MISMATCH, kNoIndex, "%s: expected %zu joints, found %u", name, joints,
                    known.joint_count);
   }
   if (const auto s = needed(known.rotations, "rotations"); s != FT_OK) return s;
@@ -44,7 +43,7 @@ namespace {
 
 /// Answers query.from to query.to into query.next.
 void answerNext(ft_query& query) {
-  if (query.isScratchSuspect) query.scratch = QueryScratch();
+  if (query.isScratchSuspect) query.scratch = Scratch();
   query.isScratchSuspect = true;
   query.next.motion.assign(query.avatar->avatar.skeleton(), query.from, query.to);
   query.question->answer(query.next.motion, query.scratch, query.next.answer);

@@ -8,7 +8,8 @@
 #include "articulated/robot.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/include/foretouch/robots.h"
-#include "middleware/edges/edge_pool.h"
+#include "middleware/edges/edge_query.h"
+#include "middleware/worker_pool.h"
 
 struct ft_robot {
   static constexpr auto kMark = foretouch::c::Mark::Robot;
@@ -26,7 +27,7 @@ struct ft_edges {
   foretouch::Scene scene;
   std::vector<foretouch::Scene> props;  // their scenes
   foretouch::EdgeQuery question;
-  foretouch::EdgePool pool;
+  foretouch::WorkerPool pool;
   std::vector<foretouch::EdgeAnswer> answers;  // of the last list; of a path, its one
   bool hasAnswers = false;
 };

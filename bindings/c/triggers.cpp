@@ -189,9 +189,9 @@ ft_status ft_world_depth(ft_world* world, const ft_depth_question* question, ft_
     ft_depth_question asked{};
     if (const auto s = readStruct(question, "ft_depth_question", asked); s != FT_OK) return s;
     const DepthQuestion who{asked.body, asked.link, asked.from_body, asked.from_link};
-    WorldDepthScratch scratch;
+    Scratch scratch;
     FORETOUCH_TRY_OR(worldFailure, const WorldDepth found,
-                     depthAt(world->world, {asked.time_us, asked.time_fraction}, who, scratch));
+                     world->world.depth({asked.time_us, asked.time_fraction}, who, scratch));
     return writeStruct(depth, "ft_depth", c::depthOf(found));
   });
 }

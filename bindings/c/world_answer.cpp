@@ -92,8 +92,7 @@ ft_status ft_world_answer(ft_world* world, int64_t from_us, int64_t to_us) {
     if (const auto s = checked(world); s != FT_OK) return s;
     if (world->isScratchSuspect) world->scratch.emplace();
     world->isScratchSuspect = true;
-    const Result<Done> done =
-        worldContacts(world->world, from_us, to_us, *world->scratch, world->next);
+    const Result<Done> done = world->world.contacts(from_us, to_us, *world->scratch, world->next);
     world->isScratchSuspect = false;
     FORETOUCH_CHECK_OR(worldFailure, done);
     std::swap(world->answer, world->next);

@@ -14,7 +14,7 @@
 #include "middleware/events/world_follower.h"
 #include "middleware/solid_world/solid_world.h"
 #include "middleware/triggers/triggers.h"
-#include "middleware/world/world_query.h"
+#include "middleware/world/world.h"
 
 /// For one thread. Answers a window beside the last one, which it replaces once done.
 struct ft_world {
@@ -53,7 +53,7 @@ struct ft_world {
   foretouch::World& world;  // one of these two
   std::vector<Body> bodies;
   foretouch::Pose given;
-  std::optional<foretouch::WorldScratch> scratch;
+  std::optional<foretouch::Scratch> scratch;
   bool isScratchSuspect = true;  // an exception left it half written, or it is not made yet
   foretouch::WorldContacts answer, next;
   bool hasAnswer = false;

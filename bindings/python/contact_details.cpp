@@ -43,7 +43,7 @@ ContactDetails askedAgain(const Contact& contact) {
   const std::size_t step = stepOf(contact);
   const ChainMotion motion(answers.avatar->skeleton(), answers.motions.start(step),
                            answers.motions.end(step));
-  QueryScratch scratch;
+  Scratch scratch;
   if (contact.isOfPair()) {
     return answers.question.details(motion, answers.pairs[contact.place], scratch);
   }

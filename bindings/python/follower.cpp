@@ -10,7 +10,7 @@
 #include "lss/index.h"
 #include "middleware/events/world_follower.h"
 #include "middleware/mechanics/avatar_mass.h"
-#include "middleware/query/query_pool.h"
+#include "middleware/worker_pool.h"
 
 namespace foretouch::python {
 namespace {

@@ -100,7 +100,7 @@ class PythonNearQuery {
   std::shared_ptr<Scene> scene_;
   NearQuery question_;
   std::mutex mutex_;
-  NearScratch scratch_;
+  Scratch scratch_;
   ChainMotion still_;
   std::vector<LinkState> states_;
 };

@@ -8,7 +8,8 @@
 #include "bindings/python/bindings.h"
 #include "bindings/python/poses.h"
 #include "bindings/python/query_options.h"
-#include "middleware/query/query_pool.h"
+#include "middleware/query/query.h"
+#include "middleware/worker_pool.h"
 
 namespace foretouch::python {
 namespace {
@@ -23,11 +24,11 @@ class BorrowedScratch {
   BorrowedScratch(const BorrowedScratch&) = delete;
   BorrowedScratch& operator=(const BorrowedScratch&) = delete;
   ~BorrowedScratch() { shelf_.putBack(std::move(scratch_)); }
-  QueryScratch& operator*() { return *scratch_; }
+  Scratch& operator*() { return *scratch_; }
 
  private:
   ScratchShelf& shelf_;
-  std::unique_ptr<QueryScratch> scratch_;
+  std::unique_ptr<Scratch> scratch_;
 };
 
 /// An error about an option is one about its keyword.
@@ -45,15 +46,15 @@ void throwIfInterrupted() {
 
 }  // namespace
 
-std::unique_ptr<QueryScratch> ScratchShelf::take() {
+std::unique_ptr<Scratch> ScratchShelf::take() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (free_.empty()) return std::make_unique<QueryScratch>();
+  if (free_.empty()) return std::make_unique<Scratch>();
   auto scratch = std::move(free_.back());
   free_.pop_back();
   return scratch;
 }
 
-void ScratchShelf::putBack(std::unique_ptr<QueryScratch> scratch) {
+void ScratchShelf::putBack(std::unique_ptr<Scratch> scratch) {
   const std::lock_guard<std::mutex> lock(mutex_);
   free_.push_back(std::move(scratch));
 }
@@ -82,7 +83,7 @@ Step Query::firstContacts(std::shared_ptr<const Motion> motion) {
 }
 
 Steps Query::firstContactsMany(AnsweredMotions motions, int threads) {
-  auto pool = valueOf(QueryPool::start(threads));
+  auto pool = valueOf(WorkerPool::start(threads));
   const std::size_t steps = motions.count();
   const auto answers =
       std::make_shared<Answers>(Answers{avatar_, scene_, question_, std::move(motions)});
@@ -97,7 +98,7 @@ Steps Query::firstContactsMany(AnsweredMotions motions, int threads) {
     for (std::size_t i = done; i < std::min(steps, done + kStepsAtOnce); ++i) {
       tasks.push_back({&question_, &answers->motions.start(i), &answers->motions.end(i)});
     }
-    valueOf(pool.answer(tasks, found));
+    valueOf(foretouch::Query::answerAll(tasks, pool, found));
     for (StepContacts& step : found) answers->add(std::move(step));
   }
   return {answers};

@@ -19,12 +19,12 @@ namespace foretouch::python {
 /// Scratch memory for any number of concurrent calls.
 class ScratchShelf {
  public:
-  [[nodiscard]] std::unique_ptr<QueryScratch> take();
-  void putBack(std::unique_ptr<QueryScratch> scratch);
+  [[nodiscard]] std::unique_ptr<Scratch> take();
+  void putBack(std::unique_ptr<Scratch> scratch);
 
  private:
   std::mutex mutex_;
-  std::vector<std::unique_ptr<QueryScratch>> free_;
+  std::vector<std::unique_ptr<Scratch>> free_;
 };
 
 /// Any number of threads may use one Query at once: each call takes its own scratch. Callers hold

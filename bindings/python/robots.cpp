@@ -20,7 +20,8 @@
 #include "bindings/python/query_options.h"
 #include "bindings/python/shared_robot.h"
 #include "lss/index.h"
-#include "middleware/edges/edge_pool.h"
+#include "middleware/edges/edge_query.h"
+#include "middleware/worker_pool.h"
 
 namespace foretouch::python {
 namespace {
@@ -189,7 +190,7 @@ class PythonEdgeQuery {
       : robot_(std::move(robot)),
         scenes_(std::move(scenes)),
         question_(valueOf(EdgeQuery::build(*robot_.robot, *scenes_.front(), options))),
-        pool_(valueOf(EdgePool::start(threads))) {}
+        pool_(valueOf(WorkerPool::start(threads))) {}
 
   [[nodiscard]] const SharedRobot& robot() const { return robot_; }
   [[nodiscard]] const std::shared_ptr<Scene>& scene() const { return scenes_.front(); }
@@ -213,8 +214,8 @@ class PythonEdgeQuery {
     {
       const py::gil_scoped_release free;
       const std::lock_guard<std::mutex> lock(mutex_);
-      valueOf(pool_.answer(question_, from.data(), to.data(),
-                           static_cast<std::size_t>(from.shape(0)), answers));
+      valueOf(question_.answerAll(from.data(), to.data(), static_cast<std::size_t>(from.shape(0)),
+                                  pool_, answers));
     }
     return edgesOf(answers, robot_, scenes_);
   }
@@ -245,7 +246,7 @@ class PythonEdgeQuery {
       const py::gil_scoped_release free;
       const std::lock_guard<std::mutex> lock(mutex_);
       path = valueOf(
-          pool_.answerPath(question_, given.data(), static_cast<std::size_t>(given.shape(0))));
+          question_.answerPath(given.data(), static_cast<std::size_t>(given.shape(0)), pool_));
     }
     return py::make_tuple(path->freeUntil, edgesOf({path->answer}, robot_, scenes_));
   }
@@ -269,7 +270,7 @@ class PythonEdgeQuery {
   std::vector<std::shared_ptr<Scene>> scenes_;  // the scene, then those of props
   EdgeQuery question_;
   std::mutex mutex_;
-  EdgePool pool_;
+  WorkerPool pool_;
 };
 
 std::unique_ptr<PythonEdgeQuery> makeEdges(const SharedRobot& robot, std::shared_ptr<Scene> scene,

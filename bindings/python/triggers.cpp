@@ -152,9 +152,9 @@ py::object depthIn(World& world, const Shown<shown::Integer>& utimeUs,
   question.b = other.is_none() ? kStillScene : smallNumber(other, "other");
   const WorldTime time{triggerInstant(utimeUs, "utime_us"), 0.0};
   WorldDepth found;
-  WorldDepthScratch scratch;
+  Scratch scratch;
   world.with("depth", [&](foretouch::World& of) -> Result<Done> {
-    auto asked = depthAt(of, time, question, scratch);
+    auto asked = of.depth(time, question, scratch);
     if (!asked.ok()) return asked.error();
     found = asked.value();
     return Done{};

@@ -115,9 +115,9 @@ std::optional<BodyId> World::waitsFor() {
 foretouch::WorldContacts World::contacts(std::int64_t fromUs, std::int64_t toUs) {
   foretouch::WorldContacts answer;
   change("window", [&] {
-    if (isScratchSuspect_) scratch_ = WorldScratch();
+    if (isScratchSuspect_) scratch_ = Scratch();
     isScratchSuspect_ = true;
-    auto done = worldContacts(world_, fromUs, toUs, scratch_, answer);
+    auto done = world_.contacts(fromUs, toUs, scratch_, answer);
     isScratchSuspect_ = false;
     return done;
   });

@@ -13,7 +13,7 @@
 #include "middleware/depth/world_depth.h"
 #include "middleware/events/world_event.h"
 #include "middleware/scene/scene.h"
-#include "middleware/world/world_query.h"
+#include "middleware/world/world.h"
 
 namespace foretouch::python {
 
@@ -68,7 +68,7 @@ class World {
   std::optional<foretouch::World> own_;
   foretouch::World& world_;
   std::shared_ptr<const BodyShapes> shapes_ = std::make_shared<BodyShapes>();
-  WorldScratch scratch_;
+  Scratch scratch_;
   bool isScratchSuspect_ = false;  // memory ran out half-way
 };
 

@@ -39,7 +39,7 @@ int main() {
   const Query query = made(Query::build(avatar, scene, options));
 
   ChainMotion motion;
-  QueryScratch scratch;
+  Scratch scratch;
   StepContacts step;
   Pose shown = trackedIn(0, avatar.skeleton());
   int held = 0;

@@ -37,7 +37,7 @@ int main(int count, char** arguments) {
 
   // One of each per thread: their memory serves every step.
   ChainMotion motion;
-  QueryScratch scratch;
+  Scratch scratch;
   StepContacts step;
   int steps = 0, contacts = 0;
   Pose earlier = poseAt(0);

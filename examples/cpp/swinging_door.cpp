@@ -78,7 +78,7 @@ int main() {
   World world = must(World::build(std::nullopt));    // or a Scene: what never moves
   const BodyId dancer = must(world.add(avatar));     // several bodies may have one avatar
   const BodyId door = must(world.add(doorPanel()));  // a Scene in the door's own frame
-  WorldScratch scratch;
+  Scratch scratch;
   WorldContacts answer;
   std::int64_t answered = 0;
   for (std::int64_t us = 0; us <= 4'000'000; us += 5'556) {
@@ -87,7 +87,7 @@ int main() {
     if (us % 16'668 == 0) must(world.push(door, us, trackedDoor(s)));  // its own clock
     const std::int64_t until = *world.knownUntilUs();                  // all is known until then
     if (until <= answered) continue;
-    must(worldContacts(world, answered, until, scratch, answer));
+    must(world.contacts(answered, until, scratch, answer));
     contacts += print(answer, skeleton);
     world.forgetBefore(until);
     answered = until;

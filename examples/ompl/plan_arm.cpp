@@ -144,9 +144,9 @@ int main(int argc, char** argv) {
     writeObj(poles(), std::string(argv[3]) + "/poles.obj");
     writeCsv(robot, path, std::string(argv[3]) + "/plan.csv");
   }
-  EdgePool pool = orStop(EdgePool::start(1));
+  WorkerPool pool = orStop(WorkerPool::start(1));
   const std::size_t count = path.size() / robot.numCoordinates();
-  const PathAnswer answer = orStop(pool.answerPath(edges, path.data(), count));
+  const PathAnswer answer = orStop(edges.answerPath(path.data(), count, pool));
   const bool isFree = answer.edge == count - 1;
   std::printf("%zu configurations, %llu edges asked; keeps 5 mm: %s\n", count,
               static_cast<unsigned long long>(asked->numEdges()), isFree ? "proven" : "no");

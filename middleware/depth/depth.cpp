@@ -14,17 +14,6 @@
 
 namespace foretouch {
 
-struct DepthScratch::Parts {
-  std::vector<internal::PiecePair> near, open;
-  std::vector<internal::PartingPlane> planes;
-  std::vector<double> weights;
-};
-
-DepthScratch::DepthScratch() : parts_(std::make_unique<Parts>()) {}
-DepthScratch::~DepthScratch() = default;
-DepthScratch::DepthScratch(DepthScratch&&) noexcept = default;
-DepthScratch& DepthScratch::operator=(DepthScratch&&) noexcept = default;
-
 namespace {
 
 using Eigen::Vector3d;
@@ -32,6 +21,15 @@ using internal::ConvexPair;
 using internal::PartingPlane;
 using internal::PiecePair;
 using internal::PiecesApart;
+
+/// What questions about depths keep.
+struct DepthMemory : internal::ScratchPart {
+  static constexpr internal::ScratchKind kKind = internal::ScratchKind::Depth;
+
+  std::vector<PiecePair> near, open;
+  std::vector<PartingPlane> planes;
+  std::vector<double> weights;
+};
 
 /// A way is not looked for if it could be shorter than what is certified by less than this share.
 constexpr double kGoodEnough = 1e-9;
@@ -43,7 +41,7 @@ constexpr double kHelpful = 0.1;
 /// One question. Proposes translations, and believes none that it cannot certify.
 class WayOut {
  public:
-  WayOut(PiecesApart& pieces, DepthScratch::Parts& memory, Depth& depth)
+  WayOut(PiecesApart& pieces, DepthMemory& memory, Depth& depth)
       : pieces_(pieces), memory_(memory), depth_(depth) {}
 
   void find() {
@@ -193,27 +191,27 @@ class WayOut {
   }
 
   PiecesApart& pieces_;
-  DepthScratch::Parts& memory_;
+  DepthMemory& memory_;
   Depth& depth_;
   PartingPlane deepest_{Vector3d::Zero(), 0.0};
   Vector3d sum_ = Vector3d::Zero();
   std::int64_t looks_ = 0;
 };
 
-Depth depthOfPieces(PiecesApart pieces, DepthScratch& scratch) {
+Depth depthOfPieces(PiecesApart pieces, Scratch& scratch) {
   Depth depth;
-  WayOut(pieces, scratch.parts(), depth).find();
+  WayOut(pieces, scratch.of<DepthMemory>(), depth).find();
   return depth;
 }
 
 }  // namespace
 
-Depth depthAmong(const std::vector<Lss>& moved, const std::vector<Lss>& others,
-                 DepthScratch& scratch, double rounding) {
+Depth depthAmong(const std::vector<Lss>& moved, const std::vector<Lss>& others, Scratch& scratch,
+                 double rounding) {
   return depthOfPieces({moved, others, rounding}, scratch);
 }
 
-Depth depthIn(const std::vector<Lss>& moved, const Scene& scene, DepthScratch& scratch,
+Depth depthIn(const std::vector<Lss>& moved, const Scene& scene, Scratch& scratch,
               double rounding) {
   return depthOfPieces({moved, scene, rounding}, scratch);
 }

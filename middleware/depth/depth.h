@@ -5,13 +5,13 @@
 
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "lss/lss.h"
 #include "middleware/scene/scene.h"
+#include "middleware/scratch.h"
 
 namespace foretouch {
 
@@ -31,22 +31,6 @@ struct Depth {
   std::int32_t deepestMoved = -1, deepestOther = -1;
 };
 
-/// Memory that questions reuse; one per thread.
-class DepthScratch {
- public:
-  DepthScratch();
-  ~DepthScratch();
-  DepthScratch(DepthScratch&&) noexcept;
-  DepthScratch& operator=(DepthScratch&&) noexcept;
-
-  struct Parts;
-  /// For the question's own sources.
-  [[nodiscard]] Parts& parts() { return *parts_; }
-
- private:
-  std::unique_ptr<Parts> parts_;
-};
-
 /// At most so many pairs of pieces are looked at in the search for a way out (each look costs some
 /// hundred nanoseconds); after these, the best way so far is the answer.
 inline constexpr std::int64_t kMostDepthLooks = 200'000;
@@ -55,8 +39,8 @@ inline constexpr std::int64_t kMostDepthLooks = 200'000;
 /// from where it is given (m, >= 0). Coordinates finite, below 1e100; |coordinate| <= 1e7 for a
 /// scene. The same answer for the same input. O(pairs that are near, times the looks it takes).
 [[nodiscard]] Depth depthAmong(const std::vector<Lss>& moved, const std::vector<Lss>& others,
-                               DepthScratch& scratch, double rounding = 0.0);
-[[nodiscard]] Depth depthIn(const std::vector<Lss>& moved, const Scene& scene,
-                            DepthScratch& scratch, double rounding = 0.0);
+                               Scratch& scratch, double rounding = 0.0);
+[[nodiscard]] Depth depthIn(const std::vector<Lss>& moved, const Scene& scene, Scratch& scratch,
+                            double rounding = 0.0);
 
 }  // namespace foretouch

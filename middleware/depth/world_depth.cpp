@@ -13,24 +13,21 @@
 
 namespace foretouch {
 
-struct WorldDepthScratch::Parts {
-  internal::BodyPlaces bodies;
-  std::vector<internal::LinkPlace> places;
-  std::vector<Lss> moved, others;
-  std::vector<ContactSide> sidesOfMoved, sidesOfOthers;
-  DepthScratch depth;
-};
-
-WorldDepthScratch::WorldDepthScratch() : parts_(std::make_unique<Parts>()) {}
-WorldDepthScratch::~WorldDepthScratch() = default;
-WorldDepthScratch::WorldDepthScratch(WorldDepthScratch&&) noexcept = default;
-WorldDepthScratch& WorldDepthScratch::operator=(WorldDepthScratch&&) noexcept = default;
-
 namespace {
 
 using internal::LinkPlace;
 using internal::PlaceKnown;
 using internal::WorldParts;
+
+/// What questions about depths in a world keep.
+struct WorldDepthMemory : internal::ScratchPart {
+  static constexpr internal::ScratchKind kKind = internal::ScratchKind::WorldDepth;
+
+  internal::BodyPlaces bodies;
+  std::vector<LinkPlace> places;
+  std::vector<Lss> moved, others;
+  std::vector<ContactSide> sidesOfMoved, sidesOfOthers;
+};
 
 std::string nameOf(BodyId body) {
   return "body " + std::to_string(body);
@@ -88,8 +85,8 @@ Result<Done> checked(const WorldParts& world, const Asked& a, const Asked& b) {
 
 class Question {
  public:
-  Question(const WorldParts& world, const WorldTime& time, WorldDepthScratch::Parts& scratch)
-      : world_(world), time_(time), scratch_(scratch) {}
+  Question(const WorldParts& world, const WorldTime& time, Scratch& scratch)
+      : world_(world), time_(time), scratch_(scratch), memory_(scratch.of<WorldDepthMemory>()) {}
 
   Result<WorldDepth> ask(const Asked& a, const Asked& b) {
     // What is made of LSS is moved; out of another, either may be.
@@ -105,24 +102,24 @@ class Question {
 
  private:
   Result<WorldDepth> outOf(const Asked& moved, const Asked& other) {
-    FORETOUCH_CHECK(place(moved, scratch_.moved, scratch_.sidesOfMoved));
+    FORETOUCH_CHECK(place(moved, memory_.moved, memory_.sidesOfMoved));
     WorldDepth answer;
     answer.a.body = moved.body;
     answer.b.body = other.body;
     answer.a.link = moved.link == kEveryLink ? 0 : moved.link;
     answer.b.link = other.link == kEveryLink ? 0 : other.link;
     if (other.body == kStillScene) {
-      answer.depth = depthIn(scratch_.moved, *world_.still, scratch_.depth, rounding_);
+      answer.depth = depthIn(memory_.moved, *world_.still, scratch_, rounding_);
     } else if (hasLss(world_, other)) {
-      FORETOUCH_CHECK(place(other, scratch_.others, scratch_.sidesOfOthers));
-      answer.depth = depthAmong(scratch_.moved, scratch_.others, scratch_.depth, rounding_);
+      FORETOUCH_CHECK(place(other, memory_.others, memory_.sidesOfOthers));
+      answer.depth = depthAmong(memory_.moved, memory_.others, scratch_, rounding_);
     } else {
       FORETOUCH_TRY(answer.depth, inMesh(other.body));
     }
     if (answer.depth.deepestMoved < 0) return answer;
-    answer.a = scratch_.sidesOfMoved[slotOf(answer.depth.deepestMoved)];
+    answer.a = memory_.sidesOfMoved[slotOf(answer.depth.deepestMoved)];
     if (hasLss(world_, other)) {
-      answer.b = scratch_.sidesOfOthers[slotOf(answer.depth.deepestOther)];
+      answer.b = memory_.sidesOfOthers[slotOf(answer.depth.deepestOther)];
     } else {
       answer.b.triangle = answer.depth.deepestOther;
     }
@@ -132,10 +129,10 @@ class Question {
   /// In the mesh's frame, and back.
   Result<Depth> inMesh(BodyId mesh) {
     FORETOUCH_CHECK(placesOf(mesh));
-    const LinkPlace frame = scratch_.places.front();
+    const LinkPlace frame = memory_.places.front();
     const Scene& scene = *world_.kindOf(mesh).mesh;
     double reach = world_.kindOf(mesh).rho;
-    for (Lss& lss : scratch_.moved) {
+    for (Lss& lss : memory_.moved) {
       double ofOne = rounding_;
       lss = internal::seenFrom(frame, lss, ofOne);
       most_ = std::max(most_, ofOne);
@@ -145,7 +142,7 @@ class Question {
     // proven.
     const double longest = 4.0 * reach + 1.0;
     const double perMetre = frame.ofTurn + MotionBounds::kPointRounding;
-    Depth depth = depthIn(scratch_.moved, scene, scratch_.depth,
+    Depth depth = depthIn(memory_.moved, scene, scratch_,
                           (most_ + perMetre * longest) * internal::kInflation);
     depth.wayOut = frame.R_WL * depth.wayOut;
     const double length = depth.wayOut.norm() * internal::kInflation;
@@ -160,7 +157,7 @@ class Question {
   }
 
   Result<Done> placesOf(BodyId body) {
-    const PlaceKnown how = scratch_.bodies.at(world_, body, time_, scratch_.places);
+    const PlaceKnown how = memory_.bodies.at(world_, body, time_, memory_.places);
     isAssumed_ = isAssumed_ || how == PlaceKnown::Assumed;
     if (how == PlaceKnown::Known || how == PlaceKnown::Assumed) return Done{};
     return Error::at(body, ErrorCode::OutOfRange,
@@ -176,7 +173,7 @@ class Question {
     for (LinkId link = 0; link < avatar.numLinks(); ++link) {
       if (asked.link != kEveryLink && asked.link != link) continue;
       for (const Lss& one : avatar.lss(link)) {
-        lss.push_back(internal::placed(one, scratch_.places[slotOf(link)], rounding_));
+        lss.push_back(internal::placed(one, memory_.places[slotOf(link)], rounding_));
         ContactSide side;
         side.body = asked.body;
         side.link = link;
@@ -189,7 +186,8 @@ class Question {
 
   const WorldParts& world_;
   const WorldTime& time_;
-  WorldDepthScratch::Parts& scratch_;
+  Scratch& scratch_;
+  WorldDepthMemory& memory_;
   double rounding_ = 0.0;  // of LSS in W
   double most_ = 0.0;      // of those seen from a mesh
   bool isAssumed_ = false;
@@ -197,14 +195,14 @@ class Question {
 
 }  // namespace
 
-Result<WorldDepth> depthAt(const World& world, const WorldTime& time, const DepthQuestion& question,
-                           WorldDepthScratch& scratch) {
+Result<WorldDepth> World::depth(const WorldTime& time, const DepthQuestion& question,
+                                Scratch& scratch) const {
   if (!(time.fraction >= 0.0 && time.fraction < 1.0)) {
     return Error::of(ErrorCode::OutOfRange, "expected a fraction of a microsecond in [0, 1)");
   }
   const Asked a{question.a, question.linkOfA}, b{question.b, question.linkOfB};
-  FORETOUCH_CHECK(checked(world.parts(), a, b));
-  return Question(world.parts(), time, scratch.parts()).ask(a, b);
+  FORETOUCH_CHECK(checked(parts(), a, b));
+  return Question(parts(), time, scratch).ask(a, b);
 }
 
 }  // namespace foretouch

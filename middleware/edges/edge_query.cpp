@@ -12,6 +12,17 @@
 namespace foretouch {
 namespace {
 
+/// What questions about edges keep.
+struct EdgeMemory : internal::ScratchPart {
+  static constexpr internal::ScratchKind kKind = internal::ScratchKind::Edge;
+
+  ChainMotion motion;
+  StepContacts step;
+  Pose from, to;
+  Pose propFrom, propTo;  // the same as seen from a prop
+  std::vector<double> q;
+};
+
 /// The same pairs of the grown avatar.
 Result<PairRules> grownRules(const Avatar& avatar, const PairRules& rules, double growth) {
   std::vector<PairRadius> radii = rules.radii();
@@ -134,13 +145,13 @@ Result<Done> EdgeQuery::place(std::size_t prop, const std::optional<RigidPose>& 
 }
 
 Result<EdgeAnswer> EdgeQuery::answer(const std::vector<double>& q0, const std::vector<double>& q1,
-                                     EdgeScratch& scratch) const {
+                                     Scratch& scratch) const {
   FORETOUCH_CHECK(robot_->checked(q0.data(), q0.size()));
   return answer(q0.data(), q1.data(), q1.size(), scratch);
 }
 
 Result<EdgeAnswer> EdgeQuery::answer(const double* q0, const double* q1, std::size_t count,
-                                     EdgeScratch& scratch) const {
+                                     Scratch& scratch) const {
   FORETOUCH_CHECK(robot_->checked(q0, count));
   FORETOUCH_CHECK(robot_->checked(q1, count));
   EdgeAnswer answer;
@@ -151,32 +162,34 @@ Result<EdgeAnswer> EdgeQuery::answer(const double* q0, const double* q1, std::si
     answer.reason = UndecidedReason::Resolution;
     return answer;
   }
-  scratch.q.resize(count);
-  robot_->poseAt(q0, scratch.to);
+  auto& memory = scratch.of<EdgeMemory>();
+  memory.q.resize(count);
+  robot_->poseAt(q0, memory.to);
   answer.verdict = Verdict::Clear;
   for (int part = 0; part < parts && answer.verdict == Verdict::Clear; ++part) {
-    std::swap(scratch.from, scratch.to);
-    robot_->between(q0, q1, static_cast<double>(part + 1) / parts, scratch.q.data());
-    robot_->poseAt(scratch.q.data(), scratch.to);
+    std::swap(memory.from, memory.to);
+    robot_->between(q0, q1, static_cast<double>(part + 1) / parts, memory.q.data());
+    robot_->poseAt(memory.q.data(), memory.to);
     answerPart(scratch, answer, part, parts);
   }
   if (answer.verdict == Verdict::Clear) answer.freeUntil = 1.0;
   return answer;
 }
 
-void EdgeQuery::answerPart(EdgeScratch& scratch, EdgeAnswer& answer, int part, int parts) const {
-  scratch.motion.assign(robot_->avatar().skeleton(), scratch.from, scratch.to);
-  scene_->answer(scratch.motion, scratch.query, scratch.step);
-  for (const LinkContact& contact : scratch.step.links) {
+void EdgeQuery::answerPart(Scratch& scratch, EdgeAnswer& answer, int part, int parts) const {
+  auto& memory = scratch.of<EdgeMemory>();
+  memory.motion.assign(robot_->avatar().skeleton(), memory.from, memory.to);
+  scene_->answer(memory.motion, scratch, memory.step);
+  for (const LinkContact& contact : memory.step.links) {
     if (!isMet(contact)) continue;
     PairContact met;
     static_cast<LinkContact&>(met) = contact;
     take(met, answer);
   }
   if (self_ && !(answer.verdict != Verdict::Clear && answer.contact.freeUntil == 0.0)) {
-    self_->answer(scratch.motion, scratch.query, scratch.step);
-    for (const PairContact& contact : scratch.step.pairs) take(contact, answer);
-    if (!scratch.step.arePairsAnswered) {
+    self_->answer(memory.motion, scratch, memory.step);
+    for (const PairContact& contact : memory.step.pairs) take(contact, answer);
+    if (!memory.step.arePairsAnswered) {
       PairContact unknown;
       unknown.freeUntil = unknown.toi = 0.0;
       take(unknown, answer);
@@ -194,17 +207,18 @@ void EdgeQuery::answerPart(EdgeScratch& scratch, EdgeAnswer& answer, int part, i
 }
 
 /// Each prop is asked about the robot's motion as seen from it.
-void EdgeQuery::answerProps(EdgeScratch& scratch, EdgeAnswer& answer) const {
+void EdgeQuery::answerProps(Scratch& scratch, EdgeAnswer& answer) const {
   const Skeleton& skeleton = robot_->avatar().skeleton();
+  auto& memory = scratch.of<EdgeMemory>();
   for (std::size_t i = 0; i < props_.size(); ++i) {
     const Prop& prop = props_[i];
     if (!prop.X_WP) continue;
     if (answer.verdict != Verdict::Clear && answer.contact.freeUntil == 0.0) return;
-    seenFrom(*prop.X_WP, skeleton, scratch.from, scratch.propFrom);
-    seenFrom(*prop.X_WP, skeleton, scratch.to, scratch.propTo);
-    scratch.motion.assign(skeleton, scratch.propFrom, scratch.propTo);
-    prop.query.answer(scratch.motion, scratch.query, scratch.step);
-    for (const LinkContact& contact : scratch.step.links) {
+    seenFrom(*prop.X_WP, skeleton, memory.from, memory.propFrom);
+    seenFrom(*prop.X_WP, skeleton, memory.to, memory.propTo);
+    memory.motion.assign(skeleton, memory.propFrom, memory.propTo);
+    prop.query.answer(memory.motion, scratch, memory.step);
+    for (const LinkContact& contact : memory.step.links) {
       if (!isMet(contact)) continue;
       PairContact met;
       static_cast<LinkContact&>(met) = contact;

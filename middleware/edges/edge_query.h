@@ -16,9 +16,10 @@
 #include "articulated/robot.h"
 #include "middleware/contact.h"
 #include "middleware/query/query.h"
-#include "middleware/query/query_scratch.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/scene.h"
+#include "middleware/scratch.h"
+#include "middleware/worker_pool.h"
 
 namespace foretouch {
 
@@ -61,14 +62,13 @@ struct EdgeAnswer {
   }
 };
 
-/// Memory of one thread.
-struct EdgeScratch {
-  QueryScratch query;
-  ChainMotion motion;
-  StepContacts step;
-  Pose from, to;
-  Pose propFrom, propTo;  ///< The same as seen from a prop.
-  std::vector<double> q;
+/// How far a path is free: a list of configurations, with an edge from each to the next.
+struct PathAnswer {
+  std::size_t edge = 0;  ///< The first edge that is not Clear; the number of edges: all are.
+  /// The path keeps its clearance on [0, freeUntil), never too late: `edge` plus how far that one
+  /// is free. The number of edges if all are Clear.
+  double freeUntil = 0.0;
+  EdgeAnswer answer;  ///< Of that edge; of the last one if all are Clear.
 };
 
 /// Checked and resolved once. Copies are cheap; any number of threads may ask one, each with a
@@ -95,10 +95,20 @@ class EdgeQuery {
   /// Errors: as Robot::checked(). `count`: of numbers in each of q0 and q1. An edge from q to q
   /// asks whether q is free.
   [[nodiscard]] Result<EdgeAnswer> answer(const double* q0, const double* q1, std::size_t count,
-                                          EdgeScratch& scratch) const;
+                                          Scratch& scratch) const;
   [[nodiscard]] Result<EdgeAnswer> answer(const std::vector<double>& q0,
-                                          const std::vector<double>& q1,
-                                          EdgeScratch& scratch) const;
+                                          const std::vector<double>& q1, Scratch& scratch) const;
+
+  /// Many edges on the pool's threads: q0 and q1 each hold `count` configurations one after the
+  /// other, of `robot().numCoordinates()` numbers. Resizes `answers`. An edge takes no lock and,
+  /// once the threads' memory has grown, allocates nothing. Errors: as answer() of the first edge
+  /// with one (Error::index is the edge), before any is asked; memory runs out: then the edges that
+  /// were broken off are Undecided from 0.
+  Result<Done> answerAll(const double* q0, const double* q1, std::size_t count, WorkerPool& pool,
+                         std::vector<EdgeAnswer>& answers) const;
+  /// `count` configurations one after the other, at least two. Asks no more edges than lie before
+  /// the first one that is not Clear, but for those that other threads have begun. Errors as above.
+  Result<PathAnswer> answerPath(const double* q, std::size_t count, WorkerPool& pool) const;
 
   /// An edge is cut into at most so many parts, of Robot::kMostTurn each; else it is undecided.
   static constexpr int kMostParts = Robot::kMostParts;
@@ -110,8 +120,8 @@ class EdgeQuery {
   };
   EdgeQuery() = default;
   Result<Done> addProps(const EdgeOptions& options);
-  void answerPart(EdgeScratch& scratch, EdgeAnswer& answer, int part, int parts) const;
-  void answerProps(EdgeScratch& scratch, EdgeAnswer& answer) const;
+  void answerPart(Scratch& scratch, EdgeAnswer& answer, int part, int parts) const;
+  void answerProps(Scratch& scratch, EdgeAnswer& answer) const;
 
   std::shared_ptr<const Robot> robot_;
   std::shared_ptr<const EdgeOptions> options_;

@@ -118,7 +118,7 @@ struct OpenPart {
 };
 
 struct EventCounters {
-  std::uint64_t windows = 0;       ///< Asked of worldContacts().
+  std::uint64_t windows = 0;       ///< Asked of World::contacts().
   std::uint64_t contacts = 0;      ///< Intervals of contact that began.
   std::uint64_t stretches = 0;     ///< Of contacts: each in one span between poses of the two.
   std::uint64_t contactLooks = 0;  ///< Instants at which a contact was followed on.

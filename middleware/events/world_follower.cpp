@@ -14,8 +14,7 @@
 #include "middleware/events/followed_list.h"
 #include "middleware/events/open_parts.h"
 #include "middleware/events/span_sides.h"
-#include "middleware/query/query_pool.h"
-#include "middleware/query/worker_threads.h"
+#include "middleware/worker_pool.h"
 #include "middleware/world/window_query.h"
 
 namespace foretouch {
@@ -88,7 +87,7 @@ struct alignas(128) Worker {
 
 struct WorldFollower::Impl {
   FollowOptions options;
-  std::optional<internal::WorkerThreads> threads;
+  std::optional<WorkerPool> threads;
   std::int64_t startUs = 0, untilUs = 0;
   std::uint64_t world = 0;  // that it follows; 0: none yet
   BodyMasses masses;
@@ -341,7 +340,8 @@ struct WorldFollower::Impl {
     } else {
       takePart(0);
     }
-    return internal::FirstFailure::of(workers);
+    return internal::FirstFailure::of(
+        workers.size(), [&](std::size_t i) -> const auto& { return workers[i]->failure; });
   }
 
   void takeEvents(WorldEvents& answer) {
@@ -388,10 +388,10 @@ Result<WorldFollower> WorldFollower::start(std::int64_t fromUs, const FollowOpti
   impl->options = options;
   impl->startUs = impl->untilUs = fromUs;
   if (options.threads != 1) {
-    FORETOUCH_TRY(impl->threads, internal::WorkerThreads::start(options.threads, kMaxPoolThreads));
+    FORETOUCH_TRY(impl->threads, WorkerPool::start(options.threads));
   }
-  const std::size_t count = impl->threads ? impl->threads->count() : 1;
-  for (std::size_t i = 0; i < count; ++i) impl->workers.push_back(std::make_unique<Worker>());
+  const int count = impl->threads ? impl->threads->threads() : 1;
+  for (int i = 0; i < count; ++i) impl->workers.push_back(std::make_unique<Worker>());
   return WorldFollower(std::move(impl));
 }
 

@@ -24,7 +24,7 @@ struct FollowOptions {
   std::int64_t cutUs = 0;
   /// At most so many windows per call: the last one takes all that is left. Above 0.
   std::uint64_t mostWindows = std::numeric_limits<std::uint64_t>::max();
-  /// In [1, kMaxPoolThreads] (query_pool.h), the calling one among them.
+  /// In [1, kMaxPoolThreads] (worker_pool.h), the calling one among them.
   int threads = 1;
 };
 inline constexpr std::int64_t kMostCutUs = 10'000'000;
@@ -53,7 +53,7 @@ class WorldFollower {
   /// which they came; and not on the calls, as long as each ends where time is cut
   /// (World::knownUntilUs() is a pose). Until then the world must keep what it knows
   /// (World::forgetBefore()). `answer` is filled anew; its memory is kept.
-  /// Errors: as worldContacts(); more than kMostCuts cuts (OutOfRange); another world than in the
+  /// Errors: as World::contacts(); more than kMostCuts cuts (OutOfRange); another world than in the
   /// last call, one that asks whether meshes meet, or a body that touches by its triangles
   /// (Mismatch). Then nothing has been followed.
   Result<Done> follow(const World& world, std::int64_t untilUs, WorldEvents& answer);

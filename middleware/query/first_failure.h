@@ -40,12 +40,12 @@ class FirstFailure {
     number_ = number;
   }
 
-  /// Of all threads' workers, each with a member `failure` of this type.
-  template <typename Workers>
-  [[nodiscard]] static Result<Done> of(const Workers& workers) {
+  /// Of all threads: `failureOf(i)` is that of thread i.
+  template <typename FailureOf>
+  [[nodiscard]] static Result<Done> of(std::size_t numThreads, const FailureOf& failureOf) {
     const FirstFailure* first = nullptr;
-    for (const auto& worker : workers) {
-      const FirstFailure& failure = worker->failure;
+    for (std::size_t i = 0; i < numThreads; ++i) {
+      const FirstFailure& failure = failureOf(i);
       if (!failure.error_) continue;
       if (first == nullptr || failure.number_ < first->number_) first = &failure;
     }

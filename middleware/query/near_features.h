@@ -19,6 +19,7 @@
 #include "middleware/query_options.h"
 #include "middleware/scene/scene.h"
 #include "middleware/scene/triangle_id.h"
+#include "middleware/scratch.h"
 
 namespace foretouch {
 
@@ -66,23 +67,7 @@ struct NearFeatures {
 
 namespace internal {
 struct NearPlan;
-struct NearScratchParts;
 }  // namespace internal
-
-/// Memory that near queries reuse; one per thread.
-class NearScratch {
- public:
-  NearScratch();
-  ~NearScratch();
-  NearScratch(NearScratch&&) noexcept;
-  NearScratch& operator=(NearScratch&&) noexcept;
-
-  /// For the query's own sources.
-  [[nodiscard]] internal::NearScratchParts& parts() { return *parts_; }
-
- private:
-  std::unique_ptr<internal::NearScratchParts> parts_;
-};
 
 /// A question to ask again and again: what of a scene are links of an avatar near to? Of their LSS.
 /// Checked once; copies are cheap, and any number of threads may ask one NearQuery, each with
@@ -118,10 +103,9 @@ class NearQuery {
   /// Cannot fail; allocates nothing once scratch and `near` have grown. Preconditions (asserted):
   /// one finite state and one reach per link, none NaN. O(nodes + triangles near).
   void answer(const std::vector<LinkState>& states, const std::vector<double>& reach,
-              NearScratch& scratch, NearFeatures& near,
-              NearDetail detail = NearDetail::Reduced) const;
+              Scratch& scratch, NearFeatures& near, NearDetail detail = NearDetail::Reduced) const;
   /// At a pose that validatedPose() made for the avatar's skeleton (asserted), one reach for all.
-  void answer(const Pose& pose, double reach, NearScratch& scratch, NearFeatures& near,
+  void answer(const Pose& pose, double reach, Scratch& scratch, NearFeatures& near,
               NearDetail detail = NearDetail::Reduced) const;
 
  private:

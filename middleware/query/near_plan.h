@@ -12,6 +12,7 @@
 #include "middleware/query/near_blocks.h"
 #include "middleware/query/near_features.h"
 #include "middleware/query/near_reduction.h"
+#include "middleware/scratch.h"
 
 namespace foretouch::internal {
 
@@ -22,7 +23,9 @@ struct NearPlan {
   const FlatEdges* flat;  // the scene's
 };
 
-struct NearScratchParts {
+struct NearScratchParts : ScratchPart {
+  static constexpr ScratchKind kKind = ScratchKind::Near;
+
   ChainMotion still;                      // of a pose that is asked
   std::vector<LinkState> states;          // at it
   std::vector<double> reach;              // the same for all

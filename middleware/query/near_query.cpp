@@ -239,11 +239,6 @@ class NearSearch {
 
 }  // namespace
 
-NearScratch::NearScratch() : parts_(std::make_unique<NearScratchParts>()) {}
-NearScratch::~NearScratch() = default;
-NearScratch::NearScratch(NearScratch&&) noexcept = default;
-NearScratch& NearScratch::operator=(NearScratch&&) noexcept = default;
-
 Result<NearQuery> NearQuery::build(const Avatar& avatar, const Scene& scene,
                                    const std::vector<IgnoredPair>& ignored) {
   FORETOUCH_CHECK(internal::checkedIgnored(avatar, scene, ignored));
@@ -260,15 +255,15 @@ const Scene& NearQuery::scene() const {
 }
 
 void NearQuery::answer(const std::vector<LinkState>& states, const std::vector<double>& reach,
-                       NearScratch& scratch, NearFeatures& near, NearDetail detail) const {
+                       Scratch& scratch, NearFeatures& near, NearDetail detail) const {
   const std::size_t links = countOf(plan_->avatar.numLinks());
   FORETOUCH_ASSERT(states.size() == links && reach.size() == links);
-  NearSearch(*plan_, states, reach, scratch.parts(), detail, near).run();
+  NearSearch(*plan_, states, reach, scratch.of<NearScratchParts>(), detail, near).run();
 }
 
-void NearQuery::answer(const Pose& pose, double reach, NearScratch& scratch, NearFeatures& near,
+void NearQuery::answer(const Pose& pose, double reach, Scratch& scratch, NearFeatures& near,
                        NearDetail detail) const {
-  NearScratchParts& parts = scratch.parts();
+  NearScratchParts& parts = scratch.of<NearScratchParts>();
   parts.still.assign(plan_->avatar.skeleton(), pose, pose);
   parts.still.statesAt(0.0, parts.states);
   parts.reach.assign(countOf(plan_->avatar.numLinks()), reach);

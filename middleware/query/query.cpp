@@ -103,21 +103,22 @@ void internal::answerStep(const QueryPlan& plan, const ChainMotion& motion, cons
   PairQuery(own, {motion, motion}, meter, scratch).run(step);
 }
 
-void Query::answer(const ChainMotion& motion, QueryScratch& scratch, StepContacts& step) const {
-  internal::answerStep(*plan_, motion, internal::WorkMeter(plan_->options), scratch.parts(), step);
+void Query::answer(const ChainMotion& motion, Scratch& scratch, StepContacts& step) const {
+  internal::answerStep(*plan_, motion, internal::WorkMeter(plan_->options),
+                       scratch.of<internal::ScratchParts>(), step);
 }
 
 ContactDetails Query::details(const ChainMotion& motion, const LinkContact& contact,
-                              QueryScratch& scratch) const {
-  return internal::detailsOf(*plan_, motion, contact, scratch.parts().found);
+                              Scratch& scratch) const {
+  return internal::detailsOf(*plan_, motion, contact, scratch.of<internal::ScratchParts>().found);
 }
 
 ContactDetails Query::details(const ChainMotion& motion, const PairContact& contact,
-                              QueryScratch& /*scratch*/) const {
+                              Scratch& /*scratch*/) const {
   return internal::detailsOf(*plan_, motion, contact);
 }
 
-StepContacts Query::answer(const ChainMotion& motion, QueryScratch& scratch) const {
+StepContacts Query::answer(const ChainMotion& motion, Scratch& scratch) const {
   StepContacts step;
   answer(motion, scratch, step);
   return step;
@@ -131,7 +132,7 @@ Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& moti
         "motion", ErrorCode::Mismatch,
         "expected a motion of this avatar's skeleton, found one with a different number of joints");
   }
-  QueryScratch scratch;
+  Scratch scratch;
   return query.answer(motion, scratch);
 }
 

@@ -3,23 +3,43 @@
 // later. The promise, its proof and the constants in it: docs/guarantees.md.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
+#include "articulated/pose.h"
 #include "articulated/result.h"
 #include "middleware/contact.h"
 #include "middleware/query/contact_details.h"
-#include "middleware/query/query_scratch.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/scene.h"
+#include "middleware/scratch.h"
+#include "middleware/worker_pool.h"
 
 namespace foretouch {
 
 namespace internal {
 struct QueryPlan;
 }
+
+class Query;
+
+/// One avatar's step among many. What it points to must outlive the call; poses are validated ones
+/// of the query's avatar.
+struct StepTask {
+  const Query* query = nullptr;
+  const Pose* from = nullptr;
+  const Pose* to = nullptr;
+};
+
+/// A task that was broken off, by its place in the list, and why: memory ran out.
+struct FailedTask {
+  std::size_t task = 0;
+  Error error;
+};
 
 /// A question to ask again and again: which avatar, in which scene, with which options. Checked and
 /// resolved once; from then on every motion of the avatar has an answer. Copies are cheap, and any
@@ -39,24 +59,33 @@ class Query {
   /// that cannot be decided is a verdict. Allocates nothing once scratch and step have grown to the
   /// scene's needs. Precondition: a motion of the avatar's skeleton (asserted; one with another
   /// number of links leaves every link Undecided, free until 0).
-  void answer(const ChainMotion& motion, QueryScratch& scratch, StepContacts& step) const;
-  [[nodiscard]] StepContacts answer(const ChainMotion& motion, QueryScratch& scratch) const;
+  void answer(const ChainMotion& motion, Scratch& scratch, StepContacts& step) const;
+  [[nodiscard]] StepContacts answer(const ChainMotion& motion, Scratch& scratch) const;
+
+  /// Many avatars, many steps: answers all tasks on the pool's threads and returns when the last
+  /// one is done; resizes and reuses `answers`. A task takes no lock and, once the threads' memory
+  /// has grown, allocates nothing. The error is that of the first task that failed; `failures`, if
+  /// not null, gets them all, in order. Every link of a failed task is Undecided, free until 0; the
+  /// other tasks have their answers.
+  static Result<Done> answerAll(const std::vector<StepTask>& tasks, WorkerPool& pool,
+                                std::vector<StepContacts>& answers,
+                                std::vector<FailedTask>* failures = nullptr);
 
   /// More about a contact that this query answered for this motion. Preconditions: its verdict is
   /// Contact or StartsInContact (asserted; others have no details); link or exact fidelity, for
   /// `points`: elsewhere there are none. Not meant for every contact of every step: it looks at the
   /// near pairs once more, in doubles.
   [[nodiscard]] ContactDetails details(const ChainMotion& motion, const LinkContact& contact,
-                                       QueryScratch& scratch) const;
+                                       Scratch& scratch) const;
   [[nodiscard]] ContactDetails details(const ChainMotion& motion, const PairContact& contact,
-                                       QueryScratch& scratch) const;
+                                       Scratch& scratch) const;
 
   /// What a discrete check sees: does the link's surface touch a triangle at this one instant? It
   /// skips ignored pairs; it needs no tolerance, no scope and no budget. The computed distance
   /// decides (no claim within rounding of zero).
   /// Preconditions: as for answer(); a link of the avatar; t in [0, 1].
   [[nodiscard]] bool touchesAt(const ChainMotion& motion, LinkId link, double t,
-                               QueryScratch& scratch) const;
+                               Scratch& scratch) const;
 
   /// For the query's own sources.
   explicit Query(std::shared_ptr<const internal::QueryPlan> plan) : plan_(std::move(plan)) {}

@@ -6,8 +6,8 @@
 #include "middleware/contact.h"
 #include "middleware/query/body.h"
 #include "middleware/query/query_plan.h"
-#include "middleware/query/query_scratch.h"
 #include "middleware/query/work_meter.h"
+#include "middleware/scratch.h"
 
 namespace foretouch::internal {
 

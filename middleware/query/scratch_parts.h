@@ -1,4 +1,4 @@
-// middleware/query/scratch_parts.h: the contents of a QueryScratch. Not installed.
+// middleware/query/scratch_parts.h: what queries keep in a Scratch. Not installed.
 #pragma once
 
 #include <vector>
@@ -9,6 +9,7 @@
 #include "middleware/query/ignored_objects.h"
 #include "middleware/query/lane_scratch.h"
 #include "middleware/query/link_query.h"
+#include "middleware/scratch.h"
 #include "tessellation/axis_curve.h"
 
 namespace foretouch::internal {
@@ -46,7 +47,9 @@ struct PairScratch {
 };
 
 /// Memory that one thread's queries reuse.
-struct ScratchParts {
+struct ScratchParts : ScratchPart {
+  static constexpr ScratchKind kKind = ScratchKind::Query;
+
   std::vector<std::vector<LinkState>> nodes;  // per piece boundary, per link
   std::vector<AxisBounds> axisBounds;         // per LSS of the current link
   std::vector<Aabb> startBoxes;               // per LSS of the current link, at t = 0

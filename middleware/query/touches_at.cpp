@@ -63,15 +63,14 @@ bool skinTouches(const internal::Side& parts, double t, const Scene& scene,
 
 }  // namespace
 
-bool Query::touchesAt(const ChainMotion& motion, LinkId link, double t,
-                      QueryScratch& scratch) const {
+bool Query::touchesAt(const ChainMotion& motion, LinkId link, double t, Scratch& scratch) const {
   const Avatar& avatar = plan_->avatar;
   const Scene& scene = plan_->scene;
   FORETOUCH_ASSERT(link >= 0 && link < avatar.numLinks());
   FORETOUCH_ASSERT(motion.numLinks() == avatar.numLinks());
   const internal::LinkPlan& asked = plan_->of(link);
-  std::vector<TriangleId>& found = scratch.parts().found;
-  IgnoredObjects& ignored = scratch.parts().ignored;
+  std::vector<TriangleId>& found = scratch.of<internal::ScratchParts>().found;
+  IgnoredObjects& ignored = scratch.of<internal::ScratchParts>().ignored;
   if (ignored.collect(plan_->options.ignored, link)) return false;
   if (asked.skin != nullptr) {
     const std::vector<AxisBounds> none;

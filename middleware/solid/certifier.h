@@ -89,7 +89,7 @@ class Certifier {
   std::shared_ptr<QueryPlan> plan_;  // the query's; only the budget in it changes
   Query query_;
   double skin_;
-  QueryScratch scratch_;
+  Scratch scratch_;
   StepContacts step_;
   ChainMotion motion_;
   MotionEvaluator evaluator_;

@@ -273,7 +273,7 @@ void Follower::findReach() {
 void Follower::gather(const FollowRequest& request, Certifier& certifier, SolidTick& tick) {
   findReach();
   areRowsOld_ = false;
-  near_.answer(here_.states, hotReach_, nearScratch_, features_);
+  near_.answer(here_.states, hotReach_, scratch_, features_);
   appendRows(features_, rows_);
   if (options_.self || !isCaught_) {
     own_.append(certifier.plan(), {here_.states, request.states}, options_.skin, reach_, hotFor_,
@@ -391,7 +391,7 @@ bool Follower::isTargetApart(const FollowRequest& request, Certifier& certifier)
   for (const ContactRow& row : rows_) {
     if (row.push > 0.0) touchReach_[slotOf(row.link)] = 0.0;
   }
-  near_.answer(request.states, touchReach_, nearScratch_, features_, NearDetail::Nearest);
+  near_.answer(request.states, touchReach_, scratch_, features_, NearDetail::Nearest);
   certifier.spend(WorkMeter::workOf(features_.counters));
   return std::all_of(features_.features.begin(), features_.features.end(),
                      [](const NearFeature& feature) { return feature.gap > 0.0; });

@@ -101,7 +101,7 @@ class Follower {
   PulledStep step_;
   NearQuery near_;
   OwnFeatures own_;
-  NearScratch nearScratch_;
+  Scratch scratch_;
   NearFeatures features_;
 
   // What is shown, and what may be next.

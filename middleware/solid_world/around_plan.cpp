@@ -123,7 +123,7 @@ void AroundPlan::askLss(const Pose& from, const Pose& to, const Pose& otherFrom,
   moveRoots(otherSkeleton_, otherFrom, origin, scratch.otherFrom);
   moveRoots(otherSkeleton_, otherTo, origin, scratch.otherTo);
   scratch.other.assign(otherSkeleton_, scratch.otherFrom, scratch.otherTo);
-  ScratchParts& parts = scratch.query.parts();
+  ScratchParts& parts = scratch.query.of<ScratchParts>();
   beginAnswer(scratch.step);
   parts.beginStep(scratch.motion, scratch.other);
   const WorkMeter meter(one_->options);

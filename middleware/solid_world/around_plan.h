@@ -28,7 +28,7 @@ struct PairAnswer {
 
 /// Memory of questions; one per thread.
 struct AroundScratch {
-  QueryScratch query;
+  Scratch query;
   StepContacts step;
   ChainMotion motion, other;
   Pose from, to, otherFrom, otherTo;  // relative to an origin, or to the mesh

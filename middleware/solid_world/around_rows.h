@@ -64,7 +64,7 @@ class AroundRows {
   std::vector<Placed> placed_;  // longer than the count
   std::size_t count_ = 0;
   double farthestMove_ = 0.0, windowS_ = 0.0;
-  NearScratch scratch_;
+  Scratch scratch_;
   NearFeatures near_;
   std::vector<LinkState> seen_;
   std::vector<double> reach_;

@@ -108,7 +108,7 @@ void Yielding::gather(Run& run) {
   for (double& reach : reach_) {
     reach = reachFor(reach, trust_, options_.skin) + moves_;
   }
-  near_.answer(here_.states, reach_, nearScratch_, features_);
+  near_.answer(here_.states, reach_, scratch_, features_);
   appendRows(features_, rows_);
   Certifier& certifier = run.prover.certifier();
   own_.append(certifier.plan(), {here_.states, run.request.states}, options_.skin, reach_, isAsked_,

@@ -89,7 +89,7 @@ class Yielding {
   NearQuery near_;
   OwnFeatures own_;
   AroundRows around_;
-  NearScratch nearScratch_;
+  Scratch scratch_;
   NearFeatures features_;
   Stance here_, there_;
   std::vector<ContactRow> rows_;

@@ -106,7 +106,7 @@ Result<Done> BodySweeper::fill(BodyId body, SystemQuestion question, SpanSweep& 
   span.own.clear();
   span.counters = {};
   FORETOUCH_TRY(const SystemPlan* const plan, query_.prepare(question, body, kStillScene));
-  ScratchParts& parts = scratch_.query.parts();
+  ScratchParts& parts = scratch_.query.of<ScratchParts>();
   const bool isAsked = question != SystemQuestion::Boxes && query_.isResolved();
   if (isAsked) {
     query_.ask(*plan, body, kStillScene, 0, span.own, span.counters);

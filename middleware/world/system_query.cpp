@@ -114,7 +114,7 @@ bool SystemQuery::askAgainFrom(std::int64_t fromUs, const SystemPlan& plan, Body
   if (areTriangles || !(begin > 0.0)) return false;
   nameAll(plan, a, met);
   const WorkMeter meter(work_);
-  PairQuery query(plan.pair(), beginStep(plan), meter, scratch_.query.parts());
+  PairQuery query(plan.pair(), beginStep(plan), meter, scratch_.query.of<ScratchParts>());
   if (!query.runAmongFrom(begin, foundPairs(), scratch_.step)) return false;
   const std::size_t count = found.size();
   keepAll(plan, a, kStillScene, first, found, counters);
@@ -172,17 +172,18 @@ bool SystemQuery::isUndone(BodyId b, const LinkContact& contact) {
 /// Fills the step with what the plan's query says of the span.
 void SystemQuery::answer(const SystemPlan& plan) {
   if (plan.query) {
-    answerStep(plan.query->plan(), scratch_.motion, WorkMeter(work_), scratch_.query.parts(),
-               scratch_.step);
+    answerStep(plan.query->plan(), scratch_.motion, WorkMeter(work_),
+               scratch_.query.of<ScratchParts>(), scratch_.step);
   } else {
     const WorkMeter meter(work_);
-    PairQuery(plan.pair(), beginStep(plan), meter, scratch_.query.parts()).run(scratch_.step);
+    PairQuery(plan.pair(), beginStep(plan), meter, scratch_.query.of<ScratchParts>())
+        .run(scratch_.step);
   }
 }
 
 void SystemQuery::answerAmong(const SystemPlan& plan) {
   const WorkMeter meter(work_);
-  PairQuery(plan.pair(), beginStep(plan), meter, scratch_.query.parts())
+  PairQuery(plan.pair(), beginStep(plan), meter, scratch_.query.of<ScratchParts>())
       .runAmong(foundPairs(), scratch_.step);
 }
 
@@ -194,7 +195,7 @@ FoundPairs SystemQuery::foundPairs() const {
 PairMotions SystemQuery::beginStep(const SystemPlan& plan) {
   beginAnswer(scratch_.step);
   const ChainMotion& other = plan.isMerged() ? scratch_.motion : scratch_.other;
-  scratch_.query.parts().beginStep(scratch_.motion, other);
+  scratch_.query.of<ScratchParts>().beginStep(scratch_.motion, other);
   return {scratch_.motion, other};
 }
 

@@ -13,7 +13,7 @@
 #include "middleware/lanes/node_planes.h"
 #include "middleware/lanes/pair_boxes.h"
 #include "middleware/query/pair_query.h"
-#include "middleware/query/query_scratch.h"
+#include "middleware/scratch.h"
 #include "middleware/world/body_system.h"
 #include "middleware/world/system_plan.h"
 #include "middleware/world/world_contacts.h"
@@ -36,7 +36,7 @@ struct SystemScratch {
   std::vector<WorldContact> met, again;  // before the window, and what becomes of them in it
   std::vector<LssIndexPair> meeting;     // in the numbers of the plan's sides
   std::vector<PlanePair> open;
-  QueryScratch query;
+  Scratch query;
 };
 
 /// For one thread. What it refers to outlives it.

@@ -45,12 +45,11 @@ constexpr std::size_t kTasksAtOnce = 8;
 /// own, and their order is that of the contacts.
 class WindowQuery {
  public:
-  WindowQuery(const WorldParts& world, std::int64_t fromUs, std::int64_t toUs,
-              WorkerThreads* threads, WorldScratchParts& scratch, WorldContacts& answer,
-              const FollowedLinks* followed)
+  WindowQuery(const WorldParts& world, std::int64_t fromUs, std::int64_t toUs, WorkerPool* pool,
+              WorldScratchParts& scratch, WorldContacts& answer, const FollowedLinks* followed)
       : world_(world),
         window_{fromUs, toUs, ++scratch.windows, Eigen::Vector3d::Zero(), followed != nullptr},
-        threads_(threads),
+        pool_(pool),
         followed_(followed),
         scratch_(scratch),
         answer_(answer) {}
@@ -74,7 +73,7 @@ class WindowQuery {
     answer_.contacts.clear();
     answer_.silent.clear();
     answer_.counters = {};
-    const std::size_t count = threads_ != nullptr ? threads_->count() : 1;
+    const std::size_t count = pool_ != nullptr ? static_cast<std::size_t>(pool_->threads()) : 1;
     while (scratch_.workers.size() < count) {
       scratch_.workers.push_back(std::make_unique<WindowWorker>());
     }
@@ -242,7 +241,7 @@ class WindowQuery {
   /// Does all tasks; the error is that of the first one that fails.
   template <typename Task>
   Result<Done> forEach(std::size_t count, const Task& task) {
-    if (threads_ == nullptr) {
+    if (pool_ == nullptr) {
       for (std::size_t i = 0; i < count; ++i) FORETOUCH_CHECK(task(*scratch_.workers[0], i));
       return Done{};
     }
@@ -263,8 +262,11 @@ class WindowQuery {
         }
       }
     };
-    threads_->run(std::ref(takePart));
-    return FirstFailure::of(scratch_.workers);
+    pool_->run(std::ref(takePart));
+    return FirstFailure::of(
+        scratch_.workers.size(), [&](std::size_t i) -> const auto& {
+          return scratch_.workers[i]->failure;
+        });
   }
 
   void gather() {
@@ -294,7 +296,7 @@ class WindowQuery {
 
   const WorldParts& world_;
   Window window_;
-  WorkerThreads* threads_;
+  WorkerPool* pool_;
   const FollowedLinks* followed_;
   WorldScratchParts& scratch_;
   WorldContacts& answer_;
@@ -338,11 +340,27 @@ void addCounters(const WorldCounters& more, WorldCounters& sum) {
   addCounters(more.queries, sum.queries);
 }
 
-Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs,
-                       WorkerThreads* threads, WorldScratchParts& scratch, WorldContacts& answer,
+Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs, WorkerPool* pool,
+                       WorldScratchParts& scratch, WorldContacts& answer,
                        const FollowedLinks* followed) {
   FORETOUCH_CHECK(checkedWindow(world, fromUs, toUs));
-  return WindowQuery(world.parts(), fromUs, toUs, threads, scratch, answer, followed).run();
+  return WindowQuery(world.parts(), fromUs, toUs, pool, scratch, answer, followed).run();
 }
 
 }  // namespace foretouch::internal
+
+namespace foretouch {
+
+Result<Done> World::contacts(std::int64_t fromUs, std::int64_t toUs, Scratch& scratch,
+                             WorldContacts& answer) const {
+  auto& parts = scratch.of<internal::WorldScratchParts>();
+  return internal::askWindow(*this, fromUs, toUs, nullptr, parts, answer);
+}
+
+Result<Done> World::contacts(std::int64_t fromUs, std::int64_t toUs, WorkerPool& pool,
+                             WorldContacts& answer) const {
+  auto& parts = pool.scratch().of<internal::WorldScratchParts>();
+  return internal::askWindow(*this, fromUs, toUs, &pool, parts, answer);
+}
+
+}  // namespace foretouch

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "articulated/result.h"
-#include "middleware/query/worker_threads.h"
+#include "middleware/worker_pool.h"
 #include "middleware/world/window_scratch.h"
 #include "middleware/world/world.h"
 #include "middleware/world/world_contacts.h"
@@ -14,14 +14,14 @@ namespace foretouch::internal {
 
 void addCounters(const WorldCounters& more, WorldCounters& sum);
 
-/// The window can be asked about. Errors: as worldContacts().
+/// The window can be asked about. Errors: as World::contacts().
 Result<Done> checkedWindow(const World& world, std::int64_t fromUs, std::int64_t toUs);
 
-/// As worldContacts(). `threads`: null, or those that share the work; the answer is the same.
+/// As World::contacts(). `pool`: null, or who shares the work; the answer is the same.
 /// `followed`: null, or what need not be told. Errors besides: on several threads, memory ran out
 /// (DeviceFailed).
-Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs,
-                       WorkerThreads* threads, WorldScratchParts& scratch, WorldContacts& answer,
+Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs, WorkerPool* pool,
+                       WorldScratchParts& scratch, WorldContacts& answer,
                        const FollowedLinks* followed = nullptr);
 
 }  // namespace foretouch::internal

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "middleware/query/first_failure.h"
+#include "middleware/scratch.h"
 #include "middleware/world/bodies_apart.h"
 #include "middleware/world/body_sweep.h"
 #include "middleware/world/box_sweep.h"
@@ -59,7 +60,9 @@ struct FollowedLinks {
   std::vector<KnownLinks> pairs;  ///< He knows all of them in the window. By bodies.
 };
 
-struct WorldScratchParts {
+struct WorldScratchParts : ScratchPart {
+  static constexpr ScratchKind kKind = ScratchKind::World;
+
   std::uint64_t world = 0;    // whose this is
   std::uint64_t windows = 0;  // asked so far
   SystemPlans plans;

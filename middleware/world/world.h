@@ -11,6 +11,8 @@
 #include "articulated/pose.h"
 #include "articulated/result.h"
 #include "middleware/scene/scene.h"
+#include "middleware/scratch.h"
+#include "middleware/worker_pool.h"
 #include "middleware/world/world_contacts.h"
 #include "middleware/world/world_options.h"
 
@@ -19,9 +21,12 @@ namespace foretouch {
 namespace internal {
 struct WorldParts;
 }
+struct DepthQuestion;
+struct WorldDepth;
 
 /// The bodies, and where they are known to be. Changed by one thread; any number may ask in
-/// between (world_query.h). A body is there from its first pose on; before, nothing touches it.
+/// between, each with scratch memory of its own. A body is there from its first pose on; before,
+/// nothing touches it.
 class World {
  public:
   /// Errors: a tolerance out of range.
@@ -73,6 +78,30 @@ class World {
   [[nodiscard]] std::optional<std::int64_t> knownUntilUs() const;
   /// The body that knownUntilUs() waits for; nothing if nobody waits.
   [[nodiscard]] std::optional<BodyId> waitsFor() const;
+
+  /// The first contact, in the window from `fromUs` to `toUs`, of every two links of different
+  /// bodies that are asked, of every link and the static scene, and of own links where a body asks
+  /// for these. Depends on the poses alone, not on the order in which they came, nor on how many
+  /// threads share the work. Allocates nothing once the scratch and the answer have grown, as long
+  /// as nobody is added or carried in another way. The promise: docs/guarantees.md 15. Errors,
+  /// which name who or what: a window without length, that begins before what was forgotten, or
+  /// ends after knownUntilUs(); carriers whose chains are too deep together; on a pool, memory ran
+  /// out (DeviceFailed): the answer then means nothing. Nobody changes the world meanwhile.
+  Result<Done> contacts(std::int64_t fromUs, std::int64_t toUs, Scratch& scratch,
+                        WorldContacts& answer) const;
+  Result<Done> contacts(std::int64_t fromUs, std::int64_t toUs, WorkerPool& pool,
+                        WorldContacts& answer) const;
+
+  /// How deep a body is in another, or in what stands still, and which way out
+  /// (depth/world_depth.h). At an instant at which a body changes its carrier: after it. Poses of
+  /// parts of the motion are not rounded as contacts() rounds them, so a contact's own instant may
+  /// be asked. Errors: an unknown body or link (Error::index), two links that are one; a body that
+  /// touches by its triangles (BodyOptions::surface): its LSS alone would not say how deep; two
+  /// meshes, or a mesh and the scene (one of two must be made of LSS); a world without a scene; a
+  /// body that is not there then, or silent and not taken to hold still. O(joints, and what
+  /// depthIn() takes).
+  [[nodiscard]] Result<WorldDepth> depth(const WorldTime& time, const DepthQuestion& question,
+                                         Scratch& scratch) const;
 
   /// Lets go of what no window from `utimeUs` on needs, nor who tells where somebody was who is put
   /// elsewhere there. Poses at or before it are refused from now

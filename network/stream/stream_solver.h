@@ -79,7 +79,7 @@ class StreamSolver {
   double lastQueryUs_ = 0.0;
   // Scratch.
   ChainMotion motion_;
-  QueryScratch scratch_;
+  Scratch scratch_;
   StepContacts contacts_;
   std::vector<LinkId> reported_;
 };

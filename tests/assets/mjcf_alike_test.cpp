@@ -235,7 +235,7 @@ TEST_F(OneRobotTwice, MovesAndAnswersAlike) {
   options.self = PairRules::derive(fromMjcf.avatar()).value();
   const auto ofMjcf = EdgeQuery::build(fromMjcf, rods(), options).value();
   Random random(11);
-  EdgeScratch scratch;
+  Scratch scratch;
   int clear = 0, met = 0, starts = 0;
   for (int i = 0; i < 2000; ++i) {
     const std::vector<double> q0 = drawn(random, fromUrdf), q1 = drawn(random, fromUrdf);

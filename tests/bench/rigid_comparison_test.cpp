@@ -34,7 +34,7 @@ class RigidComparisonOfAnArm : public testing::Test {
     const ChainMotion motion(avatar.skeleton(), from, to);
     const Scene scene = Scene::build(std::move(raw)).value();
     const auto truth = firstContacts(avatar, motion, scene);
-    QueryScratch scratch;
+    Scratch scratch;
     return RigidComparison::build(avatar, scene, {})
         .value()
         .compare(motion, truth.value(), scratch)
@@ -91,7 +91,7 @@ TEST(RigidComparison, AgreesWhereALinkIsARigidBody) {
           .value();
   const Scene scene = Scene::build(test::wallAt(0.0, "wall")).value();
   const RigidComparison comparison = RigidComparison::build(body, scene, {}).value();
-  QueryScratch scratch;
+  Scratch scratch;
   RigidCounts counts;
   constexpr int kCases = 300;
   for (int i = 0; i < kCases; ++i) {

@@ -139,7 +139,7 @@ void expectSameStates(ft_query* query, const test::RandomBody& body, const Chain
                       double t, const Scene& scene, const QueryOptions& options) {
   std::vector<ft_transform> transforms(static_cast<std::size_t>(motion.numLinks()));
   ASSERT_EQ(ft_motion_transforms(query, t, transforms.data(), transforms.size(), nullptr), FT_OK);
-  QueryScratch scratch;
+  Scratch scratch;
   for (LinkId link = 0; link < motion.numLinks(); ++link) {
     const LinkState state = motion.stateAt(link, t);
     const ft_transform& c = transforms[static_cast<std::size_t>(link)];
@@ -202,7 +202,7 @@ TEST(CAnswers, AreThoseOfTheCxxApiBitForBit) {
     ASSERT_EQ(ft_query_step(query.get(), &first, &second), FT_OK) << ft_last_error();
     const ChainMotion motion = body.motion();
     const Query question = Query::build(body.avatar, scene, options.cxx).value();
-    QueryScratch scratch;
+    Scratch scratch;
     const StepContacts step = question.answer(motion, scratch);
 
     std::vector<ft_contact> links(step.links.size());

@@ -179,8 +179,8 @@ TEST(CEvents, AreThoseOfTheLibrary) {
       asked.time_fraction = 0.25;
       ft_depth found{};
       found.size = sizeof found;
-      WorldDepthScratch scratch;
-      const auto cxx = depthAt(world.cxx, {31'234, 0.25}, question, scratch);
+      Scratch scratch;
+      const auto cxx = world.cxx.depth({31'234, 0.25}, question, scratch);
       ASSERT_TRUE(cxx.ok());
       ASSERT_EQ(ft_world_depth(world.c.get(), &asked, &found), FT_OK) << ft_last_error();
       EXPECT_EQ(found.lower, cxx.value().depth.lower);

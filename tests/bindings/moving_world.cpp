@@ -181,7 +181,7 @@ void MovingWorld::answer(std::int64_t fromUs, std::int64_t toUs) {
   EXPECT_EQ(known, cxx.knownUntilUs());
   EXPECT_EQ(waitsFor, cxx.waitsFor().value_or(-1));
   ASSERT_EQ(ft_world_answer(c.get(), fromUs, toUs), FT_OK) << ft_last_error();
-  ASSERT_TRUE(worldContacts(cxx, fromUs, toUs, scratch_, answerOfCxx).ok());
+  ASSERT_TRUE(cxx.contacts(fromUs, toUs, scratch_, answerOfCxx).ok());
   expectSameContacts();
   expectSameSilent();
   expectSameCounters();

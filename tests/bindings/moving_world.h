@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "middleware/world/world.h"
-#include "middleware/world/world_query.h"
 #include "tests/bindings/c_world.h"
 
 namespace foretouch::test {
@@ -56,7 +55,7 @@ class MovingWorld {
 
   std::optional<Scene> still_;
   std::vector<std::optional<Scene>> meshes_;  // per body
-  WorldScratch scratch_;
+  Scratch scratch_;
 };
 
 /// A panel from (0, 0, 0) to (0.9, 2, 0), in the frame of its hinge: a door of two objects, the

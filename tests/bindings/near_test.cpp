@@ -62,7 +62,7 @@ TEST(CNear, AnswersAreThoseOfTheLibrary) {
     ASSERT_EQ(ft_near_ask(near.get(), &view, reach.data(), reach.size()), FT_OK) << ft_last_error();
 
     const NearQuery query = NearQuery::build(avatar, scene, {{1, 2}}).value();
-    NearScratch scratch;
+    Scratch scratch;
     NearFeatures expected;
     std::vector<LinkState> states;
     ChainMotion(avatar.skeleton(), random_body.from, random_body.from).statesAt(0.0, states);

@@ -175,7 +175,7 @@ TEST(CPairRules, AnswerWhatTheCxxLibraryAnswers) {
   QueryOptions options;
   options.self = PairRules::derive(avatar).value();
   const Query question = Query::build(avatar, Scene::build(raw).value(), options).value();
-  QueryScratch scratch;
+  Scratch scratch;
   const StepContacts step = question.answer(ChainMotion(avatar.skeleton(), from, to), scratch);
   ASSERT_EQ(step.pairs.size(), 1u);
   EXPECT_EQ(contact.link, 1);

@@ -161,7 +161,7 @@ TEST_F(CRobots, AnswerEdgesAsCppDoes) {
   same.self = PairRules::derive(known_.avatar()).value();
   same.clearance = 0.01;
   const auto cpp = EdgeQuery::build(known_, Scene::build(raw_).value(), same).value();
-  EdgeScratch scratch;
+  Scratch scratch;
   int clear = 0;
   for (std::size_t i = 0; i < kEdges; ++i) {
     const auto expected = cpp.answer(&q0[3 * i], &q1[3 * i], 3, scratch).value();
@@ -325,7 +325,7 @@ TEST_F(CRobots, MeetPropsWhereTheyArePlaced) {
   EdgeOptions same;
   same.props = {{Scene::build(wire).value(), RigidPose{Quaternion::Identity(), {1, 0, 0}}, {}}};
   const auto cpp = EdgeQuery::build(known_, Scene::build(raw_).value(), same).value();
-  EdgeScratch scratch;
+  Scratch scratch;
   EXPECT_EQ(answer.free_until, cpp.answer(q0, q1, 3, scratch).value().freeUntil);
   // It is moved away, back, and taken away.
   const double straight[4] = {1, 0, 0, 0}, away[3] = {3, 0, 0}, back[3] = {1, 0, 0};

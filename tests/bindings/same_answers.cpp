@@ -66,7 +66,7 @@ void expectSame(const ft_contact_details& c, const ContactDetails& cxx) {
 
 int expectSameDetails(ft_query* query, std::int32_t list, const std::vector<LinkContact>& contacts,
                       const Query& question, const ChainMotion& motion) {
-  QueryScratch scratch;
+  Scratch scratch;
   int touches = 0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     ft_contact_details details{};

@@ -189,7 +189,7 @@ struct Tally {
 
 Tally tallyOf(const ExampleMotion& motion, const Scene& scene) {
   Tally tally;
-  QueryScratch scratch;
+  Scratch scratch;
   const Query query = Query::build(motion.avatar, scene).value();
   for (std::size_t f = 0; f + kFramesAStep < motion.poses.size(); f += kFramesAStep) {
     const ChainMotion step(motion.avatar.skeleton(), motion.poses[f],
@@ -219,7 +219,7 @@ TEST(ExampleSteps, AreAnsweredAlikeByEitherCuller) {
   pointQuery.culler = Culler::PointQuery;
   const Query flat = Query::build(motion.avatar, room).value();
   const Query slow = buildReference(motion.avatar, room, {}, pointQuery).value();
-  QueryScratch scratch;
+  Scratch scratch;
   int contacts = 0;
   for (std::size_t f = 0; f + kFramesAStep < motion.poses.size(); f += kFramesAStep) {
     SCOPED_TRACE(f);

@@ -33,10 +33,8 @@ const std::vector<std::string> kProduct = {"lss",    "articulated", "tessellatio
 const std::vector<std::string> kBeside = {"bench", "examples", "judge"};
 
 /// What a program begins with that asks something of the kernel.
-const std::set<std::string> kDoors = {"Query",     "QueryPool",     "NearQuery", "EdgeQuery",
-                                      "EdgePool",  "worldContacts", "WorldPool", "WorldFollower",
-                                      "Triggers",  "depthAt",       "depthIn",   "SolidAvatar",
-                                      "SolidWorld"};
+const std::set<std::string> kDoors = {"Query",         "NearQuery", "EdgeQuery",   "World",
+                                      "WorldFollower", "Triggers",  "SolidAvatar", "SolidWorld"};
 
 /// Lines of code that stand in so many one after the other that stand elsewhere as well are
 /// repeated.
@@ -123,9 +121,7 @@ void countWordsOf(const Source& source, Counts& counts) {
     counts["pools"] += endsIn(name, "Pool") ? 1 : 0;
     counts["scratch"] += endsIn(name, "Scratch") ? 1 : 0;
   }
-  for (const char* const function : {"worldContacts", "depthAt", "depthIn"}) {
-    counts["doors"] += words.count(function);
-  }
+  counts["doors"] += words.count("depthIn");
 }
 
 /// The lines of a source as its tokens, without those that hold no word.

@@ -60,7 +60,7 @@ class Sweeper {
 
  private:
   void work(SweepTally& tally) {
-    QueryScratch scratch;
+    Scratch scratch;
     const auto query = buildReference(clip_.avatar, scene_.scene, query_, options_.reference);
     if (!query.ok()) {
       ++tally.failedQueries;
@@ -77,7 +77,7 @@ class Sweeper {
     }
   }
 
-  void step(int n, const Query& query, QueryScratch& scratch, SweepTally& tally) const {
+  void step(int n, const Query& query, Scratch& scratch, SweepTally& tally) const {
     const Skeleton& skeleton = clip_.avatar.skeleton();
     const auto frame = static_cast<std::size_t>(n * stride_);
     const Pose from = placed(skeleton, clip_.clip.frames[frame], placement_);

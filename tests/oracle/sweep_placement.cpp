@@ -50,7 +50,7 @@ void probe(const SweepClip& clip, const SweepScene& scene, Probed& probed) {
       std::min(strideFor(clip.clip, kProbeRateHz), static_cast<int>(frames.size()) - 1);
   const int steps = clip.numSteps(stride), probes = std::min(kProbes, steps);
   const Skeleton& skeleton = clip.avatar.skeleton();
-  QueryScratch scratch;
+  Scratch scratch;
   const Query query = Query::build(clip.avatar, scene.scene).value();
   int touching = 0;
   for (int i = 0; i < probes; ++i) {

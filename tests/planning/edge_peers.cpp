@@ -11,7 +11,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "middleware/edges/edge_pool.h"
+#include "middleware/edges/edge_query.h"
+#include "middleware/worker_pool.h"
 #include "tests/planning/edge_solver.h"
 #include "tests/planning/plan_campaign.h"
 
@@ -30,7 +31,7 @@ class ProvenEdges : public EdgeSolver {
 
  private:
   const EdgeQuery& edges_;
-  EdgeScratch scratch_;
+  Scratch scratch_;
 };
 
 struct Arguments {
@@ -46,7 +47,7 @@ struct Arguments {
 class ListTimes {
  public:
   explicit ListTimes(int threads)
-      : one_(EdgePool::start(1).value()), several_(EdgePool::start(threads).value()) {}
+      : one_(WorkerPool::start(1).value()), several_(WorkerPool::start(threads).value()) {}
   void add(const EdgeQuery& edges, const std::vector<PlanProblem>& problems) {
     std::vector<double> q0, q1;
     for (const PlanProblem& problem : problems) {
@@ -58,8 +59,8 @@ class ListTimes {
     for (int pass = 0; pass < kPasses; ++pass) {
       for (const bool isOne : {true, false}) {
         const auto begin = std::chrono::steady_clock::now();
-        EdgePool& pool = isOne ? one_ : several_;
-        (void)pool.answer(edges, q0.data(), q1.data(), problems.size(), answers_).value();
+        WorkerPool& pool = isOne ? one_ : several_;
+        (void)edges.answerAll(q0.data(), q1.data(), problems.size(), pool, answers_).value();
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
         least[isOne ? 0 : 1] = std::min(least[isOne ? 0 : 1], took.count());
       }
@@ -75,7 +76,7 @@ class ListTimes {
   }
 
  private:
-  EdgePool one_, several_;
+  WorkerPool one_, several_;
   std::vector<EdgeAnswer> answers_;
   double seconds_[2] = {};
   std::size_t count_ = 0;

@@ -13,7 +13,8 @@
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <stdexcept>
 
-#include "middleware/edges/edge_pool.h"
+#include "middleware/edges/edge_query.h"
+#include "middleware/worker_pool.h"
 #include "planning/ompl.h"
 
 namespace foretouch::test {
@@ -70,7 +71,7 @@ double computedSeconds() {
 std::vector<PlanProblem> edgesBetween(const PlanStage& stage, int count, unsigned seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> share(0.0, 0.5);
-  EdgeScratch scratch;
+  Scratch scratch;
   std::vector<PlanProblem> edges;
   while (edges.size() < static_cast<std::size_t>(count)) {
     const auto q0 = stage.drawFree(random, scratch);
@@ -100,7 +101,7 @@ void PlanTally::add(const PlanTally& other) {
 
 std::vector<PlanProblem> planProblems(const PlanStage& stage, int count, unsigned seed) {
   std::mt19937_64 random(seed);
-  EdgeScratch scratch;
+  Scratch scratch;
   std::vector<PlanProblem> problems;
   for (int i = 0; i < count; ++i) {
     problems.push_back({stage.drawFree(random, scratch), stage.drawFree(random, scratch)});
@@ -156,12 +157,12 @@ EdgeTally runEdges(const PlanStage& stage, const PlanJudge& judge, int count, in
   }
   std::vector<EdgeAnswer> answers;
   double best[2] = {1e9, 1e9}, computed = 1e9;
-  EdgePool pools[2] = {EdgePool::start(1).value(), EdgePool::start(2).value()};
+  WorkerPool pools[2] = {WorkerPool::start(1).value(), WorkerPool::start(2).value()};
   for (int round = 0; round < 5; ++round) {
     for (int i = 0; i < 2; ++i) {
       const auto start = Clock::now();
       const double startComputed = computedSeconds();
-      if (!pools[i].answer(*stage.edges, q0.data(), q1.data(), problems.size(), answers).ok()) {
+      if (!stage.edges->answerAll(q0.data(), q1.data(), problems.size(), pools[i], answers).ok()) {
         throw std::runtime_error("edges refused");
       }
       best[i] = std::min(best[i], secondsSince(start));

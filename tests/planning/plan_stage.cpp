@@ -95,7 +95,7 @@ std::optional<std::vector<Triangle>> ofFile(const std::string& path) {
 
 double shareFree(const PlanStage& stage, unsigned seed) {
   std::mt19937_64 random(seed);
-  EdgeScratch scratch;
+  Scratch scratch;
   int free = 0;
   for (int i = 0; i < kDraws; ++i) {
     const auto q = stage.draw(random);
@@ -161,7 +161,7 @@ std::vector<double> PlanStage::draw(std::mt19937_64& random) const {
   return q;
 }
 
-std::vector<double> PlanStage::drawFree(std::mt19937_64& random, EdgeScratch& scratch) const {
+std::vector<double> PlanStage::drawFree(std::mt19937_64& random, Scratch& scratch) const {
   for (;;) {
     auto q = draw(random);
     if (edges->answer(q, q, scratch).value().isUsable()) return q;

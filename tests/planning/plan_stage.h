@@ -26,7 +26,7 @@ struct PlanStage {
 
   /// Within limits, the coordinates without any within a turn.
   [[nodiscard]] std::vector<double> draw(std::mt19937_64& random) const;
-  [[nodiscard]] std::vector<double> drawFree(std::mt19937_64& random, EdgeScratch& scratch) const;
+  [[nodiscard]] std::vector<double> drawFree(std::mt19937_64& random, Scratch& scratch) const;
 };
 
 /// "wires-20", "wires-10", "wires-4" (mm thick), "shelf", and of shared data "office", "kitchen",

@@ -126,7 +126,7 @@ Result<StepContacts> firstContacts(const Avatar& avatar, const ChainMotion& moti
   if (motion.numLinks() != avatar.numLinks()) {
     return Error::in("motion", ErrorCode::Mismatch, "expected a motion of this avatar's skeleton");
   }
-  QueryScratch scratch;
+  Scratch scratch;
   return query.answer(motion, scratch);
 }
 

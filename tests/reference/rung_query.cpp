@@ -9,11 +9,11 @@
 #include "middleware/query/body.h"
 #include "middleware/query/lane_query.h"
 #include "middleware/query/query_plan.h"
-#include "middleware/query/query_scratch.h"
 #include "middleware/query/scalar_query.h"
 #include "middleware/query/scratch_parts.h"
 #include "middleware/query/work_meter.h"
 #include "middleware/scene/scene_parts.h"
+#include "middleware/scratch.h"
 #include "tests/reference/rung_volumes.h"
 #include "tests/reference/spheroid_query.h"
 
@@ -211,11 +211,12 @@ const char* toString(Rung rung) {
 std::vector<RungVolume> rungVolumes(const Avatar& avatar, const ChainMotion& motion,
                                     const Scene& scene, Rung rung) {
   FORETOUCH_ASSERT(motion.numLinks() == avatar.numLinks());
-  QueryScratch scratch;
+  Scratch scratch;
   const QueryOptions options;
   const auto plan = internal::QueryPlan::make(avatar, scene, options);
   const internal::WorkMeter meter(options);
-  internal::RungQuery query(rung, plan.value(), motion, meter, scratch.parts());
+  internal::RungQuery query(rung, plan.value(), motion, meter,
+                            scratch.of<internal::ScratchParts>());
   QueryCounters counters;
   query.evaluate(counters);
   std::vector<RungVolume> volumes;

@@ -8,17 +8,17 @@ namespace foretouch::test {
 
 /// Precondition: options that Query::build() takes.
 inline StepContacts answerOf(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
-                             const QueryOptions& options, QueryScratch& scratch) {
+                             const QueryOptions& options, Scratch& scratch) {
   return Query::build(avatar, scene, options).value().answer(motion, scratch);
 }
 /// The same in other ways. Precondition: options that buildReference() takes.
 inline StepContacts answerOf(const Avatar& avatar, const ChainMotion& motion, const Scene& scene,
                              const QueryOptions& options, const ReferenceOptions& reference,
-                             QueryScratch& scratch) {
+                             Scratch& scratch) {
   return buildReference(avatar, scene, options, reference).value().answer(motion, scratch);
 }
 inline bool touchesAt(const Avatar& avatar, const ChainMotion& motion, LinkId link, double t,
-                      const Scene& scene, const QueryOptions& options, QueryScratch& scratch) {
+                      const Scene& scene, const QueryOptions& options, Scratch& scratch) {
   return Query::build(avatar, scene, options).value().touchesAt(motion, link, t, scratch);
 }
 

@@ -259,7 +259,7 @@ std::string runCertificateTrial(std::uint64_t seed, int lies, CertificateTally& 
   to = validatedPose(edge.avatar.skeleton(), to).value();
   edge.motion.assign(edge.avatar.skeleton(), from, to);
   const Query query = Query::build(edge.avatar, edge.scene).value();
-  QueryScratch scratch;
+  Scratch scratch;
   Clock::time_point start = Clock::now();
   const StepContacts answer = query.answer(edge.motion, scratch);
   tally.answerS += secondsSince(start);

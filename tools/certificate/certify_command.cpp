@@ -80,7 +80,7 @@ Result<CertifiedClip> certify(const ReplayInputs& inputs, const InterruptGuard& 
   CertifiedClip found;
   CertificateWriter writer(inputs.avatar, inputs.scene);
   ProgressBar progress("certify", inputs.steps.count);
-  QueryScratch scratch;
+  Scratch scratch;
   ChainMotion motion;
   std::size_t withLss = 0;
   for (LinkId link = 0; link < inputs.avatar.numLinks(); ++link) {

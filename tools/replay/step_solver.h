@@ -43,7 +43,7 @@ class StepSolver {
   const Query& query_;
   const StepFormat& format_;
   GroundTest ground_;
-  QueryScratch scratch_;
+  Scratch scratch_;
   std::int64_t frame_ = -1;  // whose pose pose_ is
   Pose pose_;
 };

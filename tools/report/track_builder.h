@@ -56,7 +56,7 @@ class TrackBuilder {
 
   const Avatar& avatar_;
   std::optional<Query> question_;
-  QueryScratch scratch_;
+  Scratch scratch_;
   ChainMotion motion_;
   std::vector<LinkState> states_;
   Eigen::AlignedBox3d box_;

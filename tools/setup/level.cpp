@@ -53,7 +53,7 @@ Level::Level(Scene scene, std::vector<Vector3d> areas, Avatar point, Query query
       areas_(std::move(areas)),
       point_(std::move(point)),
       query_(std::move(query)),
-      scratch_(std::make_unique<QueryScratch>()) {}
+      scratch_(std::make_unique<Scratch>()) {}
 
 Result<Level> Level::build(RawScene raw) {
   // A Scene sorts the vertices of its triangles, so their sides must be read before.

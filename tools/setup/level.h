@@ -53,7 +53,7 @@ class Level {
   std::vector<Eigen::Vector3d> areas_;  ///< Per triangle: the front's normal times the area.
   Avatar point_;                        ///< A body of one point: the engine's own ray.
   Query query_;
-  std::unique_ptr<QueryScratch> scratch_;
+  std::unique_ptr<Scratch> scratch_;
 };
 
 }  // namespace foretouch::tools

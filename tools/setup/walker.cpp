@@ -16,7 +16,7 @@ Walker::Walker(const WalkingBody& body, const Level& level, Query query)
       query_(std::move(query)),
       trunk_(trunkOf(body.avatar.skeleton())),
       feet_(feetOf(body.avatar.skeleton())),
-      scratch_(std::make_unique<QueryScratch>()) {}
+      scratch_(std::make_unique<Scratch>()) {}
 
 Result<Walker> Walker::build(const WalkingBody& body, const Level& level) {
   FORETOUCH_TRY(auto query, Query::build(body.avatar, level.scene()));

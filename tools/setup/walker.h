@@ -60,7 +60,7 @@ class Walker {
   const Level* level_;
   Query query_;
   std::vector<LinkId> trunk_, feet_;
-  std::unique_ptr<QueryScratch> scratch_;
+  std::unique_ptr<Scratch> scratch_;
 };
 
 }  // namespace foretouch::tools

@@ -58,7 +58,7 @@ class SolidCheck {
 
   Avatar avatar_;
   std::vector<Query> queries_;  // from the largest tolerance to the smallest
-  QueryScratch scratch_;
+  Scratch scratch_;
   StepContacts answer_;
   ChainMotion motion_;
   CheckedSolid checked_;

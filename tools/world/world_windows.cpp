@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
-#include "middleware/world/world_query.h"
+#include "middleware/world/world.h"
 
 namespace foretouch::tools {
 namespace {
@@ -107,11 +107,11 @@ Result<std::vector<std::int64_t>> windowsOf(const LoadedWorld& world,
 Result<Done> replayWorld(const LoadedWorld& world, const std::vector<std::int64_t>& cuts,
                          const std::function<bool(const WorldStep&)>& take) {
   using Clock = std::chrono::steady_clock;
-  WorldScratch scratch;
+  Scratch scratch;
   WorldContacts answer;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     const auto begin = Clock::now();
-    const auto asked = worldContacts(world.world, cuts[i], cuts[i + 1], scratch, answer);
+    const auto asked = world.world.contacts(cuts[i], cuts[i + 1], scratch, answer);
     const std::chrono::duration<double, std::micro> took = Clock::now() - begin;
     if (!asked.ok()) {
       Error error = named(asked.error(), world.file);

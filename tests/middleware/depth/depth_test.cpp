@@ -86,7 +86,7 @@ void check(const Depth& depth, const std::vector<DepthPiece>& moved,
 
 TEST(Depth, OfAHandInASoupIsBoundedOnBothSides) {
   Tally tally;
-  DepthScratch scratch;
+  Scratch scratch;
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
     test::Random random(static_cast<std::uint64_t>(i));
@@ -109,7 +109,7 @@ TEST(Depth, OfAHandInASoupIsBoundedOnBothSides) {
 
 TEST(Depth, OfABodyInAnotherIsBoundedOnBothSides) {
   Tally tally;
-  DepthScratch scratch;
+  Scratch scratch;
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
     test::Random random(static_cast<std::uint64_t>(i));
@@ -131,7 +131,7 @@ TEST(Depth, InACornerTheLowerBoundIsAWallAndTheWayTheDiagonal) {
     const Vector3d u = Vector3d::Unit((axis + 1) % 3), v = Vector3d::Unit((axis + 2) % 3);
     walls.push_back({{-10.0 * u - 10.0 * v, 30.0 * u - 10.0 * v, -10.0 * u + 30.0 * v}});
   }
-  DepthScratch scratch;
+  Scratch scratch;
   const std::vector<Lss> ball{{Vector3d::Constant(0.1), Vector3d::Constant(0.1), 0.2}};
   const Depth depth = depthIn(ball, sceneOf(walls), scratch);
   EXPECT_NEAR(depth.lower, 0.1, 1e-9);
@@ -149,7 +149,7 @@ TEST(Depth, BetweenTwoWallsItGoesAround) {
     walls.push_back({{Vector3d(x, -1, -1), Vector3d(x, far, -1), Vector3d(x, far, 1)}});
     walls.push_back({{Vector3d(x, -1, -1), Vector3d(x, far, 1), Vector3d(x, -1, 1)}});
   }
-  DepthScratch scratch;
+  Scratch scratch;
   const std::vector<Lss> ball{{Vector3d::Zero(), Vector3d::Zero(), 0.05}};
   const Scene scene = sceneOf(walls);
   const Depth depth = depthIn(ball, scene, scratch);
@@ -161,7 +161,7 @@ TEST(Depth, BetweenTwoWallsItGoesAround) {
 }
 
 TEST(Depth, WhatIsClearNeedsNoWay) {
-  DepthScratch scratch;
+  Scratch scratch;
   const Depth depth =
       depthAmong({{{0, 0, 0}, {1, 0, 0}, 0.1}}, {{{0, 1, 0}, {1, 1, 0}, 0.1}}, scratch);
   EXPECT_TRUE(depth.isCertified);
@@ -173,7 +173,7 @@ TEST(Depth, WhatIsClearNeedsNoWay) {
 
 // Where doubles are 1 nm apart, a way is still certified, and the bounds stay sound.
 TEST(Depth, FarFromTheOriginAWayIsStillCertified) {
-  DepthScratch scratch;
+  Scratch scratch;
   Tally tally;
   for (int i = 0; i < 100; ++i) {
     SCOPED_TRACE(i);
@@ -199,7 +199,7 @@ TEST(Depth, TheSameQuestionHasTheSameAnswer) {
   test::Random random(7);
   const auto hand = randomHand(random, 4);
   const Scene scene = sceneOf(randomSoup(random, 20, 0.3));
-  DepthScratch one, other;
+  Scratch one, other;
   const Depth first = depthIn(hand, scene, one), again = depthIn(hand, scene, one);
   const Depth fresh = depthIn(hand, scene, other);
   EXPECT_EQ(first.wayOut, again.wayOut);

@@ -63,8 +63,8 @@ std::vector<DepthPiece> piecesOf(const std::vector<test::OraclePart>& parts) {
 /// The judge moves the body by the way out, and by shorter ones.
 void check(const BothWorlds& both, const WorldTime& time, const DepthQuestion& question,
            test::Random& random, int& deep) {
-  WorldDepthScratch scratch;
-  const auto asked = depthAt(both.world, time, question, scratch);
+  Scratch scratch;
+  const auto asked = both.world.depth(time, question, scratch);
   ASSERT_TRUE(asked.ok()) << describe(asked.error());
   const Depth& depth = asked.value().depth;
   const auto us = static_cast<Real>(time.us) + static_cast<Real>(time.fraction);
@@ -128,8 +128,8 @@ TEST(WorldDepth, OfTheStillSceneIsInItsFrame) {
   pose.translations[0] = Vector3d(0, -0.02, 0);
   ASSERT_TRUE(world.push(body, 0, pose).ok());
   ASSERT_TRUE(world.push(body, 1000, pose).ok());
-  WorldDepthScratch scratch;
-  const auto depth = depthAt(world, {500, 0.5}, {body}, scratch).value();
+  Scratch scratch;
+  const auto depth = world.depth({500, 0.5}, {body}, scratch).value();
   EXPECT_NEAR(depth.depth.lower, 0.05, 1e-12);
   EXPECT_NEAR(depth.depth.wayOut.y(), 0.05, 1e-10);
   EXPECT_EQ(depth.a.link, 0);
@@ -153,9 +153,9 @@ TEST(WorldDepth, RefusesWhatCannotBeAsked) {
           .value();
   const BodyId exact = world.add(arm(), byTriangles).value();
   ASSERT_TRUE(world.push(exact, 0, restPose(arm().skeleton())).ok());
-  WorldDepthScratch scratch;
+  Scratch scratch;
   const auto errorOf = [&](const WorldTime& time, const DepthQuestion& question) {
-    const auto asked = depthAt(world, time, question, scratch);
+    const auto asked = world.depth(time, question, scratch);
     return asked.ok() ? std::string() : describe(asked.error());
   };
   EXPECT_EQ(errorOf({0, 0.0}, {body, kEveryLink, mesh, kEveryLink}), "");
@@ -169,7 +169,7 @@ TEST(WorldDepth, RefusesWhatCannotBeAsked) {
   EXPECT_NE(errorOf({50, 0.0}, {held, 0, other, 0}).find("not there"), std::string::npos);
   EXPECT_NE(errorOf({0, 1.0}, {body, 0, mesh, 0}).find("fraction"), std::string::npos);
   EXPECT_NE(errorOf({0, 0.0}, {kStillScene, 0, body, 0}), "");
-  EXPECT_TRUE(depthAt(world, {100, 0.0}, {held, 0, other, 0}, scratch).value().isAssumed);
+  EXPECT_TRUE(world.depth({100, 0.0}, {held, 0, other, 0}, scratch).value().isAssumed);
 }
 
 }  // namespace

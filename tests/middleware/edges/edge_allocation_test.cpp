@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/edges/edge_pool.h"
+#include "middleware/edges/edge_query.h"
+#include "middleware/worker_pool.h"
 #include "tests/middleware/edges/arm_among_wires.h"
 #include "tests/support/allocation_count.h"
 
@@ -29,11 +30,11 @@ TEST_P(EdgeAllocations, StopOnceThePoolHasGrown) {
   if (!test::countsAllocations()) GTEST_SKIP() << "the build has its own allocator";
   constexpr std::size_t kEdges = 400;
   const auto q0 = test::randomConfigurations(1, kEdges), q1 = test::randomConfigurations(2, kEdges);
-  EdgePool pool = EdgePool::start(GetParam()).value();
+  WorkerPool pool = WorkerPool::start(GetParam()).value();
   std::vector<EdgeAnswer> answers;
   const auto ask = [&] {
-    ASSERT_TRUE(pool.answer(*edges_, q0.data(), q1.data(), kEdges, answers).ok());
-    ASSERT_TRUE(pool.answerPath(*edges_, q0.data(), kEdges).ok());
+    ASSERT_TRUE(edges_->answerAll(q0.data(), q1.data(), kEdges, pool, answers).ok());
+    ASSERT_TRUE(edges_->answerPath(q0.data(), kEdges, pool).ok());
   };
   // Which thread takes which edge is chance: until each has met the largest, memory may grow. So it
   // is a steady state that is looked for: many rounds in a row without an allocation.
@@ -57,13 +58,13 @@ TEST_P(EdgeAllocations, StopOnceThePoolHasGrown) {
 INSTANTIATE_TEST_SUITE_P(Threads, EdgeAllocations, testing::Values(1, 3));
 
 /// With one thread and its own scratch there is no chance: the second round is like the first.
-TEST(EdgeScratch, IsAllThatAnEdgeNeeds) {
+TEST(Scratch, IsAllThatAnEdgeNeeds) {
   if (!test::countsAllocations()) GTEST_SKIP() << "the build has its own allocator";
   const Robot robot = test::arm();
   const test::Place place = test::wires({{0.7, 0.5}, {-0.6, 0.7}});
   const EdgeQuery edges = EdgeQuery::build(robot, place.scene).value();
   const auto q = test::randomConfigurations(3, 300);
-  EdgeScratch scratch;
+  Scratch scratch;
   std::uint64_t first = 0;
   for (int round = 0; round < 2; ++round) {
     const std::uint64_t before = test::numAllocations();

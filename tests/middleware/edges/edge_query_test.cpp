@@ -32,7 +32,7 @@ TEST(EdgeQuery, TurnsTheLongWayBeyondAHalfTurn) {
   const Robot robot = arm();
   const Place place = wires({{-1.0, 0.0}});
   const auto edges = EdgeQuery::build(robot, place.scene).value();
-  EdgeScratch scratch;
+  Scratch scratch;
   // From 0.5 to 2 pi - 0.5 the arm passes the wire at pi; on the shorter arc it would not.
   const auto met = edges.answer({0.5, 0, 0}, {2 * kPi - 0.5, 0, 0}, scratch).value();
   EXPECT_EQ(met.verdict, Verdict::Contact);
@@ -46,7 +46,7 @@ TEST(EdgeQuery, IsNeverLateAndMissesNothing) {
   const Robot robot = arm();
   const Place place = wires({{0.7, 0.5}, {-0.6, 0.7}, {0.1, -0.9}, {-0.9, -0.3}});
   const auto edges = EdgeQuery::build(robot, place.scene).value();
-  EdgeScratch scratch;
+  Scratch scratch;
   int hits = 0, clear = 0;
   for (unsigned seed = 0; seed < 400; ++seed) {
     std::mt19937_64 random(seed);
@@ -75,7 +75,7 @@ TEST(EdgeQuery, IsNeverLateAndMissesNothing) {
 TEST(EdgeQuery, ProvesItsClearance) {
   const Robot robot = arm();
   const Place place = wires({{1.25, 0.0}});  // 0.02 m beyond the stretched arm
-  EdgeScratch scratch;
+  Scratch scratch;
   EdgeOptions options;
   options.tolerance = 1e-4;
   const auto verdictAt = [&](double clearance) {
@@ -91,7 +91,7 @@ TEST(EdgeQuery, ProvesItsClearance) {
 TEST(EdgeQuery, AsksOwnLinksAndATool) {
   const Robot robot = arm();
   const Place place = wires({{50.0, 0.0}});
-  EdgeScratch scratch;
+  Scratch scratch;
   EdgeOptions options;
   options.self = PairRules::derive(robot.avatar()).value();
   const auto bare = EdgeQuery::build(robot, place.scene, options).value();
@@ -161,7 +161,7 @@ TEST(EdgeQuery, IsNeverLateAmongPropsThatMove) {
   options.clearance = 0.004;
   options.props.assign(kProps, EdgeProp{barScene(), std::nullopt, {}});
   auto edges = EdgeQuery::build(robot, place.scene, options).value();
-  EdgeScratch scratch;
+  Scratch scratch;
   int ofProps = 0, ofScene = 0, clear = 0;
   for (unsigned seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE(seed);
@@ -230,7 +230,7 @@ TEST(EdgeQuery, AnswersAPropAsTheSameTrianglesOfTheScene) {
   const auto still = EdgeQuery::build(robot, Scene::build(raw).value()).value();
   auto posed = EdgeQuery::build(robot, far.scene, options).value();
   const EdgeQuery copy = posed;
-  EdgeScratch scratch;
+  Scratch scratch;
   const std::vector<double> q0{-0.5, 0, 0}, q1{1.5, 0.2, 0};
   const auto one = still.answer(q0, q1, scratch).value(),
              other = posed.answer(q0, q1, scratch).value();
@@ -274,7 +274,7 @@ TEST(EdgeQuery, RefusesPlacesThatAreNone) {
 TEST(EdgeQuery, TellsWhatIsWrongWithQ) {
   const Place place = wires({{-1.0, 0.0}});
   const auto edges = EdgeQuery::build(arm(-2.0, 2.0), place.scene).value();
-  EdgeScratch scratch;
+  Scratch scratch;
   EXPECT_EQ(edges.answer({0, 0}, {0, 0, 0}, scratch).error().code, ErrorCode::Mismatch);
   EXPECT_EQ(edges.answer({0, 0, 0}, {0, 0}, scratch).error().code, ErrorCode::Mismatch);
   EXPECT_EQ(edges.answer({0, std::nan(""), 0}, {0, 0, 0}, scratch).error().index, 1);

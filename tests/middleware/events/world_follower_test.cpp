@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/query/query_pool.h"
+#include "middleware/worker_pool.h"
 #include "tests/middleware/events/judged_events.h"
 #include "tests/middleware/world/random_worlds.h"
 

@@ -5,7 +5,7 @@
 #include "lss/simd.h"
 #include "middleware/query/near_features.h"
 #include "middleware/query/query.h"
-#include "middleware/query/query_pool.h"
+#include "middleware/worker_pool.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/reference/reference_query.h"
@@ -43,7 +43,7 @@ const ReferenceOptions kScalar = [] {
 std::uint64_t inSteadyState(const std::vector<test::RandomBody>& bodies, const Scene& scene,
                             const std::vector<QueryOptions>& options,
                             const ReferenceOptions& reference = {}) {
-  QueryScratch scratch;
+  Scratch scratch;
   ChainMotion motion;
   StepContacts step;
   std::uint64_t before = 0, contacts = 0;
@@ -70,7 +70,7 @@ TEST_F(Allocations, OfNearQueriesAreNone) {
   const Scene scene = Scene::build(test::clutter(random, 800, 3, Vector3d::Zero())).value();
   const test::RandomBody body = test::bodyInClutter(random, 8, Vector3d::Zero());
   const NearQuery query = NearQuery::build(body.avatar, scene, {{1, 0}}).value();
-  NearScratch scratch;
+  Scratch scratch;
   NearFeatures near;
   for (const Simd simd : supportedSimd()) {
     ASSERT_TRUE(useSimd(simd));
@@ -192,13 +192,13 @@ TEST_F(Allocations, OfAPoolAreNone) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     tasks.push_back({&queries[i], &bodies[i].from, &bodies[i].to});
   }
-  QueryPool pool = QueryPool::start(2).value();
+  WorkerPool pool = WorkerPool::start(2).value();
   std::vector<StepContacts> answers;
   // Which thread takes which task is chance: all of them have to have grown.
   std::uint64_t last = 1;
   for (int round = 0; round < 50 && last != 0; ++round) {
     const std::uint64_t before = test::numAllocations();
-    ASSERT_TRUE(pool.answer(tasks, answers).ok());
+    ASSERT_TRUE(Query::answerAll(tasks, pool, answers).ok());
     last = test::numAllocations() - before;
   }
   EXPECT_EQ(last, 0U);
@@ -239,22 +239,25 @@ TEST_F(Allocations, ThatFailInAPoolLeaveNothingClear) {
     tasks.push_back({&queries[i], &bodies[i].from, &bodies[i].to});
   }
   std::vector<StepContacts> whole;
-  QueryPool reference = QueryPool::start(1).value();
-  ASSERT_TRUE(reference.answer(tasks, whole).ok());
+  WorkerPool reference = WorkerPool::start(1).value();
+  ASSERT_TRUE(Query::answerAll(tasks, reference, whole).ok());
   std::size_t broken = 0;
   for (const int threads : {1, 2}) {
     bool hasFailed = true;
     for (std::int64_t allocation = 0; hasFailed; ++allocation) {
-      QueryPool pool = QueryPool::start(threads).value();
-      std::vector<StepContacts> answers(tasks.size());
+      WorkerPool pool = WorkerPool::start(threads).value();
+      std::vector<StepContacts> answers;
+      ASSERT_TRUE(Query::answerAll({}, pool, answers).ok());  // what lists need of each thread
+      answers.resize(tasks.size());
+      std::vector<FailedTask> failures;
       test::failAllocationAfter(allocation);
-      const bool isDone = pool.answer(tasks, answers).ok();
+      const bool isDone = Query::answerAll(tasks, pool, answers, &failures).ok();
       hasFailed = test::stopFailing();
       EXPECT_NE(isDone, hasFailed) << allocation;
-      EXPECT_EQ(pool.failures().size(), tasksNotAnswered(answers, whole)) << allocation;
-      EXPECT_EQ(pool.failures().empty(), isDone);
-      broken += pool.failures().size();
-      ASSERT_TRUE(pool.answer(tasks, answers).ok());
+      EXPECT_EQ(failures.size(), tasksNotAnswered(answers, whole)) << allocation;
+      EXPECT_EQ(failures.empty(), isDone);
+      broken += failures.size();
+      ASSERT_TRUE(Query::answerAll(tasks, pool, answers).ok());
       EXPECT_EQ(tasksNotAnswered(answers, whole), 0U);
     }
   }

@@ -50,7 +50,7 @@ Scene floorScene(bool isTurned) {
 TEST(ContactDetails, TellTheSpeedOfAFallStraightDown) {
   const Rod rod({{-0.2, 0, 0}, {0.2, 0, 0}, 0.05}, {0, 1, 0}, {0, -1, 0});
   const Query query = Query::build(rod.avatar, floorScene(false)).value();
-  QueryScratch scratch;
+  Scratch scratch;
   const StepContacts step = query.answer(rod.motion, scratch);
   ASSERT_EQ(step.links[0].verdict, Verdict::Contact);
   const ContactDetails details = query.details(rod.motion, step.links[0], scratch);
@@ -66,7 +66,7 @@ TEST(ContactDetails, HoldARodThatLiesOnTheFloorAtBothEnds) {
   for (const bool isTurned : {false, true}) {
     const Rod rod({{-0.2, 0, 0.1}, {0.2, 0, 0.1}, 0.05}, {0, 0.0505, 0}, {0, 0.0505, 0});
     const Query query = Query::build(rod.avatar, floorScene(isTurned)).value();
-    QueryScratch scratch;
+    Scratch scratch;
     const StepContacts step = query.answer(rod.motion, scratch);
     ASSERT_EQ(step.links[0].verdict, Verdict::Contact);
     const ContactDetails details = query.details(rod.motion, step.links[0], scratch);
@@ -93,7 +93,7 @@ TEST(ContactDetails, HoldABoxAtItsFourCorners) {
   options.fidelity = Fidelity::Exact;
   options.surface = AvatarSurface::build(rod.avatar, {box}).value();
   const Query query = Query::build(rod.avatar, floorScene(false), options).value();
-  QueryScratch scratch;
+  Scratch scratch;
   const StepContacts step = query.answer(rod.motion, scratch);
   ASSERT_EQ(step.links[0].verdict, Verdict::Contact);
   const ContactDetails details = query.details(rod.motion, step.links[0], scratch);
@@ -123,7 +123,7 @@ TEST(ContactDetails, KeepTheirPromisesOnRandomSteps) {
     const test::RandomBody body = test::bodyInClutter(random, 5, Vector3d::Zero());
     const ChainMotion motion = body.motion();
     const Query query = Query::build(body.avatar, scene).value();
-    QueryScratch scratch;
+    Scratch scratch;
     for (const LinkContact& contact : query.answer(motion, scratch).links) {
       if (contact.verdict != Verdict::Contact) continue;
       ++contacts;
@@ -171,7 +171,7 @@ TEST(ContactDetails, OfOwnLinksMirrorEachOther) {
     options.self = rules.value();
     const Query query = Query::build(avatar, floorScene(false), options).value();
     const ChainMotion motion(steps.skeleton, steps.from, steps.to);
-    QueryScratch scratch;
+    Scratch scratch;
     for (const PairContact& contact : query.answer(motion, scratch).pairs) {
       if (contact.verdict != Verdict::Contact) continue;
       ++contacts;

@@ -33,7 +33,7 @@ void expectSame(const LinkContact& x, const LinkContact& y) {
 }
 
 StepContacts answer(const test::RandomBody& body, const Scene& scene, Culler culler,
-                    QueryScratch& scratch) {
+                    Scratch& scratch) {
   QueryOptions options;
   ReferenceOptions reference;
   reference.culler = culler;
@@ -54,7 +54,7 @@ RawScene shuffled(const RawScene& raw, const std::vector<int>& order) {
 
 TEST(Determinism, CullersAndTriangleOrderDoNotShow) {
   int contacts = 0, starting = 0;
-  QueryScratch used;
+  Scratch used;
   for (int i = 0; i < 150; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(i));
@@ -68,7 +68,7 @@ TEST(Determinism, CullersAndTriangleOrderDoNotShow) {
     const Scene scene = Scene::build(raw).value();
     const Scene other = Scene::build(shuffled(raw, order)).value();
     const test::RandomBody body = test::bodyInClutter(random, 12, center);
-    QueryScratch fresh;
+    Scratch fresh;
     const StepContacts expected = answer(body, scene, Culler::FlatBvh, used);
     const StepContacts byPointQuery = answer(body, scene, Culler::PointQuery, fresh);
     const StepContacts reordered = answer(body, other, Culler::FlatBvh, fresh);
@@ -111,7 +111,7 @@ TEST(Determinism, CoincidentTrianglesGoToTheLowest) {
 // over on the way to it.
 TEST(Determinism, StartInContactReportsTheDeepest) {
   int starting = 0;
-  QueryScratch scratch;
+  Scratch scratch;
   for (int i = 0; i < 60; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(i));
@@ -147,7 +147,7 @@ TEST(Determinism, ThreadsDoNotShow) {
   for (int i = 0; i < 40; ++i) bodies.push_back(test::bodyInClutter(random, 8, Vector3d::Zero()));
   const auto runAll = [&](Culler culler) {
     std::vector<StepContacts> answers;
-    QueryScratch scratch;
+    Scratch scratch;
     for (const auto& body : bodies) answers.push_back(answer(body, scene, culler, scratch));
     return answers;
   };

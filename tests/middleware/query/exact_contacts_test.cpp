@@ -196,7 +196,7 @@ TEST_P(ExactContacts, OfSwingingMeshesAreSoundAndTight) {
   constexpr int kCases = 300;
   const double tolerances[] = {1e-3, 1e-5, 1e-6};
   int hits = 0, features = 0, contacts = 0;
-  QueryScratch scratch;
+  Scratch scratch;
   for (int i = 0; i < kCases; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(i));

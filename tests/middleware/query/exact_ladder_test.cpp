@@ -87,7 +87,7 @@ TEST(ExactFidelity, NoSampledTouchIsMissedOrEarlierThanReported) {
     const auto motion = bench.body.motion();
     const auto exact =
         firstContacts(bench.body.avatar, motion, bench.scene, bench.exact, bench.reference).value();
-    QueryScratch scratch;
+    Scratch scratch;
     for (LinkId link = 0; link < bench.body.avatar.numLinks(); ++link) {
       const LinkContact& got = exact.links[static_cast<std::size_t>(link)];
       for (int k = 0; k <= 60; ++k) {
@@ -167,7 +167,7 @@ TEST_P(ExactInLanes, MissNoSampledTouchAndAreNotLate) {
     const auto motion = bench.body.motion();
     const auto exact =
         firstContacts(bench.body.avatar, motion, bench.scene, bench.exact, bench.reference).value();
-    QueryScratch scratch;
+    Scratch scratch;
     for (LinkId link = 0; link < bench.body.avatar.numLinks(); ++link) {
       const LinkContact& got = exact.links[static_cast<std::size_t>(link)];
       for (int k = 0; k <= 60; ++k) {
@@ -325,7 +325,7 @@ TEST(ExactFidelity, AnLssWithoutTrianglesStandsForItself) {
     const auto link = firstContacts(bench.body.avatar, motion, bench.scene, bench.link).value();
     const auto exact =
         firstContacts(bench.body.avatar, motion, bench.scene, bench.exact, bench.reference).value();
-    QueryScratch scratch;
+    Scratch scratch;
     for (std::size_t i = 0; i < link.links.size(); ++i) {
       ASSERT_EQ(exact.links[i].verdict, link.links[i].verdict);
       ASSERT_EQ(exact.links[i].toi, link.links[i].toi);

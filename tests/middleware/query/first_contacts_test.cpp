@@ -61,7 +61,7 @@ TEST_P(FirstContacts, AreSoundAndTight) {
   constexpr int kCases = 3000;
   const double tolerances[] = {1e-2, 1e-3, 1e-5, 1e-7};
   int hits = 0;
-  QueryScratch scratch;
+  Scratch scratch;
   for (int i = 0; i < kCases; ++i) {
     Random random(static_cast<std::uint64_t>(i));
     AnalyticCase c = GetParam().make(random);
@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(ClosedForms, FirstContacts,
 TEST(TouchesAt, BothPosesAreFreeWhileTheSwingIsNot) {
   Random random(1);
   AnalyticCase c = test::halfTurn(random);
-  QueryScratch scratch;
+  Scratch scratch;
   const Avatar avatar = c.avatar();
   const ChainMotion motion = c.motion();
   const Scene scene = c.scene();
@@ -109,7 +109,7 @@ TEST(TouchesAt, SeesWhatIsTouchedAtThatInstant) {
   Random random(5);
   AnalyticCase c = test::fallingSphere(random);
   while (!c.impact || c.lss.radius < 1e-3) c = test::fallingSphere(random);
-  QueryScratch scratch;
+  Scratch scratch;
   EXPECT_FALSE(test::touchesAt(c.avatar(), c.motion(), AnalyticCase::kLink, *c.impact - 1e-4,
                                c.scene(), {}, scratch));
   EXPECT_TRUE(test::touchesAt(c.avatar(), c.motion(), AnalyticCase::kLink, *c.impact + 1e-4,

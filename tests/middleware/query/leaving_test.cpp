@@ -48,7 +48,7 @@ Scene tableAndCup() {
 
 LinkContact onlyContact(const Scene& scene, const Avatar& avatar, const ChainMotion& motion,
                         const QueryOptions& options) {
-  QueryScratch scratch;
+  Scratch scratch;
   return test::answerOf(avatar, motion, scene, options, scratch).links[0];
 }
 
@@ -107,7 +107,7 @@ TEST_P(Leaving, KeepsThePromiseOnRandomSteps) {
     const test::RandomBody body = test::bodyInClutter(random, 4, Vector3d::Zero());
     QueryOptions options;
     options.tolerance = 0.03;
-    QueryScratch scratch;
+    Scratch scratch;
     const StepContacts plain = test::answerOf(body.avatar, body.motion(), scene, options, scratch);
     options.passSeparating = true;
     const StepContacts passed = test::answerOf(body.avatar, body.motion(), scene, options, scratch);
@@ -148,7 +148,7 @@ TEST_P(Leaving, EveryObjectHasItsOwnFirstContact) {
             AvatarSurface::build(body.avatar, test::meshWithin(body.avatar, random, 5, 0.9))
                 .value();
       }
-      QueryScratch scratch;
+      Scratch scratch;
       const StepContacts plain =
           test::answerOf(body.avatar, body.motion(), scene, options, scratch);
       options.scope = Scope::EveryObject;

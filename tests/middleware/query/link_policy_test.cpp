@@ -8,7 +8,7 @@
 #include "judge/judge.h"
 #include "lss/simd.h"
 #include "middleware/query/query.h"
-#include "middleware/query/query_pool.h"
+#include "middleware/worker_pool.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/middleware/reference/random_step.h"
@@ -263,7 +263,7 @@ TEST_P(LinkPolicies, AskLssAndMeshesInOneQuery) {
   EXPECT_EQ(step.links[0].verdict, Verdict::Contact);
   EXPECT_EQ(step.links[0].linkTriangle, -1);
   EXPECT_EQ(step.links[1].verdict, Verdict::Clear);
-  QueryScratch scratch;
+  Scratch scratch;
   EXPECT_TRUE(test::touchesAt(row.avatar, motion, 0, 1.0, row.scene, mixed, scratch));
   EXPECT_FALSE(test::touchesAt(row.avatar, motion, 1, 1.0, row.scene, mixed, scratch));
   mixed.linkPolicies[1].fidelity = Fidelity::Link;
@@ -336,8 +336,9 @@ TEST(LinkPoliciesOfThreads, AreAnsweredTheSameByAnyNumber) {
     tasks.push_back({&queries[i], &worlds[i].body.from, &worlds[i].body.to});
   }
   std::vector<StepContacts> got, expected;
-  ASSERT_TRUE(QueryPool::start(4).value().answer(tasks, got).ok());
-  ASSERT_TRUE(QueryPool::start(1).value().answer(tasks, expected).ok());
+  WorkerPool four = WorkerPool::start(4).value(), one = WorkerPool::start(1).value();
+  ASSERT_TRUE(Query::answerAll(tasks, four, got).ok());
+  ASSERT_TRUE(Query::answerAll(tasks, one, expected).ok());
   for (std::size_t i = 0; i < got.size(); ++i) {
     for (std::size_t link = 0; link < got[i].links.size(); ++link) {
       expectSame(expected[i].links[link], got[i].links[link]);

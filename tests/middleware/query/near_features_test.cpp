@@ -33,7 +33,7 @@ std::vector<LinkState> statesOf(const Avatar& avatar, const Pose& pose) {
 
 NearFeatures nearOf(const NearQuery& query, const std::vector<LinkState>& states, double reach,
                     NearDetail detail = NearDetail::Reduced) {
-  NearScratch scratch;
+  Scratch scratch;
   NearFeatures near;
   query.answer(states, std::vector<double>(states.size(), reach), scratch, near, detail);
   return near;
@@ -75,7 +75,7 @@ TEST_P(NearFeaturesTest, AreOfEveryPairWithinReachAndTrueOfIt) {
     const auto states = statesOf(body.avatar, body.to);
     std::vector<double> reach(states.size(), random.magnitude(1e-2, 1.0));
     reach[3] = -1.0;
-    NearScratch scratch;
+    Scratch scratch;
     NearFeatures all;
     query.answer(states, reach, scratch, all, NearDetail::All);
     std::map<PairKey, double> gaps;

@@ -87,7 +87,7 @@ struct Tally {
 void compare(const Avatar& avatar, const Scene& scene, const std::vector<LinkState>& states,
              double reach, Tally& tally) {
   const NearQuery query = NearQuery::build(avatar, scene).value();
-  NearScratch scratch;
+  Scratch scratch;
   NearFeatures near;
   query.answer(states, std::vector<double>(states.size(), reach), scratch, near);
   const std::vector<NearFeature> truth = expected(avatar, scene, states, reach, tally.all);

@@ -13,8 +13,8 @@
 #include "articulated/pair_rules.h"
 #include "middleware/query/lane_cull.h"
 #include "middleware/query/link_query.h"
-#include "middleware/query/query_scratch.h"
 #include "middleware/query/work_meter.h"
+#include "middleware/scratch.h"
 #include "tests/middleware/own_body.h"
 #include "tests/support/asked.h"
 
@@ -90,7 +90,7 @@ void expectSame(const StepContacts& one, const StepContacts& two, LinkId numOfOn
 
 TEST(PairQuery, TwoChainsAnswerAsOneThatHasBoth) {
   Random random(20261128);
-  QueryScratch scratch;
+  Scratch scratch;
   int contacts = 0, starts = 0, left = 0, inSlabs = 0;
   for (int i = 0; i < 600; ++i) {
     const OwnBody one = randomOwnBody(random), other = randomOwnBody(random);
@@ -109,17 +109,17 @@ TEST(PairQuery, TwoChainsAnswerAsOneThatHasBoth) {
     const ChainMotion motion = both.motion();
     StepContacts asOne;
     internal::beginAnswer(asOne);
-    scratch.parts().beginStep(motion);
+    scratch.of<internal::ScratchParts>().beginStep(motion);
     internal::PairQuery(PairPlan{sideOfBoth, sideOfBoth, ofOne, startShare}, {motion, motion},
-                        meter, scratch.parts())
+                        meter, scratch.of<internal::ScratchParts>())
         .run(asOne);
 
     const ChainMotion motionOfOne = one.motion(), motionOfOther = other.motion();
     StepContacts asTwo;
     internal::beginAnswer(asTwo);
-    scratch.parts().beginStep(motionOfOne, motionOfOther);
+    scratch.of<internal::ScratchParts>().beginStep(motionOfOne, motionOfOther);
     internal::PairQuery(PairPlan{sideOfOne, sideOfOther, ofTwo, startShare},
-                        {motionOfOne, motionOfOther}, meter, scratch.parts())
+                        {motionOfOne, motionOfOther}, meter, scratch.of<internal::ScratchParts>())
         .run(asTwo);
 
     expectSame(asOne, asTwo, one.avatar.numLinks());

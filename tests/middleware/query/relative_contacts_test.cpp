@@ -141,7 +141,7 @@ class RelativeContacts : public testing::Test {
     }
   }
 
-  QueryScratch scratch_;
+  Scratch scratch_;
   Tally tally_;
 };
 

@@ -56,7 +56,7 @@ class SelfOracle : public testing::TestWithParam<Simd> {
     }
   }
 
-  QueryScratch scratch_;
+  Scratch scratch_;
   Tally tally_;
 };
 

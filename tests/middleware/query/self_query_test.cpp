@@ -13,8 +13,8 @@
 #include "middleware/query/pair_query.h"
 #include "middleware/query/query.h"
 #include "middleware/query/query_plan.h"
-#include "middleware/query/query_scratch.h"
 #include "middleware/scene/scene_parts.h"
+#include "middleware/scratch.h"
 #include "tessellation/swept_lss.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/own_body.h"
@@ -111,7 +111,7 @@ class SelfQueries : public testing::TestWithParam<Simd> {
 
 TEST_P(SelfQueries, AreSoundAndTight) {
   Tally tally;
-  QueryScratch scratch;
+  Scratch scratch;
   for (int i = 0; i < 400; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(i));
@@ -165,7 +165,7 @@ double surfaceSeparationAt(const Avatar& avatar, const std::vector<std::vector<T
 // before.
 TEST_P(SelfQueries, FromAnInstantOnAreSoundAndTight) {
   Tally tally;
-  QueryScratch scratch;
+  Scratch scratch;
   int refused = 0;
   for (int i = 0; i < 600; ++i) {
     SCOPED_TRACE(i);
@@ -190,12 +190,12 @@ TEST_P(SelfQueries, FromAnInstantOnAreSoundAndTight) {
       }
     }
     const ChainMotion motion = body.motion();
-    scratch.parts().beginStep(motion);
+    scratch.of<internal::ScratchParts>().beginStep(motion);
     const internal::WorkMeter meter(plan.options);
     const double begin = random.uniform(0.01, 0.99);
     StepContacts step;
     const internal::PairPlan own{plan, plan, plan.self, 0.0, plan.scene.parts().origin};
-    internal::PairQuery query(own, {motion, motion}, meter, scratch.parts());
+    internal::PairQuery query(own, {motion, motion}, meter, scratch.of<internal::ScratchParts>());
     if (!query.runAmongFrom(begin, {meeting.data(), meeting.size(), open.data(), open.size()},
                             step)) {
       ++refused;
@@ -214,7 +214,7 @@ TEST_P(SelfQueries, OfMeshesAreSoundTightAndNeverEarlierThanTheirLss) {
   constexpr int kSamples = 60;
   constexpr double kRounding = 1e-10;
   int contacts = 0, starts = 0, clearer = 0;
-  QueryScratch scratch;
+  Scratch scratch;
   for (int i = 0; i < 150; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(i));
@@ -294,7 +294,7 @@ TEST_P(SelfQueries, WithPairRadiiTellWhatIsDeeperThanAtRest) {
   derived.restSkin = 0.01;
   QueryOptions options;
   options.self = PairRules::derive(avatar, derived).value();
-  QueryScratch scratch;
+  Scratch scratch;
   Pose nearer = restPose(avatar.skeleton()), farther = nearer;
   nearer.translations[2].x() = -0.98;
   farther.translations[2].x() = -0.7;
@@ -313,7 +313,7 @@ TEST_P(SelfQueries, WithPairRadiiTellWhatIsDeeperThanAtRest) {
 // A budget that is spent leaves pairs undecided, free as far as proven, and never clear.
 TEST_P(SelfQueries, WithoutWorkAreUndecidedAndNeverClearThatTouch) {
   int undecided = 0;
-  QueryScratch scratch;
+  Scratch scratch;
   for (int i = 0; i < 100; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(i));

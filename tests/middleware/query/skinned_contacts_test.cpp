@@ -128,7 +128,7 @@ TEST(SkinnedContacts, AreTightInFiftyDigitsAndMissNoSampledTouch) {
     options.skin = SkinnedSurface::build(body.avatar, made.skin, made.counts).value();
     const StepContacts step = firstContacts(body.avatar, motion, scene, options).value();
     const auto joints = test::plainJoints(body.avatar.skeleton(), body.from, body.to);
-    QueryScratch scratch;
+    Scratch scratch;
     for (const LinkContact& got : step.links) {
       ASSERT_NE(got.verdict, Verdict::Undecided);
       for (int k = 0; k <= 20; ++k) {

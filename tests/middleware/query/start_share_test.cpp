@@ -105,7 +105,7 @@ TEST_P(StartShare, AnswersAreTrueAndWithinTheShare) {
     options.tolerance = random.magnitude(1e-5, 5e-3);
     options.scope = random.chance(0.5) ? Scope::EveryLink : Scope::FirstOfAvatar;
     if (random.chance(0.3)) options.workBudget = 1ULL << random.below(16);
-    QueryScratch scratch;
+    Scratch scratch;
     const LinkContact contact =
         queryOf(slide.avatar, scene, options).answer(slide.motion(), scratch).links[1];
     const oracle::Scene boards(test::plain(slide.raw.triangles));
@@ -151,7 +151,7 @@ TEST_P(StartShare, OwnPairsAreAnsweredWithinTheirShare) {
     QueryOptions options;
     options.tolerance = random.magnitude(1e-3, 0.2);
     options.self = rules.value();
-    QueryScratch scratch;
+    Scratch scratch;
     const StepContacts plain =
         Query::build(body.avatar, test::farScene(), options).value().answer(body.motion(), scratch);
     const StepContacts step =

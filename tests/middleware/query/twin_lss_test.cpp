@@ -51,7 +51,7 @@ struct Riser {
     const Pose from = restPose(avatar->skeleton());
     Pose to = from;
     to.translations[0].z() += 0.3;
-    QueryScratch scratch;
+    Scratch scratch;
     const ChainMotion motion(avatar->skeleton(), from, to);
     return test::answerOf(*avatar, motion, *plane, options, reference, scratch).links[0];
   }
@@ -110,7 +110,7 @@ class TwinsInClutter : public testing::TestWithParam<Simd> {
 // The judge is told of triangles alone, for every LSS here contains some.
 TEST_P(TwinsInClutter, ProvesEveryAnswer) {
   int clear = 0, contacts = 0, starts = 0;
-  QueryScratch scratch;
+  Scratch scratch;
   for (int i = 0; i < 60; ++i) {
     Random random(static_cast<std::uint64_t>(i));
     const test::RandomBody body = test::bodyInClutter(random, 6, Vector3d::Zero());

@@ -226,14 +226,14 @@ class BreakingCuller : public internal::TriangleCuller {
 };
 
 /// As Query::answer(), up to the culler.
-void ask(const Case& c, const Path& path, const internal::TriangleCuller& culler,
-         QueryScratch& scratch, StepContacts& step) {
+void ask(const Case& c, const Path& path, const internal::TriangleCuller& culler, Scratch& scratch,
+         StepContacts& step) {
   const QueryOptions& options = path.options;
   internal::QueryPlan plan =
       buildReference(c.body.avatar, c.scene, options, path.reference).value().plan();
   plan.culler = {std::shared_ptr<const void>(), &culler};  // the caller's
   const internal::Body body(plan.avatar.lss(), plan.options.ignored);
-  internal::ScratchParts& parts = scratch.parts();
+  auto& parts = scratch.of<internal::ScratchParts>();
   const internal::WorkMeter meter(options);
   parts.beginStep(c.motion);
   if (plan.stepAnswerer != nullptr &&
@@ -252,7 +252,7 @@ TEST(Unanswered, QueriesThatAreBrokenOffLeaveNothingClear) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const Case c(seed);
     for (const Path& path : pathsOf(c)) {
-      QueryScratch scratch;
+      Scratch scratch;
       const StepContacts whole = answer(c, path);
       bool isBroken = true;
       for (int questions = 0; isBroken; ++questions) {
@@ -291,7 +291,7 @@ TEST(Unanswered, TheFirstOfAllLeavesNothingClear) {
       QueryOptions options = c.options(Fidelity::Link);
       options.scope = Scope::FirstOfAvatar;
       options.workBudget = budget;
-      QueryScratch scratch;
+      Scratch scratch;
       StepContacts step;
       internal::leaveUnanswered(Case::kLinks, step.links);
       ask(c, {"link", options, {}}, c.scene.parts().bvh, scratch, step);
@@ -342,7 +342,7 @@ TEST(Unanswered, MotionsOfAnotherAvatarForgetWhatWasAnsweredBefore) {
   raw.joints.push_back({"alone", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()});
   const Skeleton other = Skeleton::build(raw).value();
   const Pose rest = restPose(other);
-  QueryScratch scratch;
+  Scratch scratch;
   StepContacts step = query.answer(c.motion, scratch);
   EXPECT_EQ(step.links[Case::kIgnored].verdict, Verdict::Clear);
   query.answer(ChainMotion(other, rest, rest), scratch, step);

@@ -160,7 +160,7 @@ void expectSame(const LinkContact& x, const LinkContact& y) {
 }
 
 TEST(RungDeterminism, CullersTriangleOrderAndScratchDoNotShow) {
-  QueryScratch used;
+  Scratch used;
   for (int i = 0; i < 80; ++i) {
     SCOPED_TRACE(i);
     Case c = someCase(2000 + i, 40);

@@ -7,7 +7,7 @@
 #include "bench/solid/figure.h"
 #include "bench/solid/plain_body.h"
 #include "middleware/solid/solid_avatar.h"
-#include "middleware/world/world_query.h"
+#include "middleware/world/world.h"
 #include "tests/middleware/solid_world/together_runner.h"
 #include "tests/support/random_geometry.h"
 
@@ -297,14 +297,14 @@ TEST(SolidWorld, TheWorldSaysTheSameOfWhatWasShown) {
   // Whoever asks the world afterwards finds no contact but the crushes.
   RawScene room = floorOnly();
   addSheet(room, {-3, -0.1, 0.6}, {6, 0, 0}, {0, 3, 0});
-  SolidWorld world = SolidWorld::build(Scene::build(room).value(), 0, {kMinWorldTolerance},
-                                       SolidReach::Surface)
-                         .value();
+  SolidWorld world =
+      SolidWorld::build(Scene::build(room).value(), 0, {kMinWorldTolerance}, SolidReach::Surface)
+          .value();
   const BodyId person = world.add(figure()).value();
   const BodyId other = world.add(figure()).value();
   const BodyId door = world.world().add(doorLeaf()).value();
   std::vector<SolidBodyTick> ticks;
-  WorldScratch scratch;
+  Scratch scratch;
   WorldContacts contacts;
   std::uint64_t pushed = 0;
   ASSERT_TRUE(world.world().push(door, 0, doorAt(0.3, {-0.5, 0, -0.2})).ok());
@@ -314,7 +314,7 @@ TEST(SolidWorld, TheWorldSaysTheSameOfWhatWasShown) {
     ASSERT_TRUE(world.world().push(door, toUs, doorAt(open, {-0.5, 0, -0.2})).ok());
     const Pose one = standing({0.1, 0, 0.1}), two = standing({1.0 - 0.01 * i, 0, 0.2});
     ASSERT_TRUE(world.tick(toUs, {{person, &one}, {other, &two}}, ticks).ok());
-    ASSERT_TRUE(worldContacts(world.world(), fromUs, toUs, scratch, contacts).ok());
+    ASSERT_TRUE(world.world().contacts(fromUs, toUs, scratch, contacts).ok());
     pushed += ticks[0].contacts.size();
     for (const WorldContact& contact : contacts.contacts) {
       const bool isSaid = std::any_of(ticks.begin(), ticks.end(), [&](const SolidBodyTick& tick) {

@@ -110,7 +110,7 @@ void BothWorlds::detach(BodyId body, std::int64_t utimeUs, const RigidPose& pose
 }
 
 void BothWorlds::ask(std::int64_t fromUs, std::int64_t toUs) {
-  const auto asked = worldContacts(world, fromUs, toUs, scratch, answer);
+  const auto asked = world.contacts(fromUs, toUs, scratch, answer);
   ASSERT_TRUE(asked.ok()) << describe(asked.error());
   if (tamper) tamper(answer);
 }

@@ -11,7 +11,6 @@
 
 #include "judge/world_judge.h"
 #include "middleware/world/world.h"
-#include "middleware/world/world_query.h"
 #include "tests/support/judged.h"
 
 namespace foretouch::test {
@@ -55,7 +54,7 @@ class BothWorlds {
 
   World world;
   OracleWorld oracle;
-  WorldScratch scratch;
+  Scratch scratch;
   WorldContacts answer;
   WorldTally tally;
   std::vector<std::string> problems;           ///< What broke the promise.

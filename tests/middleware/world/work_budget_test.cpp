@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "middleware/worker_pool.h"
 #include "middleware/world/work_shares.h"
-#include "middleware/world/world_pool.h"
-#include "middleware/world/world_query.h"
+#include "middleware/world/world.h"
 
 namespace foretouch {
 namespace {
@@ -57,8 +57,8 @@ struct Beam {
   WorldContacts answer;
 
   Beam(double halfLength, std::uint64_t workPerPair) : world(make(halfLength, workPerPair)) {
-    WorldScratch scratch;
-    const auto asked = worldContacts(world, 0, 100'000, scratch, answer);
+    Scratch scratch;
+    const auto asked = world.contacts(0, 100'000, scratch, answer);
     EXPECT_TRUE(asked.ok()) << describe(asked.error());
   }
   static World make(double halfLength, std::uint64_t workPerPair) {
@@ -144,10 +144,10 @@ TEST(WorkBudget, OfAHeapLeavesThoseBesideItTheirAnswers) {
   std::vector<WorldContacts> answers;
   for (const int threads : {1, 3}) {
     const World world = heapAndPair(kHeap, 100'000);
-    auto pool = WorldPool::start(threads);
+    auto pool = WorkerPool::start(threads);
     ASSERT_TRUE(pool.ok());
     WorldContacts answer;
-    ASSERT_TRUE(pool.value().contacts(world, 0, 10'000, answer).ok());
+    ASSERT_TRUE(world.contacts(0, 10'000, pool.value(), answer).ok());
     answers.push_back(answer);
   }
   ASSERT_EQ(answers[0].contacts.size(), pairs + 1);
@@ -181,9 +181,9 @@ TEST(WorkBudget, OfAHeapLeavesThoseBesideItTheirAnswers) {
 TEST(WorkBudget, GoesToWhoNeedsMore) {
   for (const std::uint64_t work : {std::uint64_t{20'000'000}, WorkShares::kUnlimited}) {
     const World world = heapAndPair(30, work);
-    WorldScratch scratch;
+    Scratch scratch;
     WorldContacts answer;
-    ASSERT_TRUE(worldContacts(world, 0, 10'000, scratch, answer).ok());
+    ASSERT_TRUE(world.contacts(0, 10'000, scratch, answer).ok());
     EXPECT_EQ(answer.contacts.size(), 436u);
     for (const WorldContact& contact : answer.contacts) {
       EXPECT_NE(contact.verdict, Verdict::Undecided);

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/world/world_query.h"
+#include "middleware/world/world.h"
 #include "tests/middleware/own_body.h"
 #include "tests/support/allocation_count.h"
 
@@ -45,7 +45,7 @@ class Crowd {
     ++now_;
     if (now_ < 4) return;
     const std::int64_t end = 1000 * (now_ - 2);
-    const auto asked = worldContacts(world_, end - 1000, end, scratch_, answer_);
+    const auto asked = world_.contacts(end - 1000, end, scratch_, answer_);
     ASSERT_TRUE(asked.ok()) << describe(asked.error());
     world_.forgetBefore(end);
   }
@@ -55,7 +55,7 @@ class Crowd {
   World world_;
   std::vector<std::array<Pose, 2>> poses_;
   std::int64_t now_ = 0;
-  WorldScratch scratch_;
+  Scratch scratch_;
   WorldContacts answer_;
 };
 

@@ -1,7 +1,5 @@
 // The same question on several threads, and with what earlier windows have left: the same answers,
 // to the bit.
-#include "middleware/world/world_pool.h"
-
 #include <algorithm>
 #include <cstring>
 #include <tuple>
@@ -10,8 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "middleware/counter_fields.h"
-#include "middleware/query/query_pool.h"
-#include "middleware/world/world_query.h"
+#include "middleware/query/query.h"
+#include "middleware/worker_pool.h"
+#include "middleware/world/world.h"
 #include "tests/middleware/own_body.h"
 
 namespace foretouch {
@@ -94,50 +93,50 @@ void expectSame(const WorldContacts& x, const WorldContacts& y) {
 std::vector<WorldContacts> answersOf(const World& world) {
   std::vector<WorldContacts> answers(static_cast<std::size_t>(kWindows));
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    WorldScratch scratch;
+    Scratch scratch;
     const auto from = static_cast<std::int64_t>(i) * kWindowUs;
-    EXPECT_TRUE(worldContacts(world, from, from + kWindowUs, scratch, answers[i]).ok());
+    EXPECT_TRUE(world.contacts(from, from + kWindowUs, scratch, answers[i]).ok());
   }
   return answers;
 }
 
-TEST(WorldPool, GivesTheSameAnswersOnAnyNumberOfThreads) {
+TEST(WorldOnThreads, GivesTheSameAnswersOnAnyNumberOfThreads) {
   const World world = crowd();
   const std::vector<WorldContacts> expected = answersOf(world);
   EXPECT_GT(expected.back().contacts.size(), 100u);
   EXPECT_GT(expected.back().counters.pairs, 30u);
   for (const int threads : {1, 2, 3, 8}) {
     SCOPED_TRACE(std::to_string(threads) + " threads");
-    WorldPool pool = WorldPool::start(threads).value();
+    WorkerPool pool = WorkerPool::start(threads).value();
     EXPECT_EQ(pool.threads(), threads);
     WorldContacts answer;
     for (std::size_t i = 0; i < expected.size(); ++i) {
       const auto from = static_cast<std::int64_t>(i) * kWindowUs;
-      const auto asked = pool.contacts(world, from, from + kWindowUs, answer);
+      const auto asked = world.contacts(from, from + kWindowUs, pool, answer);
       ASSERT_TRUE(asked.ok()) << describe(asked.error());
       expectSame(answer, expected[i]);
     }
   }
 }
 
-TEST(WorldPool, GivesTheSameAnswersAfterAnyOtherWindows) {
+TEST(WorldOnThreads, GivesTheSameAnswersAfterAnyOtherWindows) {
   const World world = crowd();
   const std::vector<WorldContacts> expected = answersOf(world);
-  WorldScratch scratch;
+  Scratch scratch;
   WorldContacts answer;
   Random random(5);
   for (int i = 0; i < 20; ++i) {
     const auto window = static_cast<std::size_t>(random.below(static_cast<int>(expected.size())));
     const auto from = static_cast<std::int64_t>(window) * kWindowUs;
-    ASSERT_TRUE(worldContacts(world, from, from + kWindowUs, scratch, answer).ok());
+    ASSERT_TRUE(world.contacts(from, from + kWindowUs, scratch, answer).ok());
     expectSame(answer, expected[window]);
     // Cuts the same pieces elsewhere.
     const std::int64_t begin = random.below(static_cast<int>(kWindows * kWindowUs) - 2'000);
-    ASSERT_TRUE(worldContacts(world, begin, begin + 1'000, scratch, answer).ok());
+    ASSERT_TRUE(world.contacts(begin, begin + 1'000, scratch, answer).ok());
   }
 }
 
-TEST(WorldPool, ListsContactsInTheirOrder) {
+TEST(WorldOnThreads, ListsContactsInTheirOrder) {
   const auto comesBefore = [](const WorldContact& x, const WorldContact& y) {
     if (!(x.time == y.time)) return x.time < y.time;
     return std::make_tuple(x.a.body, x.a.link, x.b.body, x.b.link) <
@@ -156,7 +155,7 @@ TEST(WorldPool, ListsContactsInTheirOrder) {
 }
 
 // What one thread keeps of a world serves no other one, even where both are made of the like.
-TEST(WorldPool, GivesTheSameAnswersInTurnsWithAnotherWorld) {
+TEST(WorldOnThreads, GivesTheSameAnswersInTurnsWithAnotherWorld) {
   const World one = crowd();
   World other = World::build(std::nullopt).value();
   for (BodyId body = 0; body < 10; ++body) {
@@ -169,27 +168,27 @@ TEST(WorldPool, GivesTheSameAnswersInTurnsWithAnotherWorld) {
   }
   const std::vector<WorldContacts> ofOne = answersOf(one), ofOther = answersOf(other);
   EXPECT_FALSE(ofOther.front().contacts.empty());
-  WorldScratch scratch;
+  Scratch scratch;
   WorldContacts answer;
   for (std::size_t i = 0; i < ofOne.size(); ++i) {
     const auto from = static_cast<std::int64_t>(i) * kWindowUs;
-    ASSERT_TRUE(worldContacts(one, from, from + kWindowUs, scratch, answer).ok());
+    ASSERT_TRUE(one.contacts(from, from + kWindowUs, scratch, answer).ok());
     expectSame(answer, ofOne[i]);
-    ASSERT_TRUE(worldContacts(other, from, from + kWindowUs, scratch, answer).ok());
+    ASSERT_TRUE(other.contacts(from, from + kWindowUs, scratch, answer).ok());
     expectSame(answer, ofOther[i]);
   }
 }
 
-TEST(WorldPool, RefusesWhatWorldContactsRefuses) {
-  EXPECT_FALSE(WorldPool::start(0).ok());
-  EXPECT_FALSE(WorldPool::start(kMaxPoolThreads + 1).ok());
+TEST(WorldOnThreads, RefusesWhatWorldContactsRefuses) {
+  EXPECT_FALSE(WorkerPool::start(0).ok());
+  EXPECT_FALSE(WorkerPool::start(kMaxPoolThreads + 1).ok());
   const World world = crowd();
-  WorldPool pool = WorldPool::start(2).value();
+  WorkerPool pool = WorkerPool::start(2).value();
   WorldContacts answer;
-  const auto asked = pool.contacts(world, 100, 100, answer);
+  const auto asked = world.contacts(100, 100, pool, answer);
   ASSERT_FALSE(asked.ok());
   EXPECT_EQ(asked.error().code, ErrorCode::OutOfRange);
-  EXPECT_TRUE(pool.contacts(world, 0, 100, answer).ok());
+  EXPECT_TRUE(world.contacts(0, 100, pool, answer).ok());
 }
 
 }  // namespace

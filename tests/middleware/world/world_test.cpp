@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/world/world_query.h"
 #include "tests/middleware/world/both_worlds.h"
 #include "tests/support/random_geometry.h"
 
@@ -52,9 +51,9 @@ World emptyWorld() {
 }
 
 WorldContacts answerOf(const World& world, std::int64_t fromUs, std::int64_t toUs) {
-  WorldScratch scratch;
+  Scratch scratch;
   WorldContacts answer;
-  const auto asked = worldContacts(world, fromUs, toUs, scratch, answer);
+  const auto asked = world.contacts(fromUs, toUs, scratch, answer);
   EXPECT_TRUE(asked.ok()) << describe(asked.error());
   return answer;
 }
@@ -151,14 +150,14 @@ TEST(World, BelievesWhatItIsToldOfThePast) {
   for (BodyId body = 0; body < 2; ++body) {
     for (int i = 0; i < 4; ++i) ASSERT_TRUE(world.push(body, 10 * i, at(-50.0 + 10 * body)).ok());
   }
-  WorldScratch scratch;
+  Scratch scratch;
   WorldContacts answer;
-  ASSERT_TRUE(worldContacts(world, 20, 30, scratch, answer).ok());
+  ASSERT_TRUE(world.contacts(20, 30, scratch, answer).ok());
   EXPECT_TRUE(answer.contacts.empty());
   ASSERT_TRUE(world.attach(0, {1, 0}, 15, at(5)).ok());
   ASSERT_TRUE(world.detach(0, 20, at(-0.05)).ok());
   ASSERT_TRUE(world.push(0, 30, at(-0.05)).ok());
-  ASSERT_TRUE(worldContacts(world, 20, 30, scratch, answer).ok());
+  ASSERT_TRUE(world.contacts(20, 30, scratch, answer).ok());
   EXPECT_EQ(answer.contacts.size(), 1u);
 }
 
@@ -167,12 +166,12 @@ TEST(World, AsksTheSceneOnlyWhileItIsAsked) {
   ASSERT_TRUE(world.add(ball(0.5)).ok());
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(world.push(0, 1000 * i, at(-2.0 + i)).ok());
   // What a scratch knows of a piece, it knows of one question.
-  WorldScratch scratch;
+  Scratch scratch;
   WorldContacts answer;
   for (const bool isAsked : {true, false, true, true}) {
     ASSERT_TRUE(world.askStill(0, isAsked).ok());
-    ASSERT_TRUE(worldContacts(world, 1500, 1600, scratch, answer).ok());
-    ASSERT_TRUE(worldContacts(world, 0, 2500, scratch, answer).ok());
+    ASSERT_TRUE(world.contacts(1500, 1600, scratch, answer).ok());
+    ASSERT_TRUE(world.contacts(0, 2500, scratch, answer).ok());
     EXPECT_EQ(answer.contacts.size(), isAsked ? 1u : 0u);
   }
 }
@@ -208,13 +207,13 @@ TEST(World, WaitsForWhoWaits) {
   ASSERT_TRUE(world.push(1, 10, at(5)).ok());
   EXPECT_EQ(world.knownUntilUs(), 10);
   EXPECT_EQ(world.waitsFor(), 1);
-  WorldScratch scratch;
+  Scratch scratch;
   WorldContacts answer;
-  expectError(worldContacts(world, 0, 50, scratch, answer), ErrorCode::OutOfRange, "of body 1");
+  expectError(world.contacts(0, 50, scratch, answer), ErrorCode::OutOfRange, "of body 1");
   ASSERT_TRUE(world.push(1, 60, at(5)).ok());
-  EXPECT_TRUE(worldContacts(world, 0, 50, scratch, answer).ok());
-  expectError(worldContacts(world, 50, 50, scratch, answer), ErrorCode::OutOfRange, "no length");
-  expectError(worldContacts(emptyWorld(), 0, 50, scratch, answer), ErrorCode::Empty, "no body");
+  EXPECT_TRUE(world.contacts(0, 50, scratch, answer).ok());
+  expectError(world.contacts(50, 50, scratch, answer), ErrorCode::OutOfRange, "no length");
+  expectError(emptyWorld().contacts(0, 50, scratch, answer), ErrorCode::Empty, "no body");
 }
 
 TEST(World, SaysWhatItTakesASilentBodyToDo) {
@@ -308,9 +307,9 @@ TEST(World, RefusesMeshesWhoseLssLeaveTheLimit) {
       ASSERT_TRUE(world.push(0, us, at(0.0)).ok());
       ASSERT_TRUE(world.push(1, us, at(0.5 * kMaxCoordinate, 0.5 * kMaxCoordinate)).ok());
     }
-    WorldScratch scratch;
+    Scratch scratch;
     WorldContacts answer;
-    EXPECT_TRUE(worldContacts(world, 0, 100, scratch, answer).ok());
+    EXPECT_TRUE(world.contacts(0, 100, scratch, answer).ok());
   }
 }
 
@@ -474,9 +473,9 @@ TEST(World, RefusesToAnswerAboutATowerThatIsTooDeep) {
     if (i == 0) continue;
     ASSERT_TRUE(world.attach(i - 1, {i, 0, false}, 50, at(1.0)).ok()) << i;
   }
-  WorldScratch scratch;
+  Scratch scratch;
   WorldContacts answer;
-  expectError(worldContacts(world, 0, 100, scratch, answer), ErrorCode::LimitExceeded, "");
+  expectError(world.contacts(0, 100, scratch, answer), ErrorCode::LimitExceeded, "");
 }
 
 TEST(World, RefusesCarriersThatAreNotThere) {
@@ -513,9 +512,9 @@ TEST(World, ForgetsWhatIsAnswered) {
   ASSERT_EQ(before.contacts.size(), 1u);
   ASSERT_EQ(after.contacts.size(), 1u);
   EXPECT_TRUE(before.contacts[0].time == after.contacts[0].time);
-  WorldScratch scratch;
+  Scratch scratch;
   WorldContacts answer;
-  expectError(worldContacts(world, 40, 90, scratch, answer), ErrorCode::OutOfRange, "forgotten");
+  expectError(world.contacts(40, 90, scratch, answer), ErrorCode::OutOfRange, "forgotten");
 }
 
 /// Everything an answer says, to the bit.
@@ -548,14 +547,14 @@ TEST(World, AnswersFromPosesAlone) {
       const int body = order % 2 == 0 ? i % 12 : i / 8, k = order % 2 == 0 ? i / 12 : i % 8;
       ASSERT_TRUE(world.push(body, (1000 + 7 * body) * k, pose(body, k)).ok());
     }
-    WorldScratch scratch;
+    Scratch scratch;
     WorldContacts answer;
     if (order >= 2) {
       for (const std::int64_t from : {4000, 0, 2000}) {
-        ASSERT_TRUE(worldContacts(world, from, from + 1500, scratch, answer).ok());
+        ASSERT_TRUE(world.contacts(from, from + 1500, scratch, answer).ok());
       }
     }
-    ASSERT_TRUE(worldContacts(world, 500, 6500, scratch, answer).ok());
+    ASSERT_TRUE(world.contacts(500, 6500, scratch, answer).ok());
     EXPECT_GT(answer.contacts.size(), 20u);
     if (order == 0) first = bitsOf(answer);
     EXPECT_EQ(bitsOf(answer), first);

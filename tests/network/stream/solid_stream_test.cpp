@@ -75,7 +75,7 @@ class SolidStreams : public testing::Test {
     QueryOptions options;
     options.tolerance = kMinTolerance;
     const Query query = Query::build(smallAvatar(), solidWall(), options).value();
-    QueryScratch scratch;
+    Scratch scratch;
     StepContacts contacts;
     query.answer(ChainMotion(smallAvatar().skeleton(), from, to), scratch, contacts);
     for (const LinkContact& contact : contacts.links) {

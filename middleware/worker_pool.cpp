@@ -1,4 +1,4 @@
-#include "middleware/query/worker_threads.h"
+#include "middleware/worker_pool.h"
 
 #include <atomic>
 #include <chrono>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace foretouch::internal {
+namespace foretouch {
 namespace {
 
 /// A run may follow the last one within microseconds, and waking a sleeping thread takes longer
@@ -25,8 +25,9 @@ void waitBriefly(const Condition& isMet) {
 
 }  // namespace
 
-struct WorkerThreads::Impl {
+struct WorkerPool::Impl {
   std::vector<std::thread> threads;  // beside the calling one
+  std::vector<Scratch> scratches;    // per thread, the calling one's first
   const std::function<void(std::size_t)>* part = nullptr;
   std::mutex mutex;
   std::condition_variable begins, ends;
@@ -72,19 +73,20 @@ struct WorkerThreads::Impl {
   }
 };
 
-WorkerThreads::WorkerThreads(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-WorkerThreads::~WorkerThreads() = default;
-WorkerThreads::WorkerThreads(WorkerThreads&&) noexcept = default;
-WorkerThreads& WorkerThreads::operator=(WorkerThreads&&) noexcept = default;
+WorkerPool::WorkerPool(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+WorkerPool::~WorkerPool() = default;
+WorkerPool::WorkerPool(WorkerPool&&) noexcept = default;
+WorkerPool& WorkerPool::operator=(WorkerPool&&) noexcept = default;
 
-Result<WorkerThreads> WorkerThreads::start(int threads, int most) {
-  if (threads < 1 || threads > most) {
+Result<WorkerPool> WorkerPool::start(int threads) {
+  if (threads < 1 || threads > kMaxPoolThreads) {
     return Error::in("threads", ErrorCode::OutOfRange,
-                     "expected a number from 1 to " + std::to_string(most));
+                     "expected a number from 1 to " + std::to_string(kMaxPoolThreads));
   }
   auto impl = std::make_unique<Impl>();
   const auto count = static_cast<std::size_t>(threads);
   impl->threads.reserve(count - 1);
+  impl->scratches.resize(count);
   try {
     for (std::size_t i = 1; i < count; ++i) {
       impl->threads.emplace_back([all = impl.get(), i] { all->work(i); });
@@ -93,16 +95,20 @@ Result<WorkerThreads> WorkerThreads::start(int threads, int most) {
     return Error::in("threads", ErrorCode::DeviceFailed,
                      std::string("the system gives no more threads: ") + failure.what());
   }
-  return WorkerThreads(std::move(impl));
+  return WorkerPool(std::move(impl));
 }
 
-std::size_t WorkerThreads::count() const {
-  return impl_->threads.size() + 1;
+int WorkerPool::threads() const {
+  return static_cast<int>(impl_->scratches.size());
 }
 
-void WorkerThreads::run(const std::function<void(std::size_t)>& part) {
+Scratch& WorkerPool::scratch(std::size_t thread) {
+  return impl_->scratches[thread];
+}
+
+void WorkerPool::run(const std::function<void(std::size_t)>& part) {
   impl_->part = &part;
   impl_->runAll();
 }
 
-}  // namespace foretouch::internal
+}  // namespace foretouch

@@ -1,7 +1,7 @@
-#include "middleware/query/query_pool.h"
-
 #include <gtest/gtest.h>
 
+#include "middleware/query/query.h"
+#include "middleware/worker_pool.h"
 #include "tests/middleware/random_scene.h"
 
 namespace foretouch {
@@ -34,15 +34,15 @@ std::vector<StepTask> tasksOf(const Crowd& crowd) {
   return tasks;
 }
 
-TEST(QueryPool, AnswersLikeSingleQueriesForAnyNumberOfThreads) {
+TEST(StepList, AnswersLikeSingleQueriesForAnyNumberOfThreads) {
   const Crowd crowd = makeCrowd(60);
   const std::vector<StepTask> tasks = tasksOf(crowd);
   for (const int threads : {1, 2, 3, 8}) {
-    QueryPool pool = QueryPool::start(threads).value();
+    WorkerPool pool = WorkerPool::start(threads).value();
     EXPECT_EQ(pool.threads(), threads);
     std::vector<StepContacts> answers;
     for (int round = 0; round < 3; ++round) {
-      ASSERT_TRUE(pool.answer(tasks, answers).ok());
+      ASSERT_TRUE(Query::answerAll(tasks, pool, answers).ok());
       ASSERT_EQ(answers.size(), tasks.size());
       for (std::size_t i = 0; i < tasks.size(); ++i) {
         const test::RandomBody& body = crowd.bodies[i];
@@ -60,7 +60,7 @@ TEST(QueryPool, AnswersLikeSingleQueriesForAnyNumberOfThreads) {
 }
 
 // One list may ask different questions: other scenes, other options.
-TEST(QueryPool, AnswersEachTaskByItsOwnQuery) {
+TEST(StepList, AnswersEachTaskByItsOwnQuery) {
   Crowd crowd = makeCrowd(20);
   const std::vector<StepTask> tasks = tasksOf(crowd);
   RawScene none;
@@ -71,11 +71,12 @@ TEST(QueryPool, AnswersEachTaskByItsOwnQuery) {
   QueryOptions little;
   little.workBudget = 0;
   crowd.queries[11] = Query::build(crowd.bodies[11].avatar, crowd.scene, little).value();
-  QueryPool pool = QueryPool::start(3).value();
+  WorkerPool pool = WorkerPool::start(3).value();
   std::vector<StepContacts> answers;
   for (int round = 0; round < 3; ++round) {
-    ASSERT_TRUE(pool.answer(tasks, answers).ok());
-    EXPECT_TRUE(pool.failures().empty());
+    std::vector<FailedTask> failures{{7, Error::of(ErrorCode::Empty, "of an earlier list")}};
+    ASSERT_TRUE(Query::answerAll(tasks, pool, answers, &failures).ok());
+    EXPECT_TRUE(failures.empty());
     for (const LinkContact& contact : answers[5].links) {
       EXPECT_EQ(contact.verdict, Verdict::Clear);
     }
@@ -83,13 +84,13 @@ TEST(QueryPool, AnswersEachTaskByItsOwnQuery) {
       EXPECT_TRUE(contact.verdict == Verdict::Undecided || contact.verdict == Verdict::Clear);
     }
   }
-  EXPECT_TRUE(pool.answer({}, answers).ok());
+  EXPECT_TRUE(Query::answerAll({}, pool, answers).ok());
   EXPECT_TRUE(answers.empty());
 }
 
-TEST(QueryPool, RefusesNoThreadsAndTooMany) {
-  EXPECT_FALSE(QueryPool::start(0).ok());
-  EXPECT_FALSE(QueryPool::start(kMaxPoolThreads + 1).ok());
+TEST(WorkerPool, RefusesNoThreadsAndTooMany) {
+  EXPECT_FALSE(WorkerPool::start(0).ok());
+  EXPECT_FALSE(WorkerPool::start(kMaxPoolThreads + 1).ok());
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // Many edges on threads: the same bytes as one thread's, and how far a path is free.
-#include "middleware/edges/edge_pool.h"
-
 #include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>
 
+#include "middleware/edges/edge_query.h"
+#include "middleware/worker_pool.h"
 #include "tests/middleware/edges/arm_among_wires.h"
 
 namespace foretouch {
@@ -47,7 +47,7 @@ TEST_F(EdgesOnThreads, AnswerAlikeOnAnyNumberOfThreads) {
   constexpr std::size_t kEdges = 1500;
   const auto q0 = randomConfigurations(1, kEdges), q1 = randomConfigurations(2, kEdges);
   std::vector<EdgeAnswer> alone;
-  EdgeScratch scratch;
+  Scratch scratch;
   int clear = 0;
   for (std::size_t i = 0; i < kEdges; ++i) {
     alone.push_back(edges_->answer(&q0[3 * i], &q1[3 * i], 3, scratch).value());
@@ -56,23 +56,23 @@ TEST_F(EdgesOnThreads, AnswerAlikeOnAnyNumberOfThreads) {
   EXPECT_GT(clear, 100);
   EXPECT_LT(clear, 1400);
   for (const int threads : {1, 2, 5}) {
-    EdgePool pool = EdgePool::start(threads).value();
+    WorkerPool pool = WorkerPool::start(threads).value();
     EXPECT_EQ(pool.threads(), threads);
     std::vector<EdgeAnswer> answers(7);
     for (int round = 0; round < 3; ++round) {
-      ASSERT_TRUE(pool.answer(*edges_, q0.data(), q1.data(), kEdges, answers).ok());
+      ASSERT_TRUE(edges_->answerAll(q0.data(), q1.data(), kEdges, pool, answers).ok());
       ASSERT_EQ(answers.size(), kEdges);
       for (std::size_t i = 0; i < kEdges; ++i) {
         ASSERT_TRUE(same(answers[i], alone[i])) << threads << " threads, edge " << i;
       }
     }
-    ASSERT_TRUE(pool.answer(*edges_, nullptr, nullptr, 0, answers).ok());
+    ASSERT_TRUE(edges_->answerAll(nullptr, nullptr, 0, pool, answers).ok());
     EXPECT_TRUE(answers.empty());
   }
 }
 
 TEST_F(EdgesOnThreads, TellHowFarAPathIsFree) {
-  EdgeScratch scratch;
+  Scratch scratch;
   int free = 0, met = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
     // Short ways, so that several edges are free.
@@ -85,8 +85,8 @@ TEST_F(EdgesOnThreads, TellHowFarAPathIsFree) {
       if (expected.verdict != Verdict::Clear) break;
     }
     for (const int threads : {1, 3}) {
-      EdgePool pool = EdgePool::start(threads).value();
-      const PathAnswer path = pool.answerPath(*edges_, q.data(), 40).value();
+      WorkerPool pool = WorkerPool::start(threads).value();
+      const PathAnswer path = edges_->answerPath(q.data(), 40, pool).value();
       ASSERT_EQ(path.edge, first) << seed;
       EXPECT_TRUE(same(path.answer, expected)) << seed;
       EXPECT_LE(path.freeUntil, static_cast<double>(first) + expected.freeUntil * (first < 39));
@@ -99,19 +99,19 @@ TEST_F(EdgesOnThreads, TellHowFarAPathIsFree) {
 }
 
 TEST_F(EdgesOnThreads, RefuseBadConfigurationsBeforeTheyAsk) {
-  EdgePool pool = EdgePool::start(2).value();
+  WorkerPool pool = WorkerPool::start(2).value();
   const auto q0 = randomConfigurations(1, 20);
   auto q1 = randomConfigurations(2, 20);
   q1[3 * 7 + 1] = std::nan("");
   std::vector<EdgeAnswer> answers;
-  const auto refused = pool.answer(*edges_, q0.data(), q1.data(), 20, answers);
+  const auto refused = edges_->answerAll(q0.data(), q1.data(), 20, pool, answers);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().code, ErrorCode::NonFinite);
   EXPECT_EQ(refused.error().index, 7);
-  EXPECT_EQ(pool.answerPath(*edges_, q1.data(), 20).error().index, 7);
-  EXPECT_EQ(pool.answerPath(*edges_, q0.data(), 1).error().code, ErrorCode::Empty);
-  EXPECT_FALSE(EdgePool::start(0).ok());
-  EXPECT_FALSE(EdgePool::start(kMaxPoolThreads + 1).ok());
+  EXPECT_EQ(edges_->answerPath(q1.data(), 20, pool).error().index, 7);
+  EXPECT_EQ(edges_->answerPath(q0.data(), 1, pool).error().code, ErrorCode::Empty);
+  EXPECT_FALSE(WorkerPool::start(0).ok());
+  EXPECT_FALSE(WorkerPool::start(kMaxPoolThreads + 1).ok());
 }
 
 }  // namespace
