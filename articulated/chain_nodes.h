@@ -1,7 +1,7 @@
 // articulated/chain_nodes.h: the frames of all links of a moving chain at eight instants at once,
 // in the processor's lanes and without trigonometry. The instants are the Chebyshev-Lobatto points
 // of a span of t, so that polynomials through them are close to the best of their degree
-// (tessellation/lss_polynomials.h). Rounding: articulated/chain_nodes.md.
+// (tessellation/lss_polynomials.h). Rounding: articulated/chain_nodes.md. Not installed.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// articulated/quoted.h: words and numbers for messages.
+// articulated/quoted.h: words and numbers for messages. Not installed.
 #pragma once
 
 #include <string>

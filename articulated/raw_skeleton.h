@@ -1,5 +1,5 @@
 // articulated/raw_skeleton.h: from a validated skeleton back to what an author gives, to add to it
-// or to send it.
+// or to send it. Not installed.
 #pragma once
 
 #include "articulated/skeleton.h"

@@ -1,5 +1,5 @@
 // assets/json_writer.h: JSON text, piece by piece. The project writes all its JSON with this,
-// except large documents that it builds as a whole (glTF).
+// except large documents that it builds as a whole (glTF). Not installed.
 #pragma once
 
 #include <cstdint>

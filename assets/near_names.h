@@ -1,4 +1,4 @@
-// assets/near_names.h: existing names near to a misspelt one.
+// assets/near_names.h: existing names near to a misspelt one. Not installed.
 #pragma once
 
 #include <string>

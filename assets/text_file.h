@@ -1,4 +1,4 @@
-// assets/text_file.h: reads and writes whole files.
+// assets/text_file.h: reads and writes whole files. Not installed.
 #pragma once
 
 #include <cstddef>

@@ -17,7 +17,7 @@ struct CrowdTimes {
   std::vector<double> instantUs;  ///< Of all avatars' steps together, one per instant.
 };
 
-/// Instant by instant, every avatar takes one step, and a QueryPool answers them all: avatar a
+/// Instant by instant, every avatar takes one step, and a WorkerPool answers them all: avatar a
 /// starts `steps.size() * a / avatars` steps into the list.
 [[nodiscard]] Result<CrowdTimes> timeCrowd(const Avatar& avatar,
                                            const std::vector<StepPoses>& steps, const Scene& scene,

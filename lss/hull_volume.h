@@ -1,4 +1,4 @@
-// lss/hull_volume.h: a lower bound on the volume of a convex hull. Cubic metres.
+// lss/hull_volume.h: a lower bound on the volume of a convex hull. Cubic metres. Not installed.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// lss/lss_cover.h: LSS that contain triangles, and how well given ones do. Metres.
+// lss/lss_cover.h: LSS that contain triangles, and how well given ones do. Metres. Not installed.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // lss/lss_hierarchy.h: a static binary tree of LSS over the triangles of one link. Metres, frame L.
-// Source: [Redon04], [Kim07] for LSS hierarchies of an avatar's links; split and fit are ours.
+// Source: [Redon04], [Kim07] for LSS hierarchies of an avatar's links; split and fit are ours. Not
+// installed.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// lss/safe_step.h: how long a clearance that changes at a bounded rate lasts.
+// lss/safe_step.h: how long a clearance that changes at a bounded rate lasts. Not installed.
 #pragma once
 
 #include <cmath>

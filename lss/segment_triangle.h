@@ -1,5 +1,6 @@
 // lss/segment_triangle.h: the closest points of a segment (an LSS's axis) and a triangle, in
-// double. Derivation, degenerate cases and accuracy: lss/segment_triangle.md. Metres.
+// double. Derivation, degenerate cases and accuracy: lss/segment_triangle.md. Metres. Not
+// installed.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 // lss/simd.h: which of the processor's vector instructions the lanes use. The build compiles every
 // source with lanes once for each of them (Google Highway); at run time the program uses the widest
-// that the processor has. Away from x86-64 there is one, which the build settles.
+// that the processor has. Away from x86-64 there is one, which the build settles. Not installed.
 #pragma once
 
 #include <optional>

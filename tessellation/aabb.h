@@ -1,4 +1,4 @@
-// tessellation/aabb.h: an axis-aligned box in the world W. Metres.
+// tessellation/aabb.h: an axis-aligned box in the world W. Metres. Not installed.
 #pragma once
 
 #include <cmath>

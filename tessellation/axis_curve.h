@@ -1,6 +1,7 @@
 // tessellation/axis_curve.h: the motion of an LSS's axis over a span as polynomials in double, in W
 // or in the frame of a link above it: places and velocities at any instant without trigonometry.
 // Every error is proved in tessellation/lss_polynomials.md 5 and told. Metres, derivatives by t.
+// Not installed.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // tessellation/ball_polytope.h: a convex polytope with corners on the lattice, close around or
-// close inside a ball about the origin. All lengths in lattice spacings.
+// close inside a ball about the origin. All lengths in lattice spacings. Not installed.
 #pragma once
 
 #include <array>

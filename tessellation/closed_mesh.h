@@ -1,4 +1,5 @@
-// tessellation/closed_mesh.h: turns triangles that bound a volume into closed 2-manifolds.
+// tessellation/closed_mesh.h: turns triangles that bound a volume into closed 2-manifolds. Not
+// installed.
 #pragma once
 
 #include <array>

@@ -1,9 +1,9 @@
-// tessellation/lattice.h: points on a cubic lattice, and signs about them that are never wrong.
-// A coordinate is a whole number of lattice spacings. Sums of lattice points are exact, so a
+// tessellation/lattice.h: points on a cubic lattice, and signs about them that are never wrong. A
+// coordinate is a whole number of lattice spacings. Sums of lattice points are exact, so a
 // Minkowski sum of two polytopes with corners on the lattice has its corners there too, with no
 // rounding to argue about (tessellation/swept_surface.md). Limits: coordinates below
 // kMaxLatticeCoordinate, differences that enter products below kMaxLatticeDifference, polytope
-// normals below kMaxLatticeNormal; then every sum here fits 127 bits.
+// normals below kMaxLatticeNormal; then every sum here fits 127 bits. Not installed.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // tessellation/lss_polynomials.h: the motion of an LSS and of a frame over a span, as certified
 // polynomials: single precision for the lanes that use them, with every error (of interpolation,
 // rounding and evaluation) proved in tessellation/lss_polynomials.md and included. Metres. Source:
-// [Kim07] for the tessellated sweep of an LSS.
+// [Kim07] for the tessellated sweep of an LSS. Not installed.
 #pragma once
 
 #include "articulated/chain_nodes.h"

@@ -1,5 +1,5 @@
 // tessellation/lss_table.h: an avatar's LSS as one plain array, and the number of spans of a motion
-// that polynomials need to follow them. Metres.
+// that polynomials need to follow them. Metres. Not installed.
 #pragma once
 
 #include <cstdint>

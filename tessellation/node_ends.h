@@ -1,5 +1,6 @@
 // tessellation/node_ends.h: the ends of every LSS's axis at the nodes of a span, as floats around
-// the body, for tests that need nothing but places. sweptBoxes() makes them on its way. Metres.
+// the body, for tests that need nothing but places. sweptBoxes() makes them on its way. Metres. Not
+// installed.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
 // tessellation/sheet_bound.h: how far the hull of an axis at two instants leaves the sheet that the
-// axis covers between them. Lengths in one unit. Proof: tessellation/swept_surface.md 4.
+// axis covers between them. Lengths in one unit. Proof: tessellation/swept_surface.md 4. Not
+// installed.
 #pragma once
 
 #include "tessellation/swept_lss.h"

@@ -1,6 +1,6 @@
 // tessellation/swept_boxes.h: boxes of floats around everything that LSS cover over a span of a
-// motion. Between two instants a point stays within A*h^2/8 of
-// its chord; proof with rounding: tessellation/lss_polynomials.md 2. Metres.
+// motion. Between two instants a point stays within A*h^2/8 of its chord; proof with rounding:
+// tessellation/lss_polynomials.md 2. Metres. Not installed.
 #pragma once
 
 #include <cstdint>

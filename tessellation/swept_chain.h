@@ -1,6 +1,6 @@
 // tessellation/swept_chain.h: the surface of a chain of consecutive sums conv{corners} + polytope:
 // all their boundaries less those of the sums that neighbours share. Exact. Proof that this
-// encloses the union: tessellation/swept_surface.md 2.
+// encloses the union: tessellation/swept_surface.md 2. Not installed.
 #pragma once
 
 #include <algorithm>

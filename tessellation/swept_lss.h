@@ -2,7 +2,7 @@
 // of pieces. Over a span of length h a point with |acceleration| <= A stays within A*h^2/8 of its
 // chord, so the swept LSS lies in the hull of its axis ends at both instants, grown by radius +
 // A*h^2/8. Derivation: docs/guarantees.md 4; [Kim07] tessellates the swept LSS likewise. Metres,
-// world W.
+// world W. Not installed.
 #pragma once
 
 #include <Eigen/Core>

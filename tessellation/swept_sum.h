@@ -1,5 +1,5 @@
 // tessellation/swept_sum.h: the boundary of conv{corners} + polytope, face by face, for up to four
-// corners on the lattice. Exact; proof: tessellation/swept_surface.md 3.
+// corners on the lattice. Exact; proof: tessellation/swept_surface.md 3. Not installed.
 #pragma once
 
 #include <cstdint>

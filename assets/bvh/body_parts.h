@@ -1,4 +1,5 @@
-// assets/bvh/body_parts.h: the parts of a person's body, found by the names of its joints.
+// assets/bvh/body_parts.h: the parts of a person's body, found by the names of its joints. Not
+// installed.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // assets/certificate/certificate_texts.h: the files that say what a certificate is about
-// (docs/certificates.md).
+// (docs/certificates.md). Not installed.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// assets/model/edge_table.h: edges of a robot from CSV text: two rows each (docs/formats.md).
+// assets/model/edge_table.h: edges of a robot from CSV text: two rows each (docs/formats.md). Not
+// installed.
 #pragma once
 
 #include <cstddef>

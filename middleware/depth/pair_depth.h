@@ -1,5 +1,6 @@
 // middleware/depth/pair_depth.h: how deep two convex pieces are in each other, in closed form, with
 // its rounding proven: an LSS and another, an LSS and a triangle. Proof: depth.md 1 to 3. Metres.
+// Not installed.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,5 @@
-// middleware/exact/triangles_meet.h: do two triangles at rest have a point in common? Exact.
+// middleware/exact/triangles_meet.h: do two triangles at rest have a point in common? Exact. Not
+// installed.
 #pragma once
 
 #include "lss/triangle.h"

@@ -1,5 +1,5 @@
 // network/service/clock.h: the time of day behind a seam. It stamps messages and orders nothing: no
-// verdict depends on it.
+// verdict depends on it. Not installed.
 #pragma once
 
 #include <cstdint>

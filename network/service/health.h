@@ -1,4 +1,4 @@
-// network/service/health.h: how a service is, for whoever watches over it.
+// network/service/health.h: how a service is, for whoever watches over it. Not installed.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // network/service/journal.h: a record of a service's input and output. A separate thread writes it,
 // so a slow disk delays no answer. Counts every event that it cannot write; never drops one
-// silently.
+// silently. Not installed.
 #pragma once
 
 #include <chrono>

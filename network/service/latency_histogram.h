@@ -1,5 +1,5 @@
 // network/service/latency_histogram.h: latencies, in memory that does not grow. A bucket's width is
-// a fixed fraction of its value, as in HdrHistogram: 32 per octave of nanoseconds.
+// a fixed fraction of its value, as in HdrHistogram: 32 per octave of nanoseconds. Not installed.
 #pragma once
 
 #include <array>

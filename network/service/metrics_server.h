@@ -1,7 +1,7 @@
 // network/service/metrics_server.h: GET /metrics and GET /healthz over HTTP/1.1. A request may take
 // a few kilobytes and a second, its response another one; one request per connection. Slow clients
 // delay nobody. On an address of this machine alone, a request under another host name is answered
-// 403 (DNS rebinding). No TLS, no passwords: meant for this machine.
+// 403 (DNS rebinding). No TLS, no passwords: meant for this machine. Not installed.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // network/service/metrics_text.h: a service's counts in Prometheus' text format 0.0.4.
-// docs/streaming.md, "Metrics", lists the names, which are stable.
+// docs/streaming.md, "Metrics", lists the names, which are stable. Not installed.
 #pragma once
 
 #include <string>

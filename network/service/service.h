@@ -14,7 +14,7 @@
 // of it show, and what happened between bodies, as far as that is known; one thread at a time does
 // that.
 //
-// At every moment: received = answered + rejected + waiting.
+// At every moment: received = answered + rejected + waiting. Not installed.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // network/service/service_counts.h: a service's counts since it started, as plain values, and the
-// one place where its threads count.
+// one place where its threads count. Not installed.
 #pragma once
 
 #include <cstddef>

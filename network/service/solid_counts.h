@@ -1,5 +1,5 @@
 // network/service/solid_counts.h: what a service's solid avatars have shown since it started, as
-// plain values, and the one place where its threads count it.
+// plain values, and the one place where its threads count it. Not installed.
 #pragma once
 
 #include <array>

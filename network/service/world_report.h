@@ -1,5 +1,5 @@
 // network/service/world_report.h: what a service's moving world has done since it started, as plain
-// values.
+// values. Not installed.
 #pragma once
 
 #include "network/service/latency_histogram.h"

@@ -4,7 +4,7 @@
 // sender takes over, the record says so, and a replay calls StreamSolver::changeSpeaker() there.
 //
 // The last skeletons of the speaker and of two other senders are kept, so that a sender that says
-// its skeleton once is understood when it takes over.
+// its skeleton once is understood when it takes over. Not installed.
 #pragma once
 
 #include <array>

@@ -6,7 +6,8 @@
 //     silence costs the true sender a few poses, not the whole silence.
 // More than that would be no defence: whoever floods has any number of poses between two true ones.
 //
-// An address is no proof where others can send under it; a key is (network/wire/message_key.h).
+// An address is no proof where others can send under it; a key is (network/wire/message_key.h). Not
+// installed.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
 // network/stream/step_batch.h: answered steps of one avatar, collected for viewers: the newest in
-// full, and from every step all links that were not clear.
+// full, and from every step all links that were not clear. Not installed.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // network/stream/step_observer.h: a hook to watch a service while it answers. The service asks once
-// per pose whether anybody watches.
+// per pose whether anybody watches. Not installed.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // network/watch/audience.h: the viewers: a bounded number of connections. One thread sends them
-// events and waits for none of them. More or slower viewers cost no other thread anything.
+// events and waits for none of them. More or slower viewers cost no other thread anything. Not
+// installed.
 #pragma once
 
 #include <chrono>

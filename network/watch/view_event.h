@@ -1,6 +1,6 @@
 // network/watch/view_event.h: the server-sent events for viewers. All viewers share one text per
 // event. A viewer that cannot keep up gets the newest event of each topic, preceded by the contacts
-// of the events it replaces.
+// of the events it replaces. Not installed.
 #pragma once
 
 #include <chrono>

@@ -4,7 +4,7 @@
 // contact is lost between them (except beyond kMaxBatchContacts, counted).
 //
 // While nobody watches a step costs one atomic load, and sample() asks for one step now and then,
-// so that a new viewer sees something at once.
+// so that a new viewer sees something at once. Not installed.
 #pragma once
 
 #include <cstddef>

@@ -6,7 +6,7 @@
 // Read-only, and only for this machine: it listens on a loopback address, and answers 403 to
 // requests under another host name (DNS rebinding) or from another site's page. There is no
 // password: anybody who can run a program on this machine can watch. No header allows another
-// origin.
+// origin. Not installed.
 #pragma once
 
 #include <cstdint>

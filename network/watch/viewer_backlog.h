@@ -1,5 +1,5 @@
 // network/watch/viewer_backlog.h: the events still to send to one viewer, in bounded memory however
-// slow it is: one event per topic, which newer ones of the topic join.
+// slow it is: one event per topic, which newer ones of the topic join. Not installed.
 #pragma once
 
 #include <cstddef>

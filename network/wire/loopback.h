@@ -1,6 +1,6 @@
 // network/wire/loopback.h: which hosts are this machine, and which requests come from a page that
 // it serves itself. A browser runs other sites' pages beside ours: each request carries the host
-// name it used and the page it comes from.
+// name it used and the page it comes from. Not installed.
 #pragma once
 
 #include <string>

@@ -5,7 +5,7 @@
 //
 // A signed payload is the payload, "FTSIGN01", the time of sending (i64, us since the Unix epoch),
 // and the code (u64), big-endian: 24 bytes more. The code covers the channel, a NUL, and all before
-// it. Each sender's times grow from message to message.
+// it. Each sender's times grow from message to message. Not installed.
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // network/wire/udpm_datagram.h: one datagram of LCM's UDP multicast protocol ("UDPM"), as bytes.
-// Integers are big-endian. Source: lcm-proj/lcm, docs/content/udp-multicast-protocol.md.
-//   short:    "LC02" u32 sequence, channel, NUL, payload
-//   fragment: "LC03" u32 sequence, u32 message bytes, u32 offset, u16 number, u16 fragments;
-//             then, in fragment 0 only, channel and NUL; then the payload's part from offset on
+// Integers are big-endian. Source: lcm-proj/lcm, docs/content/udp-multicast-protocol.md. short:
+// "LC02" u32 sequence, channel, NUL, payload fragment: "LC03" u32 sequence, u32 message bytes, u32
+// offset, u16 number, u16 fragments; then, in fragment 0 only, channel and NUL; then the payload's
+// part from offset on Not installed.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // network/wire/wire.h: the source and destination of messages: LCM's UDP multicast, by our own
-// bounded reader or by liblcm, or a test's own.
+// bounded reader or by liblcm, or a test's own. Not installed.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // network/wire/world_messages.h: the messages of a moving world, as plain values: its bodies, where
 // they are, and what happens between them. Units and frames are those of network/wire/lcm, which
 // define the bytes. Geometry never travels: a body's shape is a name in the service's world file.
+// Not installed.
 #pragma once
 
 #include <cstdint>

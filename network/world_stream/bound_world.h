@@ -4,7 +4,7 @@
 // sent what. Avatars are bound by their own streams.
 //
 // A sender may have as many bodies as there are places left. So nobody takes all of them: the first
-// one leaves half, the next one a quarter, and so on.
+// one leaves half, the next one a quarter, and so on. Not installed.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // network/world_stream/refused_bodies.h: bodies of which poses come, and none is accepted: a sender
-// whose clock is wrong, or that is told apart from another one, should learn of it.
+// whose clock is wrong, or that is told apart from another one, should learn of it. Not installed.
 #pragma once
 
 #include <cstddef>

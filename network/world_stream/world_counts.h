@@ -1,5 +1,5 @@
 // network/world_stream/world_counts.h: what a live world has taken, refused and told since it
-// began, as plain values.
+// began, as plain values. Not installed.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // network/world_stream/world_setup.h: what a live world is made of: the shapes that messages name,
-// the avatars that pose_t tells of, and how long anybody is waited for.
+// the avatars that pose_t tells of, and how long anybody is waited for. Not installed.
 #pragma once
 
 #include <cstddef>

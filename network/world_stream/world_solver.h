@@ -9,10 +9,9 @@
 // (UnknownPart), and mark events that rest on it. Clocks of senders are compared with the receipts,
 // by one clock: no sender can hold up the others for longer than waitUs, or hurry them: the
 // watermark never passes the newest receipt, and whoever comes too late for it, but in time, is
-// waited for from then on.
-// Solid bodies (WorldSetup::ServedAvatar::solid) go on with the watermark: what they show, and what
-// presses against them, comes beside the events, which are about what is shown.
-// docs/streaming.md, "A moving world", has the whole story.
+// waited for from then on. Solid bodies (WorldSetup::ServedAvatar::solid) go on with the watermark:
+// what they show, and what presses against them, comes beside the events, which are about what is
+// shown. docs/streaming.md, "A moving world", has the whole story. Not installed.
 #pragma once
 
 #include <cstddef>
