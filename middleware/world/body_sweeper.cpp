@@ -66,7 +66,8 @@ SystemQuestion BodySweeper::questionOf(BodyId body) const {
 
 bool BodySweeper::sweepRoughly(BodyId body, BodySweep& sweep) {
   const BodyKind& kind = world_.kindOf(body);
-  if (kind.skeleton.numJoints() != 1 || questionOf(body) != SystemQuestion::Boxes) return false;
+  const SystemQuestion question = questionOf(body);
+  if (kind.skeleton.numJoints() != 1 || question == SystemQuestion::Self) return false;
   sweep.whole = BodyBox();
   sweep.parts.clear();
   const double reach = kind.rho + 0.5 * world_.options.tolerance;
@@ -75,9 +76,21 @@ bool BodySweeper::sweepRoughly(BodyId body, BodySweep& sweep) {
   while (spans.next()) {
     if (spans.members().size() != 1) return false;
     // Its origin goes straight from knot to knot, and no point of it is farther away than that.
-    sweep.whole.add(boxAround(spans.members().front().piece, reach));
+    const TrackPiece& piece = spans.members().front().piece;
+    if (question == SystemQuestion::Still && !isFarFromScene(piece, kind.rho)) return false;
+    sweep.whole.add(boxAround(piece, reach));
   }
   return true;
+}
+
+/// It stays farther than the tolerance from all that never moves.
+bool BodySweeper::isFarFromScene(const TrackPiece& piece, double rho) const {
+  Aabb box;
+  box.add(piece.from->translations[0]);
+  box.add(piece.to->translations[0]);
+  box.grow((rho + world_.options.tolerance) * kInflation);
+  std::uint64_t visited = 0;
+  return !world_.still->parts().bvh.meetsLeaf(box, visited);
 }
 
 /// Around both ends, relative to the window's origin, rounded outward.

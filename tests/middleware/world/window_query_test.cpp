@@ -53,7 +53,7 @@ struct Asker {
 // Of a piece of 100 ms, windows of a millisecond look at three parts, and not at a hundred.
 TEST(WindowQuery, LooksAtAPartOfAPieceOnce) {
   for (const std::int64_t pieceUs : {30 * kMs, 100 * kMs}) {
-    World world = World::build(wall(5.0)).value();
+    World world = World::build(wall(1.1)).value();
     const BodyId body = world.add(ball(0.1)).value();
     ASSERT_TRUE(world.push(body, 0, at(0.0)).ok());
     ASSERT_TRUE(world.push(body, pieceUs, at(1.0)).ok());
@@ -70,6 +70,28 @@ TEST(WindowQuery, LooksAtAPartOfAPieceOnce) {
     EXPECT_EQ(looked.size(), pieceUs == 30 * kMs ? 1u : 3u);
     EXPECT_LE(asker.scratch.sweeps[slotOf(body)].spans.size(), 2u);
   }
+}
+
+// A prop is known by a box alone as long as that meets neither another one's nor the scene.
+TEST(WindowQuery, LooksRoughlyAtPropsThatAreFarFromAll) {
+  constexpr double kTolerance = 1e-3, kRadius = 0.1;
+  const auto isRough = [](double end, double besideAtY) {
+    World world = World::build(wall(1.0), {kTolerance}).value();
+    const BodyId prop = world.add(ball(kRadius)).value(), other = world.add(ball(kRadius)).value();
+    for (const std::int64_t us : {std::int64_t{0}, 10 * kMs}) {
+      const RigidPose beside{Quaternion::Identity(), Vector3d(-0.15, besideAtY, 0.0)};
+      EXPECT_TRUE(world.push(prop, us, at(us == 0 ? 0.0 : end)).ok());
+      EXPECT_TRUE(world.push(other, us, beside).ok());
+    }
+    Asker asker;
+    asker.ask(world, 0, kMs);
+    EXPECT_TRUE(asker.answer.contacts.empty());
+    return asker.scratch.sweeps[slotOf(prop)].isRough;
+  };
+  constexpr double kReach = kRadius + kTolerance;
+  EXPECT_TRUE(isRough(0.9999 - kReach, 5.0));
+  EXPECT_FALSE(isRough(1.0 - kReach, 5.0));
+  EXPECT_FALSE(isRough(0.5, 0.15));  // their boxes meet, at a corner
 }
 
 // Pieces of up to 0.2 s, of which the judge's own world knows every window.
