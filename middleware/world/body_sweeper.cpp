@@ -88,7 +88,9 @@ bool BodySweeper::isFarFromScene(const TrackPiece& piece, double rho) const {
   Aabb box;
   box.add(piece.from->translations[0]);
   box.add(piece.to->translations[0]);
-  box.grow((rho + world_.options.tolerance) * kInflation);
+  // Between its ends its place is a sum of two products: it rounds by a few units of the largest.
+  const double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  box.grow((rho + world_.options.tolerance + 8.0 * kUnitRoundoff * largest) * kInflation);
   std::uint64_t visited = 0;
   return !world_.still->parts().bvh.meetsLeaf(box, visited);
 }
