@@ -5,13 +5,13 @@ set -euo pipefail
 bench=$1 source=$2
 made=$(mktemp)
 trap 'rm -f "$made"' EXIT
-# `run` says which files, in which order.
-names=$(sed -n '/^readonly performance_figures="/,/"$/p' "$source/run" | sed 's/.*="//; s/"$//')
+# `dev/measure.sh` says which files, in which order.
+names=$(sed -n '/^readonly performance_figures="/,/"$/p' "$source/dev/measure.sh" | sed 's/.*="//; s/"$//')
 files=()
 for name in $names; do
   file=$source/docs/measurements/$name.json
   if [ -f "$file" ]; then files+=("$file"); fi
 done
-[ ${#files[@]} -ge 5 ] || { echo "run names ${#files[@]} files for docs/performance.md"; exit 1; }
+[ ${#files[@]} -ge 5 ] || { echo "dev/measure.sh names ${#files[@]} files for docs/performance.md"; exit 1; }
 "$bench" report "${files[@]}" --output "$made"
 diff "$source/docs/performance.md" "$made"

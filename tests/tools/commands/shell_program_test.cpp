@@ -366,7 +366,7 @@ TEST(Quiet, MeansTheSameToEveryCommand) {
   EXPECT_EQ(seen, all);
 }
 
-/// The script `run` with a build that is there already, of a program that says where it is.
+/// The scripts with a build that is there already, of a program that says where it is.
 TEST(Run, StaysInTheFolderWhereTheUserIs) {
   const TempFolder project, elsewhere;
   project.script("cmake", "echo built >>\"$(dirname \"$0\")/builds\"");
@@ -374,7 +374,9 @@ TEST(Run, StaysInTheFolderWhereTheUserIs) {
   project.write("build/release/build.ninja", "");
   project.write("build/release/CMakeCache.txt", "FORETOUCH_BENCH:BOOL=ON\n");
   project.script("build/release/bin/foretouch", "pwd -P; echo \"$@\"");
-  std::filesystem::copy_file(std::string(FORETOUCH_SOURCE_DIR) + "/run", project / "run");
+  const std::string source = FORETOUCH_SOURCE_DIR;
+  std::filesystem::copy_file(source + "/run", project / "run");
+  std::filesystem::copy(source + "/dev", project / "dev");
   const std::string command = "cd '" + elsewhere.path() + "' && PATH='" + project.path() +
                               "':\"$PATH\" '" + (project / "run") +
                               "' foretouch avatar bvh 'a b.bvh'";
