@@ -8,7 +8,9 @@
 #include "lss/index.h"
 #include "lss/rounding.h"
 #include "middleware/query/scratch_parts.h"
+#include "middleware/query/work_meter.h"
 #include "middleware/scene/scene_parts.h"
+#include "middleware/world/work_shares.h"
 
 namespace foretouch::internal {
 namespace {
@@ -21,6 +23,8 @@ constexpr std::int64_t kMostWindowsOfPiece = 4;
 /// live world are, looks at as much of a piece. Longer, and more is near; shorter, and people who
 /// are tracked 30 times per second are looked at more than once per pose.
 constexpr std::int64_t kShortUs = 40'000;
+/// What a body sweeps costs so much per LSS, beside its question; as kSpanWork.
+constexpr std::uint64_t kLssWork = 100;
 
 PieceShare shareFor(const Window& window) {
   const std::int64_t windowsUs = kMostWindowsOfPiece * (window.toUs - window.fromUs);
@@ -49,6 +53,8 @@ Result<Done> BodySweeper::sweep(BodyId body, BodySweep& sweep, std::vector<World
       span.makeRoom(world_.mostLss);
       span.isWhole = false;  // until it is filled
       FORETOUCH_CHECK(fill(body, question, span));
+      counters.work +=
+          kSpanWork + kLssWork * countOf(span.numLss) + WorkMeter::workOf(span.counters);
       span.isWhole = isWhole;
     }
     span.window = window_.number;
@@ -176,7 +182,10 @@ Result<Done> BodySweeper::keepOwn(BodyId body, SystemQuestion question, const Sp
     }
   }
   if (!haveMet || window_.isFollowed) return Done{};
-  return askAgain(body, question, part, span, first, found, counters);
+  const std::uint64_t before = WorkMeter::workOf(counters.queries);
+  FORETOUCH_CHECK(askAgain(body, question, part, span, first, found, counters));
+  counters.work += kSpanWork + WorkMeter::workOf(counters.queries) - before;
+  return Done{};
 }
 
 /// Those who met before the part begins.

@@ -25,7 +25,9 @@ Result<Done> PairAsker::ask(std::size_t pair, std::uint64_t work) {
   limit_ = work;
   startsAt_ = before;
   FORETOUCH_TRY(const bool isDone, askSpans(a, b));
-  worker_.spent += workSoFar() - before;
+  const std::uint64_t spent = workSoFar() - before;
+  worker_.spent += spent;
+  worker_.counters.work += spent;
   if (isDone) return Done{};
   const auto from = worker_.contacts.begin() + static_cast<std::ptrdiff_t>(first);
   worker_.undone.push_back({pair, {from, worker_.contacts.end()}});

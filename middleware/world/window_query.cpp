@@ -337,6 +337,7 @@ void addCounters(const WorldCounters& more, WorldCounters& sum) {
   sum.pairs += more.pairs;
   sum.nearPairs += more.nearPairs;
   sum.spans += more.spans;
+  sum.work += more.work;
   addCounters(more.queries, sum.queries);
 }
 

@@ -67,6 +67,9 @@ struct WorldCounters {
   std::uint64_t nearPairs = 0;  ///< Of these, with two LSS whose boxes meet.
   std::uint64_t spans = 0;      ///< Asked of a pair or of a body alone, from knot to knot.
   QueryCounters queries;        ///< Of all of these.
+  /// What this answer took, in the units of WorldOptions::workPerWindow: the others count what an
+  /// earlier window has found out as well, and this does not.
+  std::uint64_t work = 0;
 };
 
 /// Of one window. All pairs of links that were asked and are not listed are proven clear while both

@@ -9,7 +9,6 @@
 
 #include "articulated/quoted.h"
 #include "articulated/try.h"
-#include "middleware/query/work_meter.h"
 #include "network/world_stream/carrier_times.h"
 #include "network/world_stream/live_world.h"
 #include "network/world_stream/world_roster.h"
@@ -75,12 +74,12 @@ Result<Done> checkedSetup(const WorldSetup& setup, const WorldPolicy& policy) {
 /// How far the watermark should move until the next answer (us), so that no more than half of all
 /// time goes by in answering. By what was counted, and not by a clock: a replay does the same.
 std::int64_t costOf(const WorldEvents& found, std::size_t bodies, std::uint64_t solidWork) {
-  constexpr std::uint64_t kBody = 20, kPair = 50, kSpan = 500, kEvent = 200, kPerUs = 50;
-  constexpr std::uint64_t kMostUs = 1'000'000;
-  const std::uint64_t work = found.counters.windows * bodies * kBody + found.world.pairs * kPair +
-                             found.world.spans * kSpan + found.counters.pairs * kPair +
-                             internal::WorkMeter::workOf(found.world.queries) +
-                             found.events.size() * kEvent + solidWork;
+  constexpr std::uint64_t kBody = 60, kPair = 50, kEvent = 200, kPerUs = 50, kMostUs = 1'000'000;
+  // To tell the world of it, and others of the answer, costs about as much as two windows.
+  const std::uint64_t looks = (found.counters.windows + 2) * bodies;
+  const std::uint64_t pairs = found.world.pairs + found.counters.pairs;
+  const std::uint64_t work =
+      looks * kBody + pairs * kPair + found.world.work + found.events.size() * kEvent + solidWork;
   return static_cast<std::int64_t>(std::min(work / kPerUs, kMostUs));
 }
 
