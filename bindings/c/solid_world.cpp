@@ -85,6 +85,7 @@ ft_solid_body_contact contactOf(const ft_world& world, const SolidBodyContact& c
   Eigen::Map<Eigen::Vector3d>(c.normal) = contact.nhat_W;
   c.gap = contact.gap;
   c.push = contact.push;
+  c.slip_speed = contact.slipSpeed;
   return c;
 }
 

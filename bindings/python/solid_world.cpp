@@ -153,7 +153,7 @@ py::object tickToPython(SolidBodyTick&& tick, const std::shared_ptr<Scene>& stil
         contactType(c.body, nameOf(*avatar, c.link), c.link, c.lss,
                     c.triangle < 0 ? py::object(py::none()) : py::object(py::int_(c.triangle)),
                     objectOf(shapes[slotOf(c.body)], c), Numbers(3, c.p_W.data()),
-                    Numbers(3, c.nhat_W.data()), c.gap, c.push));
+                    Numbers(3, c.nhat_W.data()), c.gap, c.push, c.slipSpeed));
   }
   for (const SolidCrush& c : tick.crushes) {
     crushes.append(

@@ -14,8 +14,8 @@ export interface SolidWorldOptions extends WorldOptions {
   readonly reach?: (typeof reaches)[number];
 }
 
-/** A moving body that holds or pushes a solid avatar: `link` is the avatar's, the place is on the body's surface, and what the body's own motion adds to the push is in it. */
-export interface SolidBodyContact extends Omit<SolidContact, "slipSpeed"> {
+/** A moving body that holds or pushes a solid avatar: `link` is the avatar's, the place is on the body's surface, what the body's own motion adds to the push is in it, and the slip is along that surface, which moves. */
+export interface SolidBodyContact extends SolidContact {
   readonly body: number;
   /** Of the link's LSS; those of tools in its hand come after its own. */
   readonly lss: number;

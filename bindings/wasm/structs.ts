@@ -89,7 +89,7 @@ export const ft_depth = new Struct({
 
 export const ft_solid_target = new Struct({ body: i32, reserved: i32, pose: pointer, isTracked: pointer });
 export const ft_solid_body_contact = new Struct({
-  size, body: i32, link: i32, lss: i32, triangle: i32, object: i32, point, normal: point, gap: f64, push: f64,
+  size, body: i32, link: i32, lss: i32, triangle: i32, object: i32, point, normal: point, gap: f64, push: f64, slipSpeed: f64,
 });
 export const ft_solid_crush = new Struct({ size, body: i32, link: i32, isOver: i32, sinceUs: i64, depth: f64 });
 export const ft_solid_held = new Struct({ size, body: i32, state: i32, reserved: i32 });

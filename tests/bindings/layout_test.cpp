@@ -477,7 +477,7 @@ AT(ft_solid_target, reserved, 4);
 AT(ft_solid_target, pose, 8);
 AT(ft_solid_target, is_tracked, 16);
 
-static_assert(sizeof(ft_solid_body_contact) == 88);
+static_assert(sizeof(ft_solid_body_contact) == 96);
 AT(ft_solid_body_contact, body, 4);
 AT(ft_solid_body_contact, link, 8);
 AT(ft_solid_body_contact, lss, 12);
@@ -487,6 +487,7 @@ AT(ft_solid_body_contact, point, 24);
 AT(ft_solid_body_contact, normal, 48);
 AT(ft_solid_body_contact, gap, 72);
 AT(ft_solid_body_contact, push, 80);
+AT(ft_solid_body_contact, slip_speed, 88);
 
 static_assert(sizeof(ft_solid_crush) == 32);
 AT(ft_solid_crush, body, 4);
@@ -503,7 +504,7 @@ AT(ft_solid_held, reserved, 12);
 namespace {
 
 TEST(CLayout, IsWhatProgramsWereCompiledAgainst) {
-  EXPECT_EQ(FT_ABI_VERSION, 5);  // a field or a function more: count up, and add its lines above
+  EXPECT_EQ(FT_ABI_VERSION, 6);  // a field or a function more: count up, and add its lines above
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ class Workshop {
 
   static constexpr BodyId kArm = 0, kPress = 1, kBall = 2;
   test::WorldHandle c;
-  std::size_t pushes = 0, crushes = 0, held = 0, enters = 0, leaves = 0;
+  std::size_t pushes = 0, slips = 0, crushes = 0, held = 0, enters = 0, leaves = 0;
 
  private:
   void expectSameAround() {
@@ -105,6 +105,7 @@ class Workshop {
     ASSERT_EQ(contacts.size(), ticks_[0].contacts.size());
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       expectSameContact(contacts[i], ticks_[0].contacts[i]);
+      slips += contacts[i].slip_speed > 0.0 ? 1 : 0;
     }
     const auto crushed =
         test::listed<ft_solid_crush>([&](auto* list, std::size_t room, std::size_t* n) {
@@ -150,6 +151,7 @@ class Workshop {
     test::expectSameVector(ofC.normal, one.nhat_W);
     EXPECT_EQ(ofC.gap, one.gap);
     EXPECT_EQ(ofC.push, one.push);
+    EXPECT_EQ(ofC.slip_speed, one.slipSpeed);
   }
 
   void expectSameEvents(std::int64_t us) {
@@ -197,6 +199,7 @@ TEST(CSolidWorld, TellsWhatTheLibraryTells) {
   Workshop shop;
   playBeside(shop);
   EXPECT_GT(shop.pushes, 10u);
+  EXPECT_GT(shop.slips, 5u);
   EXPECT_GT(shop.crushes, 5u);
   EXPECT_GT(shop.held, 100u);
   EXPECT_GT(shop.enters, 2u);

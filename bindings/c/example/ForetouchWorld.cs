@@ -66,7 +66,7 @@ public unsafe sealed partial class Foretouch {
     public uint size; public int body, link, lss, triangle, obj;
     public fixed double point[3];
     public fixed double normal[3];
-    public double gap, push;
+    public double gap, push, slipSpeed;
   }
   [StructLayout(LayoutKind.Sequential)]
   public struct SolidCrush { public uint size; public int body, link, isOver; public long sinceUs; public double depth; }

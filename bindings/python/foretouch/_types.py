@@ -407,6 +407,8 @@ class SolidBodyContact(NamedTuple):
     gap: float
     push: float
     """As of SolidContact; what the body's own motion adds is in it."""
+    slip_speed: float
+    """Of the link's point along that surface, which moves, m/s."""
 
 
 class SolidCrush(NamedTuple):

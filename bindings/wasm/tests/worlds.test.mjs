@@ -206,12 +206,14 @@ test("a door pushes it, a press crushes it", () => {
   const kinds = [], crushes = [];
   let pushed = 0, shown = 0;
   for (let k = 1; k <= 120; ++k) {
-    world.world.push(door, tickUs * k, at(Math.min(-1 + 0.02 * k, 0.94)));
+    // The door goes sideways as well, at 0.5 m/s.
+    world.world.push(door, tickUs * k, at(Math.min(-1 + 0.02 * k, 0.94), 0.005 * k));
     const [told] = world.tick(tickUs * k, [{ body: hand, pose: at(0) }]);
     kinds.push(...world.follow().events.map(({ kind, b }) => [kind, b.body]));
     for (const contact of told.contacts) {
       assert.deepEqual([contact.body, contact.link, contact.object], [door, 0, 0]);
       near(contact.normal[0], 1, 1e-9);
+      near(contact.slipSpeed, 0.5, 1e-6);
       pushed = Math.max(pushed, contact.push);
     }
     crushes.push(...told.crushes);

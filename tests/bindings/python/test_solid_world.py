@@ -91,13 +91,15 @@ class SolidWorld(unittest.TestCase):
         world.world.push(door, 0, at(-1.0))
         kinds, pushed = [], 0.0
         for k in range(1, 61):
-            world.world.push(door, TICK * k, at(-1.0 + 0.02 * min(k, 120 - k)))
+            # The door goes sideways as well, at 0.5 m/s.
+            world.world.push(door, TICK * k, at(-1.0 + 0.02 * min(k, 120 - k), 0.005 * k))
             tick = world.tick(TICK * k, {hand: at(0.0)})[hand]
             kinds += [(e.kind, e.b.body) for e in world.follow().events]
             for contact in tick.contacts:
                 self.assertEqual((contact.body, contact.link, contact.object),
                                  (door, "hand", "sheet"))
                 np.testing.assert_allclose(contact.normal, [1, 0, 0], atol=1e-9)
+                self.assertAlmostEqual(contact.slip_speed, 0.5, delta=1e-6)
                 pushed = max(pushed, contact.push)
             self.assertEqual(tick.crushes, [])
         self.assertEqual(kinds, [("enter", door)])

@@ -95,7 +95,8 @@ typedef struct ft_solid_body_contact {
   double point[3];  /* on the body's surface, W */
   double normal[3]; /* unit, from it to the avatar, W */
   double gap;
-  double push; /* as ft_solid_contact.push; what the body's own motion adds is in it */
+  double push;       /* as ft_solid_contact.push; what the body's own motion adds is in it */
+  double slip_speed; /* of the link's point along that surface, which moves, m/s */
 } ft_solid_body_contact;
 
 /* A body that nobody holds back has left the avatar no proven way: between the two nothing is
