@@ -16,16 +16,13 @@ namespace {
 
 using Eigen::Vector3d;
 using oracle::Precise3;
+using test::asDouble;
 using test::Random;
 using test::RandomMotion;
 using Real = oracle::Precise;
 
-double asDouble(const Real& x) {
-  return static_cast<double>(x);
-}
-
 /// Worst share of each bound that was used.
-struct Shares {
+struct NodeShares {
   double position = 0.0, rotation = 0.0;
 };
 
@@ -39,7 +36,7 @@ Precise3 rotated(const LinkNodes& link, int k, const Precise3& v) {
 }
 
 void compare(const RandomMotion& m, const ChainNodes& nodes, int k, Random& random,
-             Shares& shares) {
+             NodeShares& shares) {
   const auto frames = oracle::preciseFrames(m.precise, Real(nodes.instant(k)));
   const Precise3 origin(nodes.origin());
   for (LinkId link = 0; link < nodes.numLinks(); ++link) {
@@ -67,7 +64,7 @@ void compare(const RandomMotion& m, const ChainNodes& nodes, int k, Random& rand
 // series.
 TEST(ChainNodes, AreTheTrueFramesWithinTheirBoundsAtEveryWidth) {
   const test::WidestAfterwards guard;
-  Shares shares;
+  NodeShares shares;
   ChainNodes nodes;
   for (int i = 0; i < 240; ++i) {
     SCOPED_TRACE(i);
@@ -99,7 +96,7 @@ TEST(ChainNodes, AreTheTrueFramesWithinTheirBoundsAtEveryWidth) {
 // One joint, turns of every size up to a half: the series has to be long enough for each.
 TEST(ChainNodes, TurnsOfEverySizeAreReached) {
   ChainNodes nodes;
-  Shares shares;
+  NodeShares shares;
   for (int i = 0; i < 2000; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(i));

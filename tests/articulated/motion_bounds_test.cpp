@@ -12,16 +12,13 @@ namespace {
 
 using Eigen::Vector3d;
 using oracle::PreciseFrame;
+using test::asDouble;
 using test::Random;
 using test::RandomMotion;
 using Real = oracle::Precise;
 
-double asDouble(const Real& x) {
-  return static_cast<double>(x);
-}
-
 /// Worst share of each rounding bound that was used, over all cases.
-struct Shares {
+struct MotionShares {
   double origin = 0.0, rotation = 0.0, velocity = 0.0, spin = 0.0;
 };
 
@@ -34,7 +31,7 @@ oracle::Precise3 preciseVelocity(const RandomMotion& m, int link, double t, cons
   return (1 / (2 * h)) * (after[i].at(p_L) - before[i].at(p_L));
 }
 
-void compare(const RandomMotion& m, double t, Random& random, Shares& shares) {
+void compare(const RandomMotion& m, double t, Random& random, MotionShares& shares) {
   const ChainMotion motion(m.skeleton, m.from, m.to);
   const auto frames = oracle::preciseFrames(m.precise, Real(t));
   std::vector<LinkState> all;
@@ -69,7 +66,7 @@ void compare(const RandomMotion& m, double t, Random& random, Shares& shares) {
 
 // Owns kJointRotation, kJointRate, kProduct and MotionBounds::kPointRounding.
 TEST(ChainMotion, RoundingStaysBelowItsBounds) {
-  Shares shares;
+  MotionShares shares;
   for (int i = 0; i < 400; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(i));

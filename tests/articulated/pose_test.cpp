@@ -7,7 +7,7 @@
 namespace foretouch {
 namespace {
 
-Skeleton twoJoints() {
+Skeleton placedJoints() {
   RawSkeleton raw;
   raw.joints.resize(2);
   raw.joints[0].name = "a";
@@ -19,15 +19,15 @@ Skeleton twoJoints() {
 }
 
 TEST(RestPose, HasTheSkeletonsValues) {
-  const Pose pose = restPose(twoJoints());
+  const Pose pose = restPose(placedJoints());
   ASSERT_EQ(pose.rotations.size(), 2u);
   EXPECT_EQ(pose.translations[0], Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(pose.rotations[1].coeffs(), Quaternion(0, 1, 0, 0).coeffs());
 }
 
 TEST(ValidatedPose, AcceptsTheRestPoseBitForBit) {
-  const Pose rest = restPose(twoJoints());
-  const auto pose = validatedPose(twoJoints(), rest);
+  const Pose rest = restPose(placedJoints());
+  const auto pose = validatedPose(placedJoints(), rest);
   ASSERT_TRUE(pose.ok());
   for (std::size_t j = 0; j < 2; ++j) {
     EXPECT_EQ(pose.value().rotations[j].coeffs(), rest.rotations[j].coeffs());
@@ -37,17 +37,17 @@ TEST(ValidatedPose, AcceptsTheRestPoseBitForBit) {
 
 TEST(ValidatedPose, RefusesACountThatDoesNotFit) {
   for (const std::size_t count : {0u, 1u, 3u}) {
-    Pose pose = restPose(twoJoints());
+    Pose pose = restPose(placedJoints());
     pose.rotations.resize(count, Quaternion::Identity());
-    EXPECT_EQ(validatedPose(twoJoints(), pose).error().code, ErrorCode::Mismatch);
-    pose = restPose(twoJoints());
+    EXPECT_EQ(validatedPose(placedJoints(), pose).error().code, ErrorCode::Mismatch);
+    pose = restPose(placedJoints());
     pose.translations.resize(count, Eigen::Vector3d::Zero());
-    EXPECT_EQ(validatedPose(twoJoints(), pose).error().code, ErrorCode::Mismatch);
+    EXPECT_EQ(validatedPose(placedJoints(), pose).error().code, ErrorCode::Mismatch);
   }
 }
 
 void expectRefusal(const Pose& pose, ErrorCode code) {
-  const auto result = validatedPose(twoJoints(), pose);
+  const auto result = validatedPose(placedJoints(), pose);
   ASSERT_FALSE(result.ok());
   EXPECT_STREQ(toString(result.error().code), toString(code));
   EXPECT_EQ(result.error().index, 1);
@@ -55,17 +55,17 @@ void expectRefusal(const Pose& pose, ErrorCode code) {
 
 TEST(ValidatedPose, RefusesNumbersOutOfRangeAndNamesTheJoint) {
   for (const double bad : {std::nan(""), HUGE_VAL}) {
-    Pose pose = restPose(twoJoints());
+    Pose pose = restPose(placedJoints());
     pose.translations[1].z() = bad;
     expectRefusal(pose, ErrorCode::NonFinite);
-    pose = restPose(twoJoints());
+    pose = restPose(placedJoints());
     pose.rotations[1].y() = bad;
     expectRefusal(pose, ErrorCode::NonFinite);
   }
-  Pose pose = restPose(twoJoints());
+  Pose pose = restPose(placedJoints());
   pose.translations[1].x() = 1.1 * kMaxCoordinate;
   expectRefusal(pose, ErrorCode::OutOfRange);
-  pose = restPose(twoJoints());
+  pose = restPose(placedJoints());
   pose.rotations[1] = Quaternion(0, 0, 0, 0);
   expectRefusal(pose, ErrorCode::OutOfRange);
   pose.rotations[1] = Quaternion(1, 1, 0, 0);
@@ -73,9 +73,9 @@ TEST(ValidatedPose, RefusesNumbersOutOfRangeAndNamesTheJoint) {
 }
 
 TEST(ValidatedPose, MakesRotationsUnit) {
-  Pose pose = restPose(twoJoints());
+  Pose pose = restPose(placedJoints());
   pose.rotations[1] = Quaternion(0.6004, 0.8004, 0, 0);
-  const auto result = validatedPose(twoJoints(), pose);
+  const auto result = validatedPose(placedJoints(), pose);
   ASSERT_TRUE(result.ok());
   EXPECT_NEAR(result.value().rotations[1].norm(), 1.0, 1e-15);
 }

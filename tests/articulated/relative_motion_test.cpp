@@ -17,12 +17,9 @@ using Eigen::Vector3d;
 using oracle::Precise;
 using oracle::Precise3;
 using oracle::PreciseFrame;
+using test::asDouble;
 using test::Random;
 using test::RandomMotion;
-
-double asDouble(const Precise& x) {
-  return static_cast<double>(x);
-}
 
 /// Several random trees side by side, all around one place.
 RandomMotion forest(Random& random, int trees, const Vector3d& place) {

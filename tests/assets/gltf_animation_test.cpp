@@ -20,8 +20,6 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::json;
 
-constexpr double kPi = 3.14159265358979323846;
-
 const std::vector<double> kTriangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
 
 /// An arm on a root, with an animation of it whose sampler is to be given.

@@ -29,9 +29,9 @@ struct Pair {
   }
 };
 
-constexpr int kCases = 20'000;
+constexpr int kDraws = 20'000;
 
-Pair drawn(int seed) {
+Pair drawnPair(int seed) {
   Random random(static_cast<std::uint64_t>(seed));
   const double size = random.magnitude(1e-3, 1e2);
   return Pair(randomPair(random, size, Eigen::Vector3d::Zero()));
@@ -40,7 +40,7 @@ Pair drawn(int seed) {
 TEST(OracleDistance, AgreesWithFiftyDigits) {
   long double worst = 0.0L, worstInDouble = 0.0L;
   int pierced = 0, degenerate = 0;
-  for (int i = 0; i < kCases; ++i) {
+  for (int i = 0; i < kDraws; ++i) {
     Random random(static_cast<std::uint64_t>(i));
     const double size = random.magnitude(1e-3, 1e2);
     const Pair p(randomPair(random, size, Eigen::Vector3d::Zero()));
@@ -60,14 +60,14 @@ TEST(OracleDistance, AgreesWithFiftyDigits) {
   RecordProperty("worstShare", std::to_string(static_cast<double>(worst)));
   std::cout << "worst error over size: " << worst << " in long double, " << worstInDouble
             << " in double\n";
-  EXPECT_GT(pierced, kCases / 50);
-  EXPECT_GT(degenerate, kCases / 10);
+  EXPECT_GT(pierced, kDraws / 50);
+  EXPECT_GT(degenerate, kDraws / 10);
 }
 
 TEST(OracleDistance, IsProvedByAPlaneBetweenTheTwo) {
   int proved = 0;
-  for (int i = 0; i < kCases; ++i) {
-    const Pair p = drawn(i);
+  for (int i = 0; i < kDraws; ++i) {
+    const Pair p = drawnPair(i);
     const auto c = p.closest<Real>();
     ASSERT_NEAR(static_cast<double>(norm(c.onSegment - c.onTriangle) - c.distance), 0.0,
                 1e-17 * p.size);
@@ -80,13 +80,13 @@ TEST(OracleDistance, IsProvedByAPlaneBetweenTheTwo) {
         << "case " << i;
     ++proved;
   }
-  EXPECT_GT(proved, kCases / 2);
+  EXPECT_GT(proved, kDraws / 2);
 }
 
 TEST(OracleDistance, IsNeverAboveNorFarBelowDenseSamples) {
   constexpr int kGrid = 24;
   for (int i = 0; i < 400; ++i) {
-    const Pair p = drawn(i);
+    const Pair p = drawnPair(i);
     Real least = Box::kEmpty;
     for (int s = 0; s <= kGrid; ++s) {
       const Vec3d x = p.a + (static_cast<double>(s) / kGrid) * (p.b - p.a);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/judge/expect_finding.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::oracle {
@@ -11,7 +12,6 @@ namespace {
 
 using test::Random;
 
-constexpr double kTolerance = 1e-3;
 constexpr int kCases = 200;
 
 /// A capsule over the floor y = 0, with its height over it in closed form.
@@ -98,12 +98,6 @@ void forEachCase(bool touches, Check check) {
     check(i % 2 == 0 ? fallingSphere(random, touches) : turningRod(random, touches), random);
     if (::testing::Test::HasFatalFailure()) return;
   }
-}
-
-void expectFinding(const Judgement& judgement, Finding expected) {
-  ASSERT_EQ(toString(judgement.finding), std::string(toString(expected)))
-      << judgement.what << " at t " << static_cast<double>(judgement.time) << ", separation "
-      << static_cast<double>(judgement.separation);
 }
 
 TEST(OracleJudge, AcceptsContactWithinTheTolerance) {

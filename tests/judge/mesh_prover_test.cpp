@@ -5,14 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "judge/judge.h"
+#include "tests/judge/expect_finding.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::oracle {
 namespace {
 
 using test::Random;
-
-constexpr double kTolerance = 1e-3;
 
 Triangle toTriangle(const std::array<Eigen::Vector3d, 3>& v) {
   Triangle t;
@@ -59,13 +58,13 @@ TEST(TriangleDistance, IsSymmetricAndBoundedByEveryPairOfPoints) {
 }
 
 /// A cushion of many triangles around a lowest vertex, on an arm that swings or falls to the floor.
-struct FloorCase {
+struct CushionCase {
   std::vector<Joint> joints{Joint{}};
   std::vector<Triangle> mesh;
   Scene floor{{Triangle{Vec3d{-50, 0, -50}, Vec3d{60, 0, -40}, Vec3d{0, 0, 70}}}};
   Real start = 0, fall = 0;  // the lowest vertex's height, and how far it falls
 
-  FloorCase(Random& random, bool touches, int triangles) {
+  CushionCase(Random& random, bool touches, int triangles) {
     const double drop = random.magnitude(1e-2, 3.0);
     const double way = touches ? drop * random.uniform(1.2, 3.0) : drop - 5e-3;
     joints[0].fromTranslation = {random.uniform(-5, 5), drop, random.uniform(-5, 5)};
@@ -101,17 +100,11 @@ struct FloorCase {
   }
 };
 
-void expectFinding(const Judgement& judgement, Finding expected) {
-  ASSERT_EQ(toString(judgement.finding), std::string(toString(expected)))
-      << judgement.what << " at t " << static_cast<double>(judgement.time) << ", separation "
-      << static_cast<double>(judgement.separation);
-}
-
 TEST(MeshJudge, AcceptsWhatIsRightAndNamesPlantedLies) {
   for (std::uint64_t i = 0; i < 60; ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     Random random(i);
-    const FloorCase c(random, true, 40);
+    const CushionCase c(random, true, 40);
     expectFinding(c.judged(c.contactAt(c.when(0.5L * kTolerance))), Finding::Ok);
     expectFinding(c.judged(c.contactAt(c.when(0) + 1e-6L)), Finding::Late);
     expectFinding(c.judged(c.contactAt(c.when((1 + 1e-6L) * kTolerance))), Finding::Early);
@@ -140,14 +133,14 @@ TEST(MeshJudge, AcceptsWhatIsRightAndNamesPlantedLies) {
 TEST(MeshJudge, AcceptsClearWhereNothingIsTouched) {
   for (std::uint64_t i = 0; i < 60; ++i) {
     Random random(i);
-    expectFinding(FloorCase(random, false, 40).judged(Answer{}), Finding::Ok);
+    expectFinding(CushionCase(random, false, 40).judged(Answer{}), Finding::Ok);
   }
 }
 
 TEST(MeshJudge, BracketsTheFirstContact) {
   for (std::uint64_t i = 0; i < 60; ++i) {
     Random random(i);
-    const FloorCase c(random, true, 40);
+    const CushionCase c(random, true, 40);
     const Motion motion(c.joints);
     const auto first = Judge(c.floor, motion, 0, c.mesh).firstContact();
     ASSERT_TRUE(first.has_value());
@@ -161,7 +154,7 @@ TEST(MeshJudge, CatchesADipBetweenTwoFreePoses) {
   for (const double depth : {1e-2, 1e-5, 1e-8, 1e-11}) {
     SCOPED_TRACE(depth);
     Random random(1);
-    FloorCase c(random, true, 1);
+    CushionCase c(random, true, 1);
     c.mesh = {{Vec3d{0, -1, 0}, Vec3d{0.01, 0, 0.01}, Vec3d{-0.01, 0, 0.01}}};
     c.joints[0] = Joint{};
     c.joints[0].fromRotation = {std::cos(0.3), 0, 0, -std::sin(0.3)};
@@ -175,18 +168,18 @@ TEST(MeshJudge, CatchesADipBetweenTwoFreePoses) {
 
 TEST(MeshJudge, TakesALinkWithoutTriangles) {
   Random random(1);
-  FloorCase c(random, true, 1);
+  CushionCase c(random, true, 1);
   c.mesh.clear();
   expectFinding(c.judged(Answer{}), Finding::Ok);
 }
 
 /// A crowd of triangles, and a link of as many on an arm of three joints.
-struct CrowdedCase {
+struct CrowdedMesh {
   std::vector<Triangle> triangles, mesh;
   std::vector<Joint> joints;
 
   /// The scene's triangles are at least about `clearance` from the root.
-  CrowdedCase(Random& random, double clearance, int inScene, int inLink) {
+  CrowdedMesh(Random& random, double clearance, int inScene, int inLink) {
     for (int k = 0; k < inScene; ++k) {
       const auto pair = test::randomPair(random, random.magnitude(5e-3, 0.05),
                                          random.uniform(clearance, 1.0) * random.direction());
@@ -218,7 +211,7 @@ TEST(MeshProver, FindsWhatALoopOverInstantsAndTrianglesFinds) {
   for (std::uint64_t i = 0; i < 24; ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     Random random(i);
-    const CrowdedCase c(random, 0.2, 150, 30);
+    const CrowdedMesh c(random, 0.2, 150, 30);
     const Scene scene(c.triangles);
     const Motion motion(c.joints);
     Judge judge(scene, motion, 2, c.mesh);
@@ -254,7 +247,7 @@ TEST(MeshProver, NeedsFewLooksForALinkOfAThousandTriangles) {
   constexpr std::uint64_t kSteps = 20;
   for (std::uint64_t i = 0; i < kSteps; ++i) {
     Random random(i);
-    const CrowdedCase c(random, 0.6, 5000, 1000);
+    const CrowdedMesh c(random, 0.6, 5000, 1000);
     const Scene scene(c.triangles);
     const Motion motion(c.joints);
     const SpanOutcome outcome = MeshProver(scene, motion, 2, c.mesh).prove(0, 1);

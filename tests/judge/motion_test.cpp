@@ -29,7 +29,7 @@ double awkwardAngle(Random& random) {
   }
 }
 
-Chain drawn(int seed) {
+Chain drawnChain(int seed) {
   Random random(static_cast<std::uint64_t>(seed));
   Chain chain;
   const int count = 1 + random.below(7);
@@ -48,7 +48,7 @@ Chain drawn(int seed) {
 
 TEST(OracleMotion, AgreesWithFiftyDigits) {
   for (int i = 0; i < 1000; ++i) {
-    const Chain chain = drawn(i);
+    const Chain chain = drawnChain(i);
     Random random(static_cast<std::uint64_t>(i) + 1'000'000);
     const double t = random.uniform(0.0, 1.0);
     const int link = static_cast<int>(chain.joints.size()) - 1;
@@ -65,7 +65,7 @@ TEST(OracleMotion, AgreesWithFiftyDigits) {
 TEST(OracleMotion, BoundsHoldThroughoutTheSpan) {
   int tight = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Chain chain = drawn(i);
+    const Chain chain = drawnChain(i);
     const Motion motion(chain.joints);
     Random random(static_cast<std::uint64_t>(i) + 2'000'000);
     const int link = motion.numLinks() - 1;
@@ -94,7 +94,7 @@ TEST(OracleMotion, BoundsHoldThroughoutTheSpan) {
 
 TEST(OracleMotion, VelocityIsTheDerivative) {
   for (int i = 0; i < 300; ++i) {
-    const Chain chain = drawn(i);
+    const Chain chain = drawnChain(i);
     const Motion motion(chain.joints);
     const int link = motion.numLinks() - 1;
     constexpr Real kStep = 1e-5L;

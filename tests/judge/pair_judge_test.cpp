@@ -5,19 +5,17 @@
 
 #include "judge/judge.h"
 #include "judge/plain_motion.h"
+#include "tests/judge/expect_finding.h"
+#include "tests/support/judged.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::oracle {
 namespace {
 
+using test::plain;
 using test::Random;
 
-constexpr double kTolerance = 1e-3;
-constexpr int kCases = 150;
-
-std::array<double, 4> plain(const Eigen::Quaternion<double, Eigen::DontAlign>& q) {
-  return {q.w(), q.x(), q.y(), q.z()};
-}
+constexpr int kPairs = 150;
 
 std::array<double, 4> turnAbout(const Vec3d& axis, double angle) {
   const double s = std::sin(angle / 2);
@@ -144,8 +142,8 @@ PairCase fallingCorner(Random& random, bool touches) {
 }
 
 template <typename Check>
-void forEachCase(bool touches, Check check) {
-  for (int i = 0; i < kCases; ++i) {
+void forEachPair(bool touches, Check check) {
+  for (int i = 0; i < kPairs; ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     Random random(static_cast<std::uint64_t>(i));
     const PairCase c = i % 3 == 0   ? swingingSpheres(random, touches)
@@ -156,51 +154,45 @@ void forEachCase(bool touches, Check check) {
   }
 }
 
-void expectFinding(const Judgement& judgement, Finding expected) {
-  ASSERT_EQ(toString(judgement.finding), std::string(toString(expected)))
-      << judgement.what << " at t " << static_cast<double>(judgement.time) << ", separation "
-      << static_cast<double>(judgement.separation);
-}
-
 TEST(PairJudge, AcceptsContactWithinTheTolerance) {
-  forEachCase(true, [](const PairCase& c, Random& random) {
+  forEachPair(true, [](const PairCase& c, Random& random) {
     const double share = random.magnitude(1e-6, 0.999);
     expectFinding(c.judged(c.contactAt(c.when(share * kTolerance))), Finding::Ok);
   });
 }
 
 TEST(PairJudge, AcceptsClearWhereNothingIsTouched) {
-  forEachCase(false,
+  forEachPair(false,
               [](const PairCase& c, Random&) { expectFinding(c.judged(Answer{}), Finding::Ok); });
 }
 
 TEST(PairJudge, CatchesContactThatIsLateByAMillionth) {
-  forEachCase(true, [](const PairCase& c, Random&) {
+  forEachPair(true, [](const PairCase& c, Random&) {
     expectFinding(c.judged(c.contactAt(c.when(0) + 1e-6L)), Finding::Late);
   });
 }
 
 // The guard grows with how far the links reach in the frame they share, not in the world.
 TEST(PairJudge, CatchesContactThatIsLateByAFewLastPlaces) {
-  forEachCase(true, [](const PairCase& c, Random&) {
+  forEachPair(true, [](const PairCase& c, Random&) {
     const Real depth = 4 * kSoundGuard * 80;  // the large triangle reaches that far
     expectFinding(c.judged(c.contactAt(c.when(-depth))), Finding::Late);
   });
 }
 
 TEST(PairJudge, CatchesContactReportedBeforeTheTolerance) {
-  forEachCase(true, [](const PairCase& c, Random&) {
+  forEachPair(true, [](const PairCase& c, Random&) {
     expectFinding(c.judged(c.contactAt(c.when((1 + 1e-6L) * kTolerance))), Finding::Early);
   });
 }
 
 TEST(PairJudge, CatchesNeverHit) {
-  forEachCase(
+  forEachPair(
       true, [](const PairCase& c, Random&) { expectFinding(c.judged(Answer{}), Finding::Missed); });
 }
 
 TEST(PairJudge, CatchesAlwaysHit) {
-  forEachCase(true, [](const PairCase& c, Random&) {
+  forEachPair(true, [](const PairCase& c, Random&) {
     expectFinding(c.judged(c.contactAt(0)), Finding::Early);
     Answer start = c.contactAt(0);
     start.verdict = Verdict::StartsInContact;
@@ -209,7 +201,7 @@ TEST(PairJudge, CatchesAlwaysHit) {
 }
 
 TEST(PairJudge, CatchesUndecidedThatClaimsTooMuch) {
-  forEachCase(true, [](const PairCase& c, Random&) {
+  forEachPair(true, [](const PairCase& c, Random&) {
     Answer a;
     a.verdict = Verdict::Undecided;
     a.freeUntil = static_cast<double>(c.when(1e-5L));
@@ -220,7 +212,7 @@ TEST(PairJudge, CatchesUndecidedThatClaimsTooMuch) {
 }
 
 TEST(PairJudge, CatchesWitnessesThatDoNotBelong) {
-  forEachCase(true, [](const PairCase& c, Random& random) {
+  forEachPair(true, [](const PairCase& c, Random& random) {
     const Answer right = c.contactAt(c.when(0.5L * kTolerance));
     const auto aside = [&] {
       const Vec3r n = right.normal.as<Real>();
@@ -332,7 +324,7 @@ TEST(PairJudge, CatchesTunnelling) {
 }
 
 TEST(PairJudge, BracketsTheFirstContact) {
-  forEachCase(true, [](const PairCase& c, Random&) {
+  forEachPair(true, [](const PairCase& c, Random&) {
     const Motion motion(c.joints);
     const auto first = Judge(motion, c.one, c.other).firstContact();
     ASSERT_TRUE(first.has_value());
@@ -340,7 +332,7 @@ TEST(PairJudge, BracketsTheFirstContact) {
     EXPECT_GE(first->high, c.when(0) - 1e-13L);
     EXPECT_LE(first->high - first->low, 1e-9L);
   });
-  forEachCase(false, [](const PairCase& c, Random&) {
+  forEachPair(false, [](const PairCase& c, Random&) {
     const Motion motion(c.joints);
     EXPECT_FALSE(Judge(motion, c.one, c.other).firstContact().has_value());
   });

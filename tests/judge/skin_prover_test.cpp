@@ -6,14 +6,13 @@
 
 #include "judge/judge.h"
 #include "judge/mesh_prover.h"
+#include "tests/judge/expect_finding.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::oracle {
 namespace {
 
 using test::Random;
-
-constexpr double kTolerance = 1e-3;
 
 /// A root at rest and a link at its origin that falls by `fall`; the lowest corner hangs half on
 /// each, so that it falls by half as much.

@@ -7,7 +7,6 @@ namespace foretouch::test {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kPi = 3.14159265358979323846;
 
 Quaternion aboutY(double angle) {
   return {std::cos(0.5 * angle), 0.0, std::sin(0.5 * angle), 0.0};

@@ -14,7 +14,6 @@
 namespace foretouch::test {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kNewTargetS = 1.0 / 3.0;
 
 /// Rules of the avatar's own links, if asked and if it has pairs.

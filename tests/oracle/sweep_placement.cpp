@@ -12,7 +12,6 @@ namespace foretouch::test {
 namespace {
 
 constexpr double kLowRate = 0.05, kHighRate = 0.6;
-constexpr double kPi = 3.14159265358979323846;
 
 oracle::Box boxOfAll(const oracle::Scene& scene) {
   oracle::Box box;

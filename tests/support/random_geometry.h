@@ -12,6 +12,8 @@
 
 namespace foretouch::test {
 
+inline constexpr double kPi = 3.14159265358979323846;
+
 class Random {
  public:
   explicit Random(std::uint64_t seed)
@@ -84,6 +86,12 @@ inline RandomPair randomPair(Random& random, double size, const Eigen::Vector3d&
     default: break;
   }
   return p;
+}
+
+/// Of a span's own time, [-1, 1]; its ends among others.
+inline float randomInstant(Random& random) {
+  if (random.chance(0.2)) return random.chance(0.5) ? -1.0F : 1.0F;
+  return static_cast<float>(random.uniform(-1.0, 1.0));
 }
 
 }  // namespace foretouch::test

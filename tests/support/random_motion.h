@@ -12,6 +12,10 @@
 
 namespace foretouch::test {
 
+inline double asDouble(const oracle::Precise& x) {
+  return static_cast<double>(x);
+}
+
 struct RandomMotion {
   Skeleton skeleton;
   Pose from, to;

@@ -19,12 +19,9 @@ namespace {
 using Eigen::Vector3d;
 using oracle::Precise3;
 using oracle::PreciseFrame;
+using test::asDouble;
 using test::Random;
 using Real = oracle::Precise;
-
-double asDouble(const Real& x) {
-  return static_cast<double>(x);
-}
 
 /// The product of floats is exact in doubles. Not every library's std::fma() of floats is.
 float fusedSum(float x, float y, float add) {

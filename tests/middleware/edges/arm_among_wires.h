@@ -14,10 +14,9 @@
 #include "articulated/skeleton.h"
 #include "judge/first_touch.h"
 #include "middleware/scene/scene.h"
+#include "tests/support/random_geometry.h"
 
 namespace foretouch::test {
-
-inline constexpr double kPi = 3.14159265358979323846;
 
 /// A planar arm about z: three links of 0.4 m along x, radius 0.03.
 inline Robot arm(double lower = -7.0, double upper = 7.0) {

@@ -45,14 +45,14 @@ std::array<Vector3d, 3> pushes(Random& random) {
   return {random.direction(), random.direction(), random.direction()};
 }
 
-struct Tally {
+struct HoldTally {
   int held = 0, whole = 0;
 };
 
 /// The furthest apart that the two come while they are said to hold, less the radii.
 template <typename Says>
-Tally holdAll(int count, int otherCount, double limit, const Says& says) {
-  Tally tally;
+HoldTally holdAll(int count, int otherCount, double limit, const Says& says) {
+  HoldTally tally;
   for (int i = 0; i < 3000; ++i) {
     Random random(static_cast<std::uint64_t>(i));
     const MovingHull one = randomPart(random, count, true);
@@ -75,7 +75,7 @@ Tally holdAll(int count, int otherCount, double limit, const Says& says) {
 
 TEST(ContactHold, StaysWithinTheLimit) {
   for (const int otherCount : {2, 3}) {
-    const Tally tally = holdAll(2, otherCount, 0.02, [](const MovingPair& pair, double rest) {
+    const HoldTally tally = holdAll(2, otherCount, 0.02, [](const MovingPair& pair, double rest) {
       return staysWithin(pair, 0.02, rest);
     });
     EXPECT_GT(tally.held, 300);
@@ -86,7 +86,7 @@ TEST(ContactHold, StaysWithinTheLimit) {
 
 TEST(ContactHold, StaysPierced) {
   for (const int count : {2, 3}) {
-    const Tally tally = holdAll(count, 3, 0.0, [](const MovingPair& pair, double rest) {
+    const HoldTally tally = holdAll(count, 3, 0.0, [](const MovingPair& pair, double rest) {
       return staysPierced(pair, rest);
     });
     EXPECT_GT(tally.held, 100);

@@ -30,9 +30,10 @@ Scene sheets() {
 
 /// Four people who go to and fro through each other and through sheets, with clocks of their own:
 /// after four poses all comes again.
-class Crowd {
+class Followed {
  public:
-  Crowd() : world_(World::build(sheets()).value()), follower_(WorldFollower::start(4000).value()) {
+  Followed()
+      : world_(World::build(sheets()).value()), follower_(WorldFollower::start(4000).value()) {
     Random random(5);
     for (BodyId body = 0; body < 4; ++body) {
       test::Walker walker = test::randomWalker(random, random.inBox(0.15), 0.0);
@@ -75,7 +76,7 @@ class Crowd {
 
 TEST(EventAllocations, AreNoneOnceEverythingHasGrown) {
   if (!test::countsAllocations()) GTEST_SKIP() << "this build has an allocator of its own";
-  Crowd crowd;
+  Followed crowd;
   const auto tick = [&] {
     crowd.push();
     ASSERT_TRUE(crowd.follow().ok());
@@ -108,19 +109,19 @@ std::string told(const WorldEvents& answer) {
 // before, that what is open remains.
 TEST(EventAllocations, AreLackingAndThenNot) {
   if (!test::countsAllocations()) GTEST_SKIP() << "this build has an allocator of its own";
-  const auto begin = [](Crowd& crowd) {
+  const auto begin = [](Followed& crowd) {
     crowd.push();
     ASSERT_TRUE(crowd.followTo(4200).ok());
     ASSERT_GT(crowd.numOpen(), 5u);
   };
-  Crowd whole;
+  Followed whole;
   begin(whole);
   ASSERT_TRUE(whole.follow().ok());
   const std::string expected = told(whole.answer());
   ASSERT_GT(expected.size(), 200u);
   int failed = 0;
   for (int after = 0;; after += 1 + after / 20) {
-    Crowd crowd;
+    Followed crowd;
     begin(crowd);
     test::failAllocationAfter(after);
     const Result<Done> broken = crowd.follow();

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "middleware/events/world_follower.h"
+#include "tests/middleware/balls.h"
 #include "tests/middleware/events/judged_events.h"
 #include "tests/middleware/world/random_worlds.h"
 
@@ -15,21 +16,13 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
+using test::at;
+using test::ball;
+using test::bodyOf;
 using test::Random;
 
 constexpr std::int64_t kMs = 1'000;
 
-Avatar bodyOf(const std::vector<Lss>& lss) {
-  RawSkeleton raw;
-  raw.joints = {{"body", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
-  return Avatar::build(Skeleton::build(raw).value(), {lss}).value();
-}
-Avatar ball(double radius) {
-  return bodyOf({{Vector3d::Zero(), Vector3d::Zero(), radius}});
-}
-RigidPose at(double x, double y = 0.0) {
-  return {Quaternion::Identity(), Vector3d(x, y, 0)};
-}
 void stand(World& world, BodyId body, const RigidPose& pose, std::int64_t untilUs,
            std::int64_t periodUs) {
   for (std::int64_t us = 0; us <= untilUs; us += periodUs) {

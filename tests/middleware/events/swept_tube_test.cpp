@@ -19,7 +19,7 @@ using test::Random;
 
 constexpr int kCases = 300, kTriangles = 60, kInstants = 12;
 
-struct Tally {
+struct TubeTally {
   int near = 0, kept = 0, inBoxes = 0, all = 0;
 };
 
@@ -31,7 +31,7 @@ Triangle randomTriangle(Random& random, const Vector3d& place) {
   return triangle;
 }
 
-void judge(int i, Tally& tally) {
+void judge(int i, TubeTally& tally) {
   Random random(static_cast<std::uint64_t>(i));
   const test::RandomMotion moved = test::randomMotion(random, 1 + random.below(4));
   const Vector3d place = random.chance(0.3)
@@ -71,7 +71,7 @@ void judge(int i, Tally& tally) {
 }
 
 TEST(SweptTube, HoldsWhateverComesNearOnTheWay) {
-  Tally tally;
+  TubeTally tally;
   for (int i = 0; i < kCases; ++i) judge(i, tally);
   EXPECT_GT(tally.near, tally.all / 20);
   EXPECT_LT(tally.near, tally.all / 2);

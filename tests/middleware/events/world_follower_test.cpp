@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "middleware/worker_pool.h"
+#include "tests/middleware/balls.h"
 #include "tests/middleware/events/judged_events.h"
 #include "tests/middleware/world/random_worlds.h"
 
@@ -19,19 +20,10 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
+using test::at;
+using test::ball;
+using test::bodyOf;
 using test::Random;
-
-Avatar bodyOf(const Lss& lss) {
-  RawSkeleton raw;
-  raw.joints = {{"body", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
-  return Avatar::build(Skeleton::build(raw).value(), {{lss}}).value();
-}
-Avatar ball(double radius) {
-  return bodyOf({Vector3d::Zero(), Vector3d::Zero(), radius});
-}
-RigidPose at(double x, double y = 0.0) {
-  return {Quaternion::Identity(), Vector3d(x, y, 0)};
-}
 
 /// Squares of 2 m across x, each an object of its own or all one.
 Scene sheets(const std::vector<double>& places, bool areOne) {
@@ -148,7 +140,7 @@ TEST(WorldFollower, TellsEveryThinSheet) {
 // The ball lies in one sheet when it is driven into the other: neither hides the other.
 TEST(WorldFollower, TellsEachObjectByItself) {
   World world = worldOf(sheets({0.0, 0.3}, false));
-  const BodyId body = world.add(bodyOf({Vector3d::Zero(), Vector3d(0.2, 0, 0), 0.01})).value();
+  const BodyId body = world.add(bodyOf({{Vector3d::Zero(), Vector3d(0.2, 0, 0), 0.01}})).value();
   ASSERT_TRUE(world.push(body, 0, at(-0.1)).ok());
   ASSERT_TRUE(world.push(body, 10'000, at(0.15)).ok());  // through both, then out of the first
   WorldFollower follower = followerFrom(0);
@@ -165,7 +157,8 @@ TEST(WorldFollower, TellsEachObjectByItself) {
 TEST(WorldFollower, FollowsADeepContactInFewLooks) {
   World world = World::build(sheets({0.0}, true), {1e-7}).value();
   // A needle without radius that slides along itself.
-  const BodyId body = world.add(bodyOf({Vector3d(-0.5, 0, 0), Vector3d(0.5, 0.1, 0), 0.0})).value();
+  const BodyId body =
+      world.add(bodyOf({{Vector3d(-0.5, 0, 0), Vector3d(0.5, 0.1, 0), 0.0}})).value();
   for (const int i : {0, 1, 2}) {
     ASSERT_TRUE(world.push(body, 10'000 * i, at(0.1 * i, 0.01 * i)).ok());
   }
@@ -333,12 +326,12 @@ World heapAndPair(int heap, std::uint64_t workPerWindow) {
 // Whoever has too little work is told as unresolved, for as long as he has; the pair beside the
 // heap is told as it is without a bound.
 TEST(WorldFollower, LeavesUnresolvedWhatCostsTooMuch) {
-  constexpr int kHeap = 24;
+  constexpr int kPile = 24;
   std::vector<WorldEvent> truth;
   for (const std::uint64_t work :
        {std::numeric_limits<std::uint64_t>::max(), std::uint64_t{60'000}, std::uint64_t{2'000}}) {
     for (const int threads : {1, 3}) {
-      const World world = heapAndPair(kHeap, work);
+      const World world = heapAndPair(kPile, work);
       FollowOptions options;
       options.cutUs = 2'000;
       options.threads = threads;
@@ -347,7 +340,7 @@ TEST(WorldFollower, LeavesUnresolvedWhatCostsTooMuch) {
       std::vector<WorldEvent> beside;
       std::size_t unresolved = 0;
       for (const WorldEvent& event : answer.events) {
-        if (event.a.body == kHeap) beside.push_back(event);
+        if (event.a.body == kPile) beside.push_back(event);
         if (event.kind != EventKind::UnresolvedFrom) continue;
         ++unresolved;
         EXPECT_EQ(event.reason, UndecidedReason::WorkBudget);
@@ -363,8 +356,8 @@ TEST(WorldFollower, LeavesUnresolvedWhatCostsTooMuch) {
       }
       EXPECT_EQ(unresolved > 0, work <= 60'000) << work;
       // All pairs of the heap touch throughout: nothing between their parts is free.
-      for (BodyId a = 0; a < kHeap; ++a) {
-        for (BodyId b = a + 1; b < kHeap; ++b) {
+      for (BodyId a = 0; a < kPile; ++a) {
+        for (BodyId b = a + 1; b < kPile; ++b) {
           WorldTime covered{0, 0.0};
           for (bool goesOn = true; goesOn && covered < WorldTime{30'000, 0.0};) {
             goesOn = false;

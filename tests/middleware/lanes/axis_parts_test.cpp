@@ -17,6 +17,7 @@
 #include "lss/simd.h"
 #include "middleware/lanes/frame_lanes.h"
 #include "middleware/query/still_axis.h"
+#include "tests/support/name_of_simd.h"
 #include "tests/support/random_motion.h"
 
 namespace foretouch::internal {
@@ -99,10 +100,6 @@ class AxisPartsAtWidth : public testing::TestWithParam<Simd> {
   void SetUp() override { ASSERT_TRUE(useSimd(GetParam())); }
   void TearDown() override { useSimd(std::nullopt); }
 };
-
-std::string nameOf(const testing::TestParamInfo<Simd>& info) {
-  return toString(info.param);
-}
 
 /// Parts of the mesh, most of them near the LSS: there a pad decides. Either LSS of it, or one of
 /// them at least a triangle.
@@ -199,7 +196,8 @@ TEST_P(AxisPartsAtWidth, ProveNothingOfWhatIsNoNumber) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Widths, AxisPartsAtWidth, testing::ValuesIn(supportedSimd()), nameOf);
+INSTANTIATE_TEST_SUITE_P(Widths, AxisPartsAtWidth, testing::ValuesIn(supportedSimd()),
+                         test::nameOfSimd);
 
 }  // namespace
 }  // namespace foretouch::internal

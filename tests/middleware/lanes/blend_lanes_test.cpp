@@ -11,6 +11,7 @@
 #include "lss/simd.h"
 #include "middleware/query/skin_lanes.h"
 #include "middleware/surface/skinned_surface.h"
+#include "tests/support/name_of_simd.h"
 #include "tests/support/random_motion.h"
 
 namespace foretouch::internal {
@@ -26,10 +27,6 @@ class BlendLanes : public testing::TestWithParam<Simd> {
   void SetUp() override { ASSERT_TRUE(useSimd(GetParam())); }
   void TearDown() override { useSimd(std::nullopt); }
 };
-
-std::string nameOf(const testing::TestParamInfo<Simd>& info) {
-  return toString(info.param);
-}
 
 Avatar avatarOf(const Skeleton& skeleton) {
   std::vector<std::vector<Lss>> lss(countOf(skeleton.numJoints()));
@@ -121,11 +118,6 @@ struct MovingSkin {
   }
 };
 
-float randomInstant(Random& random) {
-  if (random.chance(0.2)) return random.chance(0.5) ? -1.0F : 1.0F;
-  return static_cast<float>(random.uniform(-1.0, 1.0));
-}
-
 /// The curve's own derivatives in fifty digits.
 Precise3 derivativeOf(const BlendTriangle& curve, int corner, float u, int order) {
   Precise3 sum;
@@ -163,7 +155,7 @@ void checkCurves(const MovingSkin& moving, LinkId link, SkinLanes& lanes, Random
     ASSERT_EQ(lanes.curve(HierarchyChild::triangle(i)), which) << "made once";
     TrianglePairBlock pairs{};
     PairFloats u{};
-    u[0] = randomInstant(random);
+    u[0] = test::randomInstant(random);
     placeBlends(lanes.curves(), &which, u, 1, pairs);
     const auto frames = moving.framesAt(u[0]), atStart = moving.framesAt(-1.0F);
     const auto pointOf = [](const PairFloats(&p)[3]) {
@@ -316,7 +308,7 @@ TEST_P(BlendLanes, ContainTheTrianglesOfClustersAndPartsAtEveryInstant) {
     SweptBoxes boxes;
     boxes.resize(table.size());
     for (std::int32_t lss = 0; lss < table.size(); ++lss) lanes.addBox(lss, 0.0, boxes);
-    const float u = randomInstant(random);
+    const float u = test::randomInstant(random);
     for (LinkId link = 0; link + 1 < moving.motion.numLinks(); ++link) {
       checkLink(moving, link, lanes, boxes, u, used);
     }
@@ -342,7 +334,7 @@ TEST_P(BlendLanes, ContainTheLssOfALinkWithoutTriangles) {
     boxes.resize(table.size());
     lanes.addBox(own, 0.0, boxes);
     const LssPolynomials polynomials = lanes.polynomials(own);
-    const float u = randomInstant(random);
+    const float u = test::randomInstant(random);
     const auto frames = moving.framesAt(u);
     const Precise3 from = Precise3(moving.nodes.origin());
     const Precise3 end = frames[slotOf(link)].at(moving.avatar.lss(link)[0].b) - from;
@@ -356,7 +348,8 @@ TEST_P(BlendLanes, ContainTheLssOfALinkWithoutTriangles) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryWidth, BlendLanes, testing::ValuesIn(supportedSimd()), nameOf);
+INSTANTIATE_TEST_SUITE_P(EveryWidth, BlendLanes, testing::ValuesIn(supportedSimd()),
+                         test::nameOfSimd);
 
 }  // namespace
 }  // namespace foretouch::internal

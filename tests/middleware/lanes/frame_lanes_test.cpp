@@ -15,6 +15,7 @@
 #include "lss/simd.h"
 #include "middleware/query/lane_backtracking.h"
 #include "middleware/query/part_lanes.h"
+#include "tests/support/name_of_simd.h"
 #include "tests/support/random_motion.h"
 
 namespace foretouch::internal {
@@ -33,10 +34,6 @@ class FrameLanes : public testing::TestWithParam<Simd> {
   void SetUp() override { ASSERT_TRUE(useSimd(GetParam())); }
   void TearDown() override { useSimd(std::nullopt); }
 };
-
-std::string nameOf(const testing::TestParamInfo<Simd>& info) {
-  return toString(info.param);
-}
 
 /// A chain's last link over one of the spans that queries use.
 struct MovingLink {
@@ -72,11 +69,6 @@ struct MovingLink {
   }
 };
 
-float randomInstant(Random& random) {
-  if (random.chance(0.2)) return random.chance(0.5) ? -1.0F : 1.0F;
-  return static_cast<float>(random.uniform(-1.0, 1.0));
-}
-
 Triangle randomPart(Random& random) {
   const double size = random.magnitude(1e-3, 0.5);
   const Vector3d middle = random.uniform(0.0, 0.6) * random.direction();
@@ -111,7 +103,7 @@ TEST_P(FrameLanes, PlacePointsWithinThePadOfTheTrueMotion) {
     const float scenePad = random.chance(0.5) ? 0.0F : 1e-4F;
     for (std::size_t lane = 0; lane < kTrianglePairLanes; ++lane) {
       parts[lane] = randomPart(random);
-      put(lanePart(parts[lane]), randomInstant(random), scenePad, lane, block);
+      put(lanePart(parts[lane]), test::randomInstant(random), scenePad, lane, block);
     }
     placeParts(frame, block, kTrianglePairLanes, pairs);
     for (std::size_t lane = 0; lane < kTrianglePairLanes; ++lane) {
@@ -165,7 +157,7 @@ TEST_P(FrameLanes, KnowVelocitiesAndBoundAccelerations) {
     TrianglePairBlock pairs{};
     for (std::size_t lane = 0; lane < kTrianglePairLanes; ++lane) {
       parts[lane] = lanePart(randomPart(random));
-      put(parts[lane], randomInstant(random), 0.0F, lane, block);
+      put(parts[lane], test::randomInstant(random), 0.0F, lane, block);
     }
     placeParts(frame, block, kTrianglePairLanes, pairs);
     for (std::size_t lane = 0; lane < kTrianglePairLanes; ++lane) {
@@ -254,7 +246,8 @@ TEST_P(FrameLanes, ProveGapsAndStepsThatTheTrueMotionKeeps) {
   EXPECT_GT(near, 200);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryWidth, FrameLanes, testing::ValuesIn(supportedSimd()), nameOf);
+INSTANTIATE_TEST_SUITE_P(EveryWidth, FrameLanes, testing::ValuesIn(supportedSimd()),
+                         test::nameOfSimd);
 
 TEST(PartLanes, BeginAtInstantsThatAreExactAndNeverLate) {
   Random random(7);

@@ -13,6 +13,7 @@
 #include "lss/rounding.h"
 #include "lss/simd.h"
 #include "middleware/scene/culler.h"
+#include "tests/support/name_of_simd.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::internal {
@@ -29,10 +30,6 @@ class LanePairs : public testing::TestWithParam<Simd> {
   void SetUp() override { ASSERT_TRUE(useSimd(GetParam())); }
   void TearDown() override { useSimd(std::nullopt); }
 };
-
-std::string nameOf(const testing::TestParamInfo<Simd>& info) {
-  return toString(info.param);
-}
 
 double valueAt(const float (&c)[kCoefficients], double u) {
   double sum = 0.0;
@@ -98,12 +95,12 @@ LssPolynomials randomMotion(Random& random, double radius) {
   return p;
 }
 
-using Vertices = std::array<float, 9>;  // [corner][axis]
+using Corners = std::array<float, 9>;  // [corner][axis]
 
-Vertices randomTriangle(Random& random) {
+Corners randomTriangle(Random& random) {
   const double size = random.magnitude(0.003, 4.0);
   const auto pair = test::randomPair(random, size, random.inBox(0.8));
-  Vertices vertices{};
+  Corners vertices{};
   for (std::size_t corner = 0; corner < 3; ++corner) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       vertices[3 * corner + axis] = static_cast<float>(pair.v[corner][static_cast<int>(axis)]);
@@ -113,14 +110,14 @@ Vertices randomTriangle(Random& random) {
 }
 
 /// Separation of the polynomial LSS and the triangle.
-double separationAt(const LssPolynomials& p, double radius, const Vertices& v, double u) {
+double separationAt(const LssPolynomials& p, double radius, const Corners& v, double u) {
   std::array<oracle::Vec3<double>, 3> triangle;
   for (std::size_t i = 0; i < 3; ++i) triangle[i] = {v[3 * i], v[3 * i + 1], v[3 * i + 2]};
   return oracle::closestPoints(endAt(p.a, u), endAt(p.b, u), triangle).distance - radius;
 }
 
 /// Ids are the triangles' places.
-std::vector<BvhLeaf> leavesOf(const std::vector<Vertices>& triangles) {
+std::vector<BvhLeaf> leavesOf(const std::vector<Corners>& triangles) {
   std::vector<BvhLeaf> leaves((triangles.size() + kBvhWidth - 1) / kBvhWidth);
   for (std::size_t i = 0; i < leaves.size() * kBvhWidth; ++i) {
     BvhLeaf& leaf = leaves[i / kBvhWidth];
@@ -139,7 +136,7 @@ struct Outcome {
   std::uint64_t evaluations = 0;
 };
 
-Outcome advance(const LssPolynomials& motion, double radius, const std::vector<Vertices>& triangles,
+Outcome advance(const LssPolynomials& motion, double radius, const std::vector<Corners>& triangles,
                 const LaneTolerances& tolerances) {
   const LaneLss lane = laneLss(motion, radius);
   PairLanes pairs;
@@ -164,8 +161,8 @@ TEST_P(LanePairs, NeverPassAContactAndHandOverOnlyWhatIsNear) {
     Random random(draw);
     const double radius = random.chance(0.1) ? 0.0 : random.magnitude(1e-3, 0.1);
     const LssPolynomials motion = randomMotion(random, radius);
-    std::vector<Vertices> triangles(static_cast<std::size_t>(1 + random.below(70)));
-    for (Vertices& t : triangles) t = randomTriangle(random);
+    std::vector<Corners> triangles(static_cast<std::size_t>(1 + random.below(70)));
+    for (Corners& t : triangles) t = randomTriangle(random);
     LaneTolerances tolerances = kTolerances;
     tolerances.contact = -1.0F;  // nothing is dropped
     const Outcome outcome = advance(motion, radius, triangles, tolerances);
@@ -217,8 +214,8 @@ TEST_P(LanePairs, TellEachPairTheSameWhateverItsNeighbours) {
     Random random(3000 + draw);
     const double radius = random.magnitude(1e-3, 0.1);
     const LssPolynomials motion = randomMotion(random, radius);
-    std::vector<Vertices> triangles(static_cast<std::size_t>(2 + random.below(30)));
-    for (Vertices& t : triangles) t = randomTriangle(random);
+    std::vector<Corners> triangles(static_cast<std::size_t>(2 + random.below(30)));
+    for (Corners& t : triangles) t = randomTriangle(random);
     const Outcome outcome = advance(motion, radius, triangles, tolerances);
     const std::vector<Handed> together = handedOf(outcome, triangles.size());
     handedOver += outcome.handed.count;
@@ -237,13 +234,13 @@ TEST_P(LanePairs, CallNothingACertainContactThatIsNone) {
     Random random(1000 + draw);
     const double radius = random.magnitude(1e-3, 0.1);
     const LssPolynomials motion = randomMotion(random, radius);
-    std::vector<Vertices> triangles(static_cast<std::size_t>(1 + random.below(40)));
-    for (Vertices& t : triangles) t = randomTriangle(random);
+    std::vector<Corners> triangles(static_cast<std::size_t>(1 + random.below(40)));
+    for (Corners& t : triangles) t = randomTriangle(random);
     const Outcome outcome = advance(motion, radius, triangles, kTolerances);
     if (outcome.best == 1.0F) continue;
     ++found;
     double least = std::numeric_limits<double>::infinity();
-    for (const Vertices& t : triangles) {
+    for (const Corners& t : triangles) {
       least = std::min(least, separationAt(motion, radius, t, outcome.best));
     }
     EXPECT_LE(least, static_cast<double>(kTolerances.contact)) << draw;
@@ -296,7 +293,8 @@ TEST_P(LanePairs, SpheresBoundWhatIsInThem) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryWidth, LanePairs, testing::ValuesIn(supportedSimd()), nameOf);
+INSTANTIATE_TEST_SUITE_P(EveryWidth, LanePairs, testing::ValuesIn(supportedSimd()),
+                         test::nameOfSimd);
 
 }  // namespace
 }  // namespace foretouch::internal

@@ -160,15 +160,15 @@ MeshCase doorToSlantedEdge(Random& random) {
   return c;
 }
 
-struct Family {
+struct MeshFamily {
   const char* name;
   MeshCase (*make)(Random&);
 };
-void PrintTo(const Family& family, std::ostream* out) {
+void PrintTo(const MeshFamily& family, std::ostream* out) {
   *out << family.name;
 }
 
-class ExactContacts : public testing::TestWithParam<std::tuple<Family, LeafMethod>> {};
+class ExactContacts : public testing::TestWithParam<std::tuple<MeshFamily, LeafMethod>> {};
 
 /// In fifty digits, of the avatar's and the scene's doubles as given.
 oracle::Precise preciseSeparation(const MeshCase& c, const Avatar& avatar, const Pose& from,
@@ -200,7 +200,7 @@ TEST_P(ExactContacts, OfSwingingMeshesAreSoundAndTight) {
   for (int i = 0; i < kCases; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(i));
-    MeshCase c = std::get<Family>(GetParam()).make(random);
+    MeshCase c = std::get<MeshFamily>(GetParam()).make(random);
     c.placeRotation = random.rotation();
     c.placeTranslation = random.inBox(random.chance(0.2) ? 1e3 : 2.0);
     const Avatar avatar = c.avatar();
@@ -244,9 +244,9 @@ TEST_P(ExactContacts, OfSwingingMeshesAreSoundAndTight) {
 
 INSTANTIATE_TEST_SUITE_P(
     ClosedForms, ExactContacts,
-    testing::Combine(testing::Values(Family{"screwing blade", screwingBlade},
-                                     Family{"door to thorn", doorToThorn},
-                                     Family{"door to slanted edge", doorToSlantedEdge}),
+    testing::Combine(testing::Values(MeshFamily{"screwing blade", screwingBlade},
+                                     MeshFamily{"door to thorn", doorToThorn},
+                                     MeshFamily{"door to slanted edge", doorToSlantedEdge}),
                      testing::Values(LeafMethod::Advancement, LeafMethod::Cubics)));
 
 }  // namespace

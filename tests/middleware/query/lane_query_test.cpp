@@ -12,6 +12,7 @@
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/reference/reference_query.h"
+#include "tests/support/name_of_simd.h"
 
 namespace foretouch {
 namespace {
@@ -24,10 +25,6 @@ class LaneQueries : public testing::TestWithParam<Simd> {
   void SetUp() override { ASSERT_TRUE(useSimd(GetParam())); }
   void TearDown() override { useSimd(std::nullopt); }
 };
-
-std::string nameOf(const testing::TestParamInfo<Simd>& tested) {
-  return toString(tested.param);
-}
 
 StepContacts answer(const test::RandomBody& body, const Scene& scene, double tolerance,
                     Backtracking backtracking) {
@@ -231,7 +228,8 @@ TEST_P(LaneQueries, ReportTheSameForBothCullersAtExactFidelity) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryWidth, LaneQueries, testing::ValuesIn(supportedSimd()), nameOf);
+INSTANTIATE_TEST_SUITE_P(EveryWidth, LaneQueries, testing::ValuesIn(supportedSimd()),
+                         test::nameOfSimd);
 
 }  // namespace
 }  // namespace foretouch

@@ -11,6 +11,7 @@
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/support/asked.h"
+#include "tests/support/name_of_simd.h"
 
 namespace foretouch {
 namespace {
@@ -194,10 +195,7 @@ TEST_P(Leaving, EveryObjectHasItsOwnFirstContact) {
   }
 }
 
-std::string nameOf(const testing::TestParamInfo<Simd>& tested) {
-  return toString(tested.param);
-}
-INSTANTIATE_TEST_SUITE_P(Widths, Leaving, testing::ValuesIn(supportedSimd()), nameOf);
+INSTANTIATE_TEST_SUITE_P(Widths, Leaving, testing::ValuesIn(supportedSimd()), test::nameOfSimd);
 
 }  // namespace
 }  // namespace foretouch

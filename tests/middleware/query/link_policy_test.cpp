@@ -69,14 +69,14 @@ std::array<std::uint64_t, 13> numbersOf(const QueryCounters& c) {
 }
 
 /// A body in clutter, its scene, and a mesh for every link.
-struct World {
+struct ClutteredWorld {
   RawScene raw;
   Scene scene;
   RandomBody body;
   std::vector<std::vector<Triangle>> mesh;
   AvatarSurface surface;
 };
-World someWorld(int seed, int triangles = 1500, int links = 8) {
+ClutteredWorld someWorld(int seed, int triangles = 1500, int links = 8) {
   Random random(static_cast<std::uint64_t>(seed));
   RawScene raw = test::clutter(random, triangles, 3, Vector3d::Zero());
   RandomBody body = test::bodyInClutter(random, links, Vector3d::Zero());
@@ -85,7 +85,7 @@ World someWorld(int seed, int triangles = 1500, int links = 8) {
   return {raw, Scene::build(raw).value(), std::move(body), std::move(mesh), std::move(surface)};
 }
 
-StepContacts answer(const World& world, const QueryOptions& options,
+StepContacts answer(const ClutteredWorld& world, const QueryOptions& options,
                     const ReferenceOptions& reference) {
   return firstContacts(world.body.avatar, world.body.motion(), world.scene, options, reference)
       .value();
@@ -106,7 +106,7 @@ TEST_P(LinkPolicies, OfLinksThatAreAlikeDoNotShow) {
   int touched = 0;
   for (int i = 0; i < 40; ++i) {
     SCOPED_TRACE(i);
-    const World world = someWorld(i);
+    const ClutteredWorld world = someWorld(i);
     QueryOptions plain;
     plain.tolerance = std::array<double, 3>{5e-3, 1e-4, 1e-6}[i % 3];
     plain.fidelity = i % 2 == 0 ? Fidelity::Link : Fidelity::Exact;
@@ -138,7 +138,7 @@ TEST_P(LinkPolicies, GiveEachLinkTheAnswerItHasAlone) {
   for (int i = 0; i < 40; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(700 + i));
-    const World world = someWorld(100 + i);
+    const ClutteredWorld world = someWorld(100 + i);
     QueryOptions mixed;
     mixed.surface = world.surface;
     mixed.ignored = {{2, IgnoredPair::kEveryObject}, {3, 1}};
@@ -162,8 +162,8 @@ TEST_P(LinkPolicies, GiveEachLinkTheAnswerItHasAlone) {
   EXPECT_GT(touched[1], 20);
 }
 
-oracle::Judge judgeOf(const World& world, const oracle::Scene& scene, const oracle::Motion& truth,
-                      LinkId link, Fidelity fidelity) {
+oracle::Judge judgeOf(const ClutteredWorld& world, const oracle::Scene& scene,
+                      const oracle::Motion& truth, LinkId link, Fidelity fidelity) {
   if (fidelity == Fidelity::Exact) {
     return {scene, truth, link, test::plain(world.mesh[static_cast<std::size_t>(link)])};
   }
@@ -176,7 +176,7 @@ TEST_P(LinkPolicies, KeepThePromiseOfEachLinkByTheOracle) {
   for (int i = 0; i < 150; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(900 + i));
-    const World world = someWorld(300 + i, 600, 6);
+    const ClutteredWorld world = someWorld(300 + i, 600, 6);
     const oracle::Scene scene(test::plain(world.raw.triangles));
     const oracle::Motion truth(
         test::plainJoints(world.body.avatar.skeleton(), world.body.from, world.body.to));
@@ -291,7 +291,7 @@ TEST_P(LinkPolicies, AreAnsweredByNeedAsStraightAtAnyFidelity) {
   for (int i = 0; i < 60; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(2100 + i));
-    World world = someWorld(2100 + i, i % 3 == 0 ? 1 : 1500, 5);
+    ClutteredWorld world = someWorld(2100 + i, i % 3 == 0 ? 1 : 1500, 5);
     QueryOptions mixed;
     mixed.surface = world.surface;
     mixed.fidelity = Fidelity::Exact;
@@ -315,7 +315,7 @@ std::string nameOf(const testing::TestParamInfo<Way>& tested) {
 INSTANTIATE_TEST_SUITE_P(EveryWay, LinkPolicies, testing::ValuesIn(everyWay()), nameOf);
 
 TEST(LinkPoliciesOfThreads, AreAnsweredTheSameByAnyNumber) {
-  std::vector<World> worlds;
+  std::vector<ClutteredWorld> worlds;
   std::vector<QueryOptions> options;
   for (int i = 0; i < 40; ++i) {
     Random random(static_cast<std::uint64_t>(1300 + i));

@@ -21,8 +21,8 @@ using test::Random;
 constexpr std::int32_t kLinks = 6;
 const std::vector<Fidelity> kFidelities = {Fidelity::Link, Fidelity::Exact, Fidelity::Skinned};
 
-struct World {
-  explicit World(Random random)
+struct WorldOfEverything {
+  explicit WorldOfEverything(Random random)
       : scene(Scene::build(test::clutter(random, 200, 3, Vector3d::Zero())).value()),
         body(test::bodyInClutter(random, kLinks, Vector3d::Zero())),
         motion(body.motion()),
@@ -64,7 +64,7 @@ struct Change {
 };
 
 TEST(QueryOptions, AreHonouredOrRefusedByNameAtEveryFidelity) {
-  const World world{Random(1)};
+  const WorldOfEverything world{Random(1)};
   const std::vector<Change> changes = {
       {"tolerance", [](QueryOptions& o) { o.tolerance = 0.02; }},
       {"scope", [](QueryOptions& o) { o.scope = Scope::FirstOfAvatar; }},
@@ -97,7 +97,7 @@ const std::set<Fidelity> kNotOfLinks = {Fidelity::Skinned};
 
 // What looks beyond the first contact, or at own links, is honoured link by link or refused.
 TEST(QueryOptions, BeyondTheFirstContactAreHonouredOrRefusedByName) {
-  const World world{Random(3)};
+  const WorldOfEverything world{Random(3)};
   const auto rules = PairRules::derive(world.body.avatar);
   ASSERT_TRUE(rules.ok());
   const std::vector<Change> changes = {
@@ -120,7 +120,7 @@ TEST(QueryOptions, BeyondTheFirstContactAreHonouredOrRefusedByName) {
 }
 
 TEST(QueryOptions, ThatExcludeEachOtherAreRefusedByName) {
-  const World world{Random(3)};
+  const WorldOfEverything world{Random(3)};
   const auto rules = PairRules::derive(world.body.avatar).value();
   const std::vector<Change> changes = {
       {"scope",
@@ -138,8 +138,9 @@ TEST(QueryOptions, ThatExcludeEachOtherAreRefusedByName) {
          o.self = rules;
          o.scope = Scope::FirstOfAvatar;
        }},
-      {"self",
-       [&](QueryOptions& o) { o.self = PairRules::derive(World(Random(4)).body.avatar).value(); }}};
+      {"self", [&](QueryOptions& o) {
+         o.self = PairRules::derive(WorldOfEverything(Random(4)).body.avatar).value();
+       }}};
   for (const Change& change : changes) {
     QueryOptions options;
     change.make(options);
@@ -153,7 +154,7 @@ TEST(QueryOptions, ThatExcludeEachOtherAreRefusedByName) {
 TEST(QueryOptions, WithASurfaceThatNobodyNeedsChangeNothing) {
   int touched = 0;
   for (int seed = 0; seed < 200; ++seed) {
-    const World world{Random(static_cast<std::uint64_t>(seed))};
+    const WorldOfEverything world{Random(static_cast<std::uint64_t>(seed))};
     for (const Fidelity fidelity : kFidelities) {
       SCOPED_TRACE(std::string(toString(fidelity)) + " " + std::to_string(seed));
       const QueryOptions needed = world.options(fidelity);
@@ -190,7 +191,7 @@ TEST(Fidelities, ThatAreGoneAreNamedWithTheReason) {
 }
 
 TEST(ReferenceOptions, AreHonouredOrRefusedByNameAtEveryFidelity) {
-  const World world{Random(2)};
+  const WorldOfEverything world{Random(2)};
   const std::set<Fidelity> all(kFidelities.begin(), kFidelities.end());
   const std::vector<OtherWay> ways = {
       {"culler", "", [](ReferenceOptions& r) { r.culler = Culler::PointQuery; }, all},
@@ -225,7 +226,7 @@ TEST(ReferenceOptions, AreHonouredOrRefusedByNameAtEveryFidelity) {
 
 // Where one link alone is exact, its pairs are followed by cubics.
 TEST(ReferenceOptions, TakeCubicsForTheLinksThatAreExactByPolicy) {
-  const World world{Random(3)};
+  const WorldOfEverything world{Random(3)};
   QueryOptions options = world.options(Fidelity::Link);
   options.surface = world.surface;
   options.linkPolicies.assign(kLinks, LinkPolicy{});
@@ -237,7 +238,7 @@ TEST(ReferenceOptions, TakeCubicsForTheLinksThatAreExactByPolicy) {
 }
 
 TEST(ReferenceOptions, AreTheProductsByDefault) {
-  const World world{Random(4)};
+  const WorldOfEverything world{Random(4)};
   for (const Fidelity fidelity : kFidelities) {
     const Query query =
         buildReference(world.body.avatar, world.scene, world.options(fidelity), {}).value();

@@ -15,6 +15,7 @@
 #include "tests/middleware/own_body.h"
 #include "tests/support/asked.h"
 #include "tests/support/judged_pairs.h"
+#include "tests/support/name_of_simd.h"
 
 namespace foretouch {
 namespace {
@@ -22,7 +23,7 @@ namespace {
 using test::OwnBody;
 using test::Random;
 
-struct Tally {
+struct OracleTally {
   int clear = 0, contact = 0, start = 0, undecided = 0;
 
   void add(oracle::Verdict verdict) {
@@ -57,7 +58,7 @@ class SelfOracle : public testing::TestWithParam<Simd> {
   }
 
   Scratch scratch_;
-  Tally tally_;
+  OracleTally tally_;
 };
 
 TEST_P(SelfOracle, ProvesEveryAnswerOfRandomBodies) {
@@ -244,10 +245,7 @@ TEST_P(SelfOracle, ProvesEveryExactAnswer) {
   EXPECT_GT(tally_.start, 5);
 }
 
-std::string nameOf(const testing::TestParamInfo<Simd>& tested) {
-  return toString(tested.param);
-}
-INSTANTIATE_TEST_SUITE_P(Widths, SelfOracle, testing::ValuesIn(supportedSimd()), nameOf);
+INSTANTIATE_TEST_SUITE_P(Widths, SelfOracle, testing::ValuesIn(supportedSimd()), test::nameOfSimd);
 
 }  // namespace
 }  // namespace foretouch

@@ -19,6 +19,7 @@
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/own_body.h"
 #include "tests/support/asked.h"
+#include "tests/support/name_of_simd.h"
 
 namespace foretouch {
 namespace {
@@ -45,14 +46,14 @@ double separationAt(const Avatar& avatar, const std::vector<LinkState>& states, 
   return least;
 }
 
-struct Tally {
+struct PromiseTally {
   int clear = 0, contact = 0, start = 0, undecided = 0;
 };
 
 /// Every asked pair at sampled instants from `begin` on: nothing touches before its contact, and at
 /// its contact it is within the tolerance.
 void expectPromise(const OwnBody& body, const PairRules& rules, const StepContacts& step,
-                   double tolerance, Tally& tally, double begin = 0.0) {
+                   double tolerance, PromiseTally& tally, double begin = 0.0) {
   constexpr int kSamples = 200;
   constexpr double kRounding = 1e-10;
   std::map<std::pair<LinkId, LinkId>, const PairContact*> found;
@@ -110,7 +111,7 @@ class SelfQueries : public testing::TestWithParam<Simd> {
 };
 
 TEST_P(SelfQueries, AreSoundAndTight) {
-  Tally tally;
+  PromiseTally tally;
   Scratch scratch;
   for (int i = 0; i < 400; ++i) {
     SCOPED_TRACE(i);
@@ -164,7 +165,7 @@ double surfaceSeparationAt(const Avatar& avatar, const std::vector<std::vector<T
 // A question may begin within a motion: whoever touches there starts in contact, whatever was
 // before.
 TEST_P(SelfQueries, FromAnInstantOnAreSoundAndTight) {
-  Tally tally;
+  PromiseTally tally;
   Scratch scratch;
   int refused = 0;
   for (int i = 0; i < 600; ++i) {
@@ -341,10 +342,7 @@ TEST_P(SelfQueries, WithoutWorkAreUndecidedAndNeverClearThatTouch) {
   EXPECT_GT(undecided, 50);
 }
 
-std::string nameOf(const testing::TestParamInfo<Simd>& tested) {
-  return toString(tested.param);
-}
-INSTANTIATE_TEST_SUITE_P(Widths, SelfQueries, testing::ValuesIn(supportedSimd()), nameOf);
+INSTANTIATE_TEST_SUITE_P(Widths, SelfQueries, testing::ValuesIn(supportedSimd()), test::nameOfSimd);
 
 }  // namespace
 }  // namespace foretouch

@@ -11,6 +11,7 @@
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/reference/reference_query.h"
+#include "tests/support/name_of_simd.h"
 
 namespace foretouch {
 namespace {
@@ -23,10 +24,6 @@ class SkinQueries : public testing::TestWithParam<Simd> {
   void SetUp() override { ASSERT_TRUE(useSimd(GetParam())); }
   void TearDown() override { useSimd(std::nullopt); }
 };
-
-std::string nameOf(const testing::TestParamInfo<Simd>& tested) {
-  return toString(tested.param);
-}
 
 /// A random body whose skin hangs on several links.
 struct SkinnedBody {
@@ -87,7 +84,7 @@ struct SkinnedBody {
   }
 };
 
-struct Tally {
+struct SkinTally {
   int clear = 0, contact = 0, start = 0;
 };
 
@@ -100,7 +97,8 @@ void expectSameStart(const LinkContact& l, const LinkContact& s) {
   EXPECT_EQ(l.nhat_SL_W, s.nhat_SL_W);
 }
 
-void expectAgreement(const SkinnedBody& body, const Scene& scene, double tolerance, Tally& tally) {
+void expectAgreement(const SkinnedBody& body, const Scene& scene, double tolerance,
+                     SkinTally& tally) {
   const StepContacts lanes = body.answer(scene, tolerance, Backtracking::Lanes);
   const StepContacts doubles = body.answer(scene, tolerance, Backtracking::Scalar);
   // Where the tolerance is next to nothing the doubles' contact is the true one.
@@ -130,7 +128,7 @@ void expectAgreement(const SkinnedBody& body, const Scene& scene, double toleran
 }
 
 TEST_P(SkinQueries, AgreeWithDoubles) {
-  Tally tally;
+  SkinTally tally;
   for (int i = 0; i < 120; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(i));
@@ -146,7 +144,7 @@ TEST_P(SkinQueries, AgreeWithDoubles) {
 }
 
 TEST_P(SkinQueries, AgreeWithDoublesInManySlabs) {
-  Tally tally;
+  SkinTally tally;
   for (int i = 0; i < 30; ++i) {
     SCOPED_TRACE(i);
     Random random(static_cast<std::uint64_t>(700 + i));
@@ -166,7 +164,7 @@ TEST_P(SkinQueries, LeaveOutWhatIsIgnored) {
     const Scene scene = Scene::build(test::clutter(random, 800, 3, Vector3d::Zero())).value();
     SkinnedBody body(random, 6, Vector3d::Zero());
     body.options.ignored = {{1, IgnoredPair::kEveryObject}, {2, 0}, {3, 1}};
-    Tally tally;
+    SkinTally tally;
     expectAgreement(body, scene, 1e-3, tally);
     contacts += tally.contact + tally.start;
     for (const LinkContact& l : body.answer(scene, 1e-3, Backtracking::Lanes).links) {
@@ -295,7 +293,8 @@ TEST_P(SkinQueries, AskLinksWithoutTrianglesByTheirOwnLss) {
   EXPECT_GT(touched, 20);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryWidth, SkinQueries, testing::ValuesIn(supportedSimd()), nameOf);
+INSTANTIATE_TEST_SUITE_P(EveryWidth, SkinQueries, testing::ValuesIn(supportedSimd()),
+                         test::nameOfSimd);
 
 }  // namespace
 }  // namespace foretouch

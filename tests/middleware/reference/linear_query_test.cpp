@@ -10,7 +10,7 @@ namespace foretouch::test {
 namespace {
 
 /// A large triangle at rest in the plane z = 0.
-const std::array<LinearPoint, 3> kFloor = {still(0, 0, 0), still(4, 0, 0), still(0, 4, 0)};
+const std::array<LinearPoint, 3> kStillFloor = {still(0, 0, 0), still(4, 0, 0), still(0, 4, 0)};
 const std::array<LinearPoint, 2> kBar = {still(-1, 0, 0), still(1, 0, 0)};  // along x
 
 void expectHit(const LeafAnswer& answer, double toi, LeafStage stage) {
@@ -28,50 +28,50 @@ void expectMiss(const LeafAnswer& answer, LeafStage stage) {
 }
 
 TEST(VertexFace, CrossingInTheMiddleNeedsOnlyTheFilter) {
-  expectHit(vertexFace(moving({1, 1, 1}, {1, 1, -1}), kFloor), 0.5, LeafStage::Filter);
-  expectHit(vertexFace(moving({1, 1, 1}, {1, 1, -2}), kFloor), 1.0 / 3.0, LeafStage::Filter);
+  expectHit(vertexFace(moving({1, 1, 1}, {1, 1, -1}), kStillFloor), 0.5, LeafStage::Filter);
+  expectHit(vertexFace(moving({1, 1, 1}, {1, 1, -2}), kStillFloor), 1.0 / 3.0, LeafStage::Filter);
 }
 
 TEST(VertexFace, PassingBesideNeedsOnlyTheFilter) {
-  expectMiss(vertexFace(moving({3, 3, 1}, {3, 3, -1}), kFloor), LeafStage::Filter);
-  expectMiss(vertexFace(moving({1, 1, 2}, {1, 1, 1}), kFloor), LeafStage::Filter);
+  expectMiss(vertexFace(moving({3, 3, 1}, {3, 3, -1}), kStillFloor), LeafStage::Filter);
+  expectMiss(vertexFace(moving({1, 1, 2}, {1, 1, 1}), kStillFloor), LeafStage::Filter);
 }
 
 TEST(VertexFace, TouchingAtTheVeryEndOrStartCounts) {
-  expectHit(vertexFace(moving({1, 1, 1}, {1, 1, 0}), kFloor), 1.0, LeafStage::Exact);
-  expectHit(vertexFace(moving({1, 1, 0}, {1, 1, 1}), kFloor), 0.0, LeafStage::Exact);
+  expectHit(vertexFace(moving({1, 1, 1}, {1, 1, 0}), kStillFloor), 1.0, LeafStage::Exact);
+  expectHit(vertexFace(moving({1, 1, 0}, {1, 1, 1}), kStillFloor), 0.0, LeafStage::Exact);
 }
 
 TEST(VertexFace, TheLastBitDecides) {
   const double tiny = 0x1p-60;
-  expectMiss(vertexFace(moving({1, 1, 1}, {1, 1, 0x1p-300}), kFloor), LeafStage::Filter);
-  expectMiss(vertexFace(moving({-tiny, 1, 1}, {-tiny, 1, -1}), kFloor), LeafStage::Filter);
+  expectMiss(vertexFace(moving({1, 1, 1}, {1, 1, 0x1p-300}), kStillFloor), LeafStage::Filter);
+  expectMiss(vertexFace(moving({-tiny, 1, 1}, {-tiny, 1, -1}), kStillFloor), LeafStage::Filter);
   const double beyond = std::nextafter(2.0, 3.0);  // past the slanted edge
-  expectMiss(vertexFace(moving({beyond, 2, 1}, {beyond, 2, -1}), kFloor), LeafStage::Exact);
-  expectHit(vertexFace(moving({2, 2, 1}, {2, 2, -1}), kFloor), 0.5, LeafStage::Exact);
-  expectHit(vertexFace(moving({tiny, 1, 1}, {tiny, 1, -1}), kFloor), 0.5, LeafStage::Exact);
-  expectHit(vertexFace(moving({0, 1, 1}, {0, 1, -1}), kFloor), 0.5, LeafStage::Exact);
+  expectMiss(vertexFace(moving({beyond, 2, 1}, {beyond, 2, -1}), kStillFloor), LeafStage::Exact);
+  expectHit(vertexFace(moving({2, 2, 1}, {2, 2, -1}), kStillFloor), 0.5, LeafStage::Exact);
+  expectHit(vertexFace(moving({tiny, 1, 1}, {tiny, 1, -1}), kStillFloor), 0.5, LeafStage::Exact);
+  expectHit(vertexFace(moving({0, 1, 1}, {0, 1, -1}), kStillFloor), 0.5, LeafStage::Exact);
 }
 
 TEST(VertexFace, MeetingAnEdgeOrAVertexAtATimeThatIsNoDoubleCounts) {
-  expectHit(vertexFace(moving({1, 0, 1}, {1, 0, -2}), kFloor), 1.0 / 3.0, LeafStage::Exact);
-  expectHit(vertexFace(moving({4, 0, 3}, {4, 0, -4}), kFloor), 3.0 / 7.0, LeafStage::Exact);
-  expectHit(vertexFace(moving({-1, 1, 1}, {2, 1, -2}), kFloor), 1.0 / 3.0, LeafStage::Exact);
+  expectHit(vertexFace(moving({1, 0, 1}, {1, 0, -2}), kStillFloor), 1.0 / 3.0, LeafStage::Exact);
+  expectHit(vertexFace(moving({4, 0, 3}, {4, 0, -4}), kStillFloor), 3.0 / 7.0, LeafStage::Exact);
+  expectHit(vertexFace(moving({-1, 1, 1}, {2, 1, -2}), kStillFloor), 1.0 / 3.0, LeafStage::Exact);
 }
 
 TEST(VertexFace, SlidingInThePlaneIsMetAtTheEdge) {
-  expectHit(vertexFace(moving({-1, 1, 0}, {3, 1, 0}), kFloor), 0.25, LeafStage::Exact);
-  expectHit(vertexFace(moving({-1, 1, 0}, {2, 1, 0}), kFloor), 1.0 / 3.0, LeafStage::Exact);
-  expectHit(vertexFace(moving({-1, 0, 0}, {3, 0, 0}), kFloor), 0.25,
+  expectHit(vertexFace(moving({-1, 1, 0}, {3, 1, 0}), kStillFloor), 0.25, LeafStage::Exact);
+  expectHit(vertexFace(moving({-1, 1, 0}, {2, 1, 0}), kStillFloor), 1.0 / 3.0, LeafStage::Exact);
+  expectHit(vertexFace(moving({-1, 0, 0}, {3, 0, 0}), kStillFloor), 0.25,
             LeafStage::Exact);  // on a line
-  expectMiss(vertexFace(moving({-1, 5, 0}, {5, 5, 0}), kFloor), LeafStage::Filter);
-  expectMiss(vertexFace(moving({-1, 0, 0}, {0, -1, 0}), kFloor), LeafStage::Filter);
+  expectMiss(vertexFace(moving({-1, 5, 0}, {5, 5, 0}), kStillFloor), LeafStage::Filter);
+  expectMiss(vertexFace(moving({-1, 0, 0}, {0, -1, 0}), kStillFloor), LeafStage::Filter);
 }
 
 TEST(VertexFace, SlidingInATiltedMovingPlaneIsMetAtTheEdge) {
   std::array<LinearPoint, 3> face;  // the plane z = x + y, lifted by t
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d& p = kFloor[i].from;
+    const Eigen::Vector3d& p = kStillFloor[i].from;
     face[i] = moving({p.x(), p.y(), p.x() + p.y()}, {p.x(), p.y(), p.x() + p.y() + 1});
   }
   expectHit(vertexFace(moving({-1, 1, 0}, {3, 1, 5}), face), 0.25, LeafStage::Exact);
@@ -97,10 +97,10 @@ TEST(VertexFace, AFaceThatCollapsesOntoTheVertexIsMetThen) {
 }
 
 TEST(VertexFace, EverythingAtRestIsAStaticTest) {
-  expectHit(vertexFace(still(1, 1, 0), kFloor), 0.0, LeafStage::Exact);
-  expectHit(vertexFace(still(0, 0, 0), kFloor), 0.0, LeafStage::Exact);
-  expectMiss(vertexFace(still(3, 3, 0), kFloor), LeafStage::Filter);
-  expectMiss(vertexFace(still(1, 1, 1e-100), kFloor), LeafStage::Filter);
+  expectHit(vertexFace(still(1, 1, 0), kStillFloor), 0.0, LeafStage::Exact);
+  expectHit(vertexFace(still(0, 0, 0), kStillFloor), 0.0, LeafStage::Exact);
+  expectMiss(vertexFace(still(3, 3, 0), kStillFloor), LeafStage::Filter);
+  expectMiss(vertexFace(still(1, 1, 1e-100), kStillFloor), LeafStage::Filter);
 }
 
 TEST(EdgeEdge, CrossingInTheMiddleNeedsOnlyTheFilter) {

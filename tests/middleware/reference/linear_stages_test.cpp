@@ -31,7 +31,7 @@ internal::MovingPolygon polygonFor(int kind, const FourPoints& p, std::array<Lin
   }
 }
 
-FourPoints draw(Random& random) {
+FourPoints drawPoints(Random& random) {
   switch (random.below(3)) {
     case 0: return onLattice(random, 2);
     case 1: return nearLattice(random);
@@ -45,7 +45,7 @@ TEST(LinearStages, NeverContradictEachOther) {
   for (int seed = 0; seed < kCases; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    const FourPoints points = draw(random);
+    const FourPoints points = drawPoints(random);
     std::array<LinearPoint, 3> face;
     std::array<std::array<LinearPoint, 2>, 2> edges;
     const auto polygon = polygonFor(random.below(4), points, face, edges);
@@ -91,7 +91,7 @@ TEST(LinearQuery, DoesNotDependOnTheOrderOfItsArguments) {
   for (int seed = 0; seed < kCases; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    const FourPoints points = draw(random);
+    const FourPoints points = drawPoints(random);
     expectSameAnswer(points, faceOrders, askVertexFace, faceHits);
     expectSameAnswer(points, edgeOrders, askEdgeEdge, edgeHits);
   }

@@ -18,7 +18,7 @@ using oracle::PreciseQuaternion;
 using Real = oracle::Precise;
 using Eigen::Vector3d;
 
-const Triangle kFloor{{Vector3d(-9, -9, 0), Vector3d(9, -9, 0), Vector3d(0, 9, 0)}};
+const Triangle kWideFloor{{Vector3d(-9, -9, 0), Vector3d(9, -9, 0), Vector3d(0, 9, 0)}};
 
 NlerpMotion sliding(const Vector3d& from, const Vector3d& to) {
   return {from, to, Quaternion::Identity(), Quaternion::Identity()};
@@ -61,7 +61,7 @@ double extentOf(const NlerpMotion& motion, const Triangle& moving, const Triangl
 
 TEST(RigidTrianglePair, AVertexThatFallsOnAFaceIsTimedAndNamed) {
   const Triangle tip{{Vector3d(0, 0, 0), Vector3d(1, 0, 2), Vector3d(0, 1, 2)}};
-  const auto answer = rigidTrianglePair(sliding({0, 0, 1}, {0, 0, -2}), tip, kFloor, 0.0);
+  const auto answer = rigidTrianglePair(sliding({0, 0, 1}, {0, 0, -2}), tip, kWideFloor, 0.0);
   ASSERT_TRUE(answer.leaf.hits);
   EXPECT_LE(answer.leaf.toiLow, 1.0 / 3.0);
   EXPECT_NEAR(answer.leaf.toiLow, 1.0 / 3.0, 1e-10);
@@ -92,11 +92,12 @@ TEST(RigidTrianglePair, TheBandIsKeptToItsWidth) {
   const Triangle flat{{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)}};
   for (const double band : {0.0, 1e-6, 0.25}) {
     const double beyond = band + 2.0 * rigidBand(18.0);
-    EXPECT_FALSE(
-        rigidTrianglePair(sliding({-1, 0, beyond}, {1, 0, beyond}), flat, kFloor, band).leaf.hits);
-    const auto inside = rigidTrianglePair(sliding({-1, 0, band}, {1, 0, band}), flat, kFloor, band);
+    EXPECT_FALSE(rigidTrianglePair(sliding({-1, 0, beyond}, {1, 0, beyond}), flat, kWideFloor, band)
+                     .leaf.hits);
+    const auto inside =
+        rigidTrianglePair(sliding({-1, 0, band}, {1, 0, band}), flat, kWideFloor, band);
     EXPECT_TRUE(inside.startsInContact);
-    const auto falling = rigidTrianglePair(sliding({0, 0, 1}, {0, 0, 0}), flat, kFloor, band);
+    const auto falling = rigidTrianglePair(sliding({0, 0, 1}, {0, 0, 0}), flat, kWideFloor, band);
     ASSERT_TRUE(falling.leaf.hits);
     EXPECT_LE(falling.leaf.toiLow, 1.0 - band);
     EXPECT_NEAR(falling.leaf.toiLow, 1.0 - band, 2.0 * rigidBand(18.0));
@@ -105,7 +106,8 @@ TEST(RigidTrianglePair, TheBandIsKeptToItsWidth) {
 
 TEST(RigidTrianglePair, PiercedAtTheStartIsInContactThen) {
   const Triangle spike{{Vector3d(0, 0, -1), Vector3d(0, 0, 1), Vector3d(1, 0, 1)}};
-  EXPECT_TRUE(rigidTrianglePair(sliding({0, 0, 0}, {0, 0, 5}), spike, kFloor, 0.0).startsInContact);
+  EXPECT_TRUE(
+      rigidTrianglePair(sliding({0, 0, 0}, {0, 0, 5}), spike, kWideFloor, 0.0).startsInContact);
 }
 
 TEST(RigidTrianglePair, PointsAndSegmentsAreTriangles) {
@@ -127,7 +129,7 @@ struct RigidCase {
   double band;
 };
 
-RigidCase draw(Random& random) {
+RigidCase drawRigid(Random& random) {
   const RandomPair pair = randomPair(random, 0.5, Vector3d::Zero());
   RigidCase c{{random.inBox(1.0), random.inBox(1.0), random.rotation(), random.rotation()},
               {{pair.a, pair.b, random.inBox(0.5)}},
@@ -150,7 +152,7 @@ void expectSoundAndTight(const Query& query) {
   for (int seed = 0; seed < kCases; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    const RigidCase c = draw(random);
+    const RigidCase c = drawRigid(random);
     const RigidAnswer answer = query(c, random);
     const double end = answer.leaf.hits ? answer.leaf.toiLow : 1.0;
     for (int k = 0; k < 24; ++k) {
@@ -210,8 +212,8 @@ TEST(RigidTrianglePairFromPlane, APlaneThatHoldsToTheEndIsTheAnswer) {
   const Triangle tip{{Vector3d(0, 0, 0), Vector3d(1, 0, 2), Vector3d(0, 1, 2)}};
   const NlerpMotion motion = sliding({0, 0, 1}, {0, 0, 0.5});
   const Vector3d up(0, 0, 1);
-  EXPECT_FALSE(internal::rigidTrianglePairFromPlane(motion, tip, kFloor, 0.25, up).leaf.hits);
-  const auto hit = internal::rigidTrianglePairFromPlane(motion, tip, kFloor, 0.75, up);
+  EXPECT_FALSE(internal::rigidTrianglePairFromPlane(motion, tip, kWideFloor, 0.25, up).leaf.hits);
+  const auto hit = internal::rigidTrianglePairFromPlane(motion, tip, kWideFloor, 0.75, up);
   ASSERT_TRUE(hit.leaf.hits);
   EXPECT_LE(hit.leaf.toiLow, 0.5);
   EXPECT_NEAR(hit.leaf.toiLow, 0.5, 1e-10);
@@ -222,7 +224,7 @@ TEST(RigidTrianglePair, DoesNotDependOnTheOrderOfVertices) {
   for (int seed = 0; seed < 2000; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    const RigidCase c = draw(random);
+    const RigidCase c = drawRigid(random);
     const auto first = rigidTrianglePair(c.motion, c.moving, c.fixed, c.band);
     const auto &m = c.moving.vertices, &f = c.fixed.vertices;
     const auto other =

@@ -17,7 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 using internal::SpheroidQuery;
-using oracle::Real;
 using oracle::Vec3r;
 using test::Random;
 
@@ -27,7 +26,7 @@ class Truth {
   explicit Truth(const Spheroid& spheroid) : spheroid_(spheroid) {}
 
   /// Distance of the centre from the triangle in units of the spheroid; below 1: they touch.
-  [[nodiscard]] Real at(Real t, const Triangle& triangle) const {
+  [[nodiscard]] oracle::Real at(oracle::Real t, const Triangle& triangle) const {
     const Vec3r center = t * toUnit(wide(spheroid_.drift));
     std::array<Vec3r, 3> v;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -37,32 +36,34 @@ class Truth {
   }
 
   /// The first instant of contact; nothing if there is none.
-  [[nodiscard]] std::optional<Real> firstContact(const Triangle& triangle) const {
+  [[nodiscard]] std::optional<oracle::Real> firstContact(const Triangle& triangle) const {
     if (at(0, triangle) < 1) return 0;
-    Real low = 0, high = 1;
+    oracle::Real low = 0, high = 1;
     for (int i = 0; i < 100; ++i) {
-      const Real third = (high - low) / 3;
+      const oracle::Real third = (high - low) / 3;
       if (at(low + third, triangle) <= at(high - third, triangle)) {
         high -= third;
       } else {
         low += third;
       }
     }
-    Real touching = at(1, triangle) < at(low, triangle) ? 1 : low;
+    oracle::Real touching = at(1, triangle) < at(low, triangle) ? 1 : low;
     if (at(touching, triangle) >= 1) return std::nullopt;
-    Real free = 0;
+    oracle::Real free = 0;
     for (int i = 0; i < 64; ++i) {
-      const Real middle = (free + touching) / 2;
+      const oracle::Real middle = (free + touching) / 2;
       (at(middle, triangle) < 1 ? touching : free) = middle;
     }
     return touching;
   }
 
  private:
-  static Vec3r wide(const Vector3d& v) { return oracle::Vec3d{v.x(), v.y(), v.z()}.as<Real>(); }
+  static Vec3r wide(const Vector3d& v) {
+    return oracle::Vec3d{v.x(), v.y(), v.z()}.as<oracle::Real>();
+  }
   [[nodiscard]] Vec3r toUnit(const Vec3r& x) const {
     const Vec3r axis = wide(spheroid_.axis);
-    const Real along = spheroid_.along, across = spheroid_.across;
+    const oracle::Real along = spheroid_.along, across = spheroid_.across;
     return (1 / across) * x + ((1 / along - 1 / across) * dot(axis, x)) * axis;
   }
 
@@ -104,21 +105,22 @@ struct Tally {
 void judge(const Spheroid& spheroid, const Scene& scene, double tolerance, const LinkContact& got,
            Tally& tally) {
   const Truth truth(spheroid);
-  Real first = 2;
+  oracle::Real first = 2;
   for (TriangleId id = 0; id < static_cast<TriangleId>(scene.numTriangles()); ++id) {
     first = std::min(first, truth.firstContact(scene.triangle(id)).value_or(2));
   }
   constexpr double kRounding = 1e-9;
-  const Real scale = spheroid.longest();
+  const oracle::Real scale = spheroid.longest();
   switch (got.verdict) {
     case Verdict::Clear:
       EXPECT_GT(first, 1) << "missed";
       ++tally.clear;
       return;
     case Verdict::Contact: {
-      EXPECT_LE(static_cast<Real>(got.toi), first) << "late";
+      EXPECT_LE(static_cast<oracle::Real>(got.toi), first) << "late";
       // In the unit ball's space nothing is farther than by the shortest semi-axis in the world's.
-      const Real gap = truth.at(static_cast<Real>(got.toi), scene.triangle(got.triangle)) - 1;
+      const oracle::Real gap =
+          truth.at(static_cast<oracle::Real>(got.toi), scene.triangle(got.triangle)) - 1;
       EXPECT_LE(gap * scale, tolerance * (1 + 1e-6)) << "early";
       ++tally.contact;
       break;

@@ -8,7 +8,7 @@ namespace {
 
 using MovingTriangle = std::array<LinearPoint, 3>;
 
-const MovingTriangle kFloor = {still(0, 0, 0), still(4, 0, 0), still(0, 4, 0)};
+const MovingTriangle kFloorOfPairs = {still(0, 0, 0), still(4, 0, 0), still(0, 4, 0)};
 
 MovingTriangle shifted(const std::array<Eigen::Vector3d, 3>& at, const Eigen::Vector3d& by) {
   return {LinearPoint{at[0], at[0] + by}, LinearPoint{at[1], at[1] + by},
@@ -22,7 +22,7 @@ void expectFeature(const Feature& feature, FeatureKind kind, int index) {
 
 TEST(TrianglePair, AVertexThatFallsOnAFaceIsNamed) {
   const auto answer =
-      trianglePair(shifted({{{1, 1, 1}, {1, 1, 3}, {2, 1, 3}}}, {0, 0, -2}), kFloor);
+      trianglePair(shifted({{{1, 1, 1}, {1, 1, 3}, {2, 1, 3}}}, {0, 0, -2}), kFloorOfPairs);
   ASSERT_TRUE(answer.leaf.hits);
   EXPECT_FALSE(answer.startsInContact);
   EXPECT_LE(answer.leaf.toiLow, 0.5);
@@ -34,7 +34,7 @@ TEST(TrianglePair, AVertexThatFallsOnAFaceIsNamed) {
 TEST(TrianglePair, EdgesThatCrossAreNamed) {
   // Edge 1 of the mover (vertices 1, 2) comes over edge 0 of the floor.
   const auto answer =
-      trianglePair(shifted({{{1, -2, 5}, {1, -1, 1}, {1, 1, 2}}}, {0, 0, -3}), kFloor);
+      trianglePair(shifted({{{1, -2, 5}, {1, -1, 1}, {1, 1, 2}}}, {0, 0, -3}), kFloorOfPairs);
   ASSERT_TRUE(answer.leaf.hits);
   EXPECT_LE(answer.leaf.toiLow, 0.5);
   EXPECT_GE(answer.leaf.toiHigh, 0.5);
@@ -44,7 +44,7 @@ TEST(TrianglePair, EdgesThatCrossAreNamed) {
 
 TEST(TrianglePair, PiercedAtTheStartIsInContactThen) {
   const auto answer =
-      trianglePair(shifted({{{1, 1, 1}, {1, 1, -1}, {9, 9, 1}}}, {0, 0, 5}), kFloor);
+      trianglePair(shifted({{{1, 1, 1}, {1, 1, -1}, {9, 9, 1}}}, {0, 0, 5}), kFloorOfPairs);
   EXPECT_TRUE(answer.startsInContact);
   ASSERT_TRUE(answer.leaf.hits);
   EXPECT_EQ(answer.leaf.toiLow, 0.0);
@@ -52,7 +52,8 @@ TEST(TrianglePair, PiercedAtTheStartIsInContactThen) {
 }
 
 TEST(TrianglePair, FarApartThroughoutIsFree) {
-  const auto answer = trianglePair(shifted({{{1, 1, 1}, {1, 1, 3}, {2, 1, 3}}}, {9, 0, 0}), kFloor);
+  const auto answer =
+      trianglePair(shifted({{{1, 1, 1}, {1, 1, 3}, {2, 1, 3}}}, {9, 0, 0}), kFloorOfPairs);
   EXPECT_FALSE(answer.leaf.hits);
   EXPECT_FALSE(answer.startsInContact);
 }

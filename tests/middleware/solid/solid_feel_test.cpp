@@ -14,7 +14,6 @@
 namespace foretouch::test {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kTickS = 1.0 / 90.0;
 
 using Ends = std::vector<std::array<oracle::Vec3d, 2>>;

@@ -12,8 +12,6 @@
 namespace foretouch::test {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// A floor, a wall, a table and a pole about the figure, which stands free among them.
 RawScene furniture() {
   RawScene raw = wallAt(-0.6);

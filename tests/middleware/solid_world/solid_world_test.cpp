@@ -19,8 +19,6 @@ using tools::addBox;
 using tools::addSheet;
 using tools::figure;
 
-constexpr double kPi = 3.14159265358979323846;
-
 RawScene floorOnly() {
   RawScene raw;
   addSheet(raw, {-5, -0.1, -5}, {10, 0, 0}, {0, 0, 10});

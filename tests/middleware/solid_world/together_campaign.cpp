@@ -15,8 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
-
 RawScene randomRoom(Random& random) {
   RawScene room;
   tools::addSheet(room, {-6, -0.1, -6}, {12, 0, 0}, {0, 0, 12});

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/middleware/balls.h"
 #include "tests/middleware/triggers/both_triggers.h"
 #include "tests/middleware/world/random_worlds.h"
 
@@ -13,6 +14,7 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
+using test::at;
 using test::BothTriggers;
 
 constexpr double kTolerance = 1e-4;
@@ -23,10 +25,6 @@ Avatar hand(double radius) {
   return Avatar::build(Skeleton::build(raw).value(),
                        {{{Vector3d(0, -0.05, 0), Vector3d(0, 0.05, 0), radius}}})
       .value();
-}
-
-RigidPose at(double x, double y = 0.0, double z = 0.0) {
-  return {Quaternion::Identity(), Vector3d(x, y, z)};
 }
 
 void expectNoProblems(const BothTriggers& both) {

@@ -11,26 +11,20 @@
 
 #include "lss/index.h"
 #include "middleware/world/world_parts.h"
+#include "tests/middleware/balls.h"
 #include "tests/middleware/world/random_worlds.h"
 
 namespace foretouch::internal {
 namespace {
 
 using Eigen::Vector3d;
+using test::at;
+using test::ball;
 using test::BothWorlds;
 using test::Random;
 
 constexpr std::int64_t kMs = 1'000;
 
-Avatar ball(double radius) {
-  RawSkeleton raw;
-  raw.joints = {{"ball", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
-  const Lss lss{Vector3d::Zero(), Vector3d::Zero(), radius};
-  return Avatar::build(Skeleton::build(raw).value(), {{lss}}).value();
-}
-RigidPose at(double x) {
-  return {Quaternion::Identity(), Vector3d(x, 0, 0)};
-}
 /// A triangle of many metres across x.
 Scene wall(double x) {
   RawScene raw;

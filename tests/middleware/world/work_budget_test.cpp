@@ -9,24 +9,15 @@
 #include "middleware/worker_pool.h"
 #include "middleware/world/work_shares.h"
 #include "middleware/world/world.h"
+#include "tests/middleware/balls.h"
 
 namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
 using internal::WorkShares;
-
-Avatar ball(double radius) {
-  RawSkeleton raw;
-  raw.joints = {{"ball", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
-  return Avatar::build(Skeleton::build(raw).value(),
-                       {{{Vector3d::Zero(), Vector3d::Zero(), radius}}})
-      .value();
-}
-
-RigidPose at(double x, double y = 0.0, double z = 0.0) {
-  return {Quaternion::Identity(), Vector3d(x, y, z)};
-}
+using test::at;
+using test::ball;
 
 /// The twelve triangles of a box around the origin.
 Scene box(const Vector3d& half) {

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/middleware/balls.h"
 #include "tests/middleware/world/both_worlds.h"
 #include "tests/support/random_geometry.h"
 
@@ -16,6 +17,8 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
+using test::at;
+using test::ball;
 using test::BothWorlds;
 
 Skeleton skeletonOf(int joints) {
@@ -28,14 +31,6 @@ Skeleton skeletonOf(int joints) {
 }
 
 /// A ball of this radius.
-Avatar ball(double radius) {
-  return Avatar::build(skeletonOf(1), {{{Vector3d::Zero(), Vector3d::Zero(), radius}}}).value();
-}
-
-RigidPose at(double x, double y = 0.0) {
-  return {Quaternion::Identity(), Vector3d(x, y, 0)};
-}
-
 /// A square of 2 m across x, at x = 0.
 Scene wall() {
   RawScene raw;
