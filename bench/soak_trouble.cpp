@@ -27,7 +27,7 @@ constexpr std::uint16_t kTroubleHttpPort = 9464, kTroubleViewPort = 9465;
 constexpr int kTroubleViewers = 4;
 constexpr double kViewedPeriodUs = 1e6 / 90.0;
 constexpr double kFloodPerSecond = 20'000.0, kFloodSeconds = 5.0;
-// In seconds: two minutes see each of these, but for a full disk.
+// In seconds: half a minute sees each of these, but for a full disk.
 constexpr int kFloodEvery = 30, kRestartEvery = 20, kSilence = 3;
 constexpr int kFillEvery = 300, kFullFor = 60;
 constexpr std::size_t kFillerBytes = std::size_t{1} << 20;
