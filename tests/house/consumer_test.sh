@@ -14,11 +14,12 @@ trap 'rm -rf "$folder"' EXIT
 prefix=$folder/prefix
 "$cmake" --install "$build" --prefix "$prefix" >"$folder/install.log"
 
+targets=()  # that are built; none: all
 consume() {  # consume NAME SOURCES CMAKE_OPTIONS...
   local name=$1 sources=$2
   shift 2
   "$cmake" -G "$generator" -S "$sources" -B "$folder/$name" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release "$@"
-  "$cmake" --build "$folder/$name"
+  "$cmake" --build "$folder/$name" "${targets[@]}"
 }
 
 # The kernel stands alone: who asks queries links no file formats, no JSON, and starts no processes.
@@ -209,7 +210,9 @@ if [ -f "$prefix/share/foretouch/cpp-example/play_clip.cpp" ]; then
 
   prefix=$folder/moved
   mv "$folder/prefix" "$prefix"
+  targets=(--target play_clip)
   play_in_cxx play-moved
+  targets=()
   cmp "$folder/play.txt" "$folder/play-moved.txt"
 fi
 
