@@ -84,6 +84,8 @@ function(foretouch_compile_options target)
     -Woverloaded-virtual -ffp-contract=off
     # As GCC's -Wall, which has it for C alone: braces may be left out in C++.
     $<$<CXX_COMPILER_ID:Clang>:-Wno-missing-braces>
+    # GCC looks through its memory for what it may free less often, which costs a tenth of its time.
+    $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
     $<$<BOOL:${FORETOUCH_WERROR}>:-Werror>)
   if(FORETOUCH_HARDENED OR (target IN_LIST foretouch_readers AND CMAKE_BUILD_TYPE STREQUAL Release
                             AND NOT FORETOUCH_SANITIZE AND NOT CMAKE_CROSSCOMPILING))
