@@ -43,6 +43,16 @@ namespace foretouch::c {
 /// An error about an option or argument names it as C does.
 [[nodiscard]] ft_status solidFailure(Error error);
 
+/// Where, and how hard, a solid avatar presses: the same of what stands and of what moves.
+template <typename Contact, typename Answer>
+void copyPress(const Contact& contact, Answer& c) {
+  Eigen::Map<Eigen::Vector3d>(c.point) = contact.p_W;
+  Eigen::Map<Eigen::Vector3d>(c.normal) = contact.nhat_W;
+  c.gap = contact.gap;
+  c.push = contact.push;
+  c.slip_speed = contact.slipSpeed;
+}
+
 // What a tick says, written as the functions of the header that are named so have it.
 [[nodiscard]] ft_status writeTick(const SolidTick& tick, ft_solid_tick* written);
 [[nodiscard]] ft_status writeJoints(const SolidTick& tick, ft_solid_joint* joints,

@@ -59,11 +59,7 @@ ft_solid_contact solidContactOf(const SolidContact& contact, const Scene& scene)
   c.triangle = contact.triangle;
   c.object = contact.triangle < 0 ? -1 : scene.object(contact.triangle);
   c.other = contact.other;
-  Eigen::Map<Eigen::Vector3d>(c.point) = contact.p_W;
-  Eigen::Map<Eigen::Vector3d>(c.normal) = contact.nhat_W;
-  c.gap = contact.gap;
-  c.push = contact.push;
-  c.slip_speed = contact.slipSpeed;
+  copyPress(contact, c);
   return c;
 }
 

@@ -81,11 +81,7 @@ ft_solid_body_contact contactOf(const ft_world& world, const SolidBodyContact& c
   c.lss = contact.lss;
   c.triangle = contact.triangle;
   c.object = contact.triangle < 0 || !mesh ? -1 : mesh->object(contact.triangle);
-  Eigen::Map<Eigen::Vector3d>(c.point) = contact.p_W;
-  Eigen::Map<Eigen::Vector3d>(c.normal) = contact.nhat_W;
-  c.gap = contact.gap;
-  c.push = contact.push;
-  c.slip_speed = contact.slipSpeed;
+  copyPress(contact, c);
   return c;
 }
 
