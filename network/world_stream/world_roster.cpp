@@ -371,8 +371,10 @@ void WorldRoster::beginAnew(std::int64_t fromUs, bool keepsBodies) {
       body.hasStream = false;
       body.knownUntilUs = body.stateUs = body.backUs = -1;
       body.isSilent = false;
-    } else if (!body.knots.empty()) {
-      body.addUnknown(kEveryLink, UndecidedReason::Gap, fromUs, body.knots.front().utimeUs);
+    } else {
+      // What the world was told beyond that is forgotten with it.
+      const std::int64_t toUs = body.knots.empty() ? body.knownUntilUs : body.knots.front().utimeUs;
+      if (toUs > fromUs) body.addUnknown(kEveryLink, UndecidedReason::Gap, fromUs, toUs);
     }
     if (!isCarried || !body.state.isPresent) continue;
     LiveChange again = body.state;

@@ -234,6 +234,41 @@ TEST(WorldSolver, BodiesComeAndGoAndAreCarried) {
   EXPECT_EQ(solver.counts().failures, 0U);
 }
 
+// After thousands that came and went a timeline begins anew. The second ball's next pose was told
+// by then, and is forgotten: nobody knows where it is, and that is said.
+TEST(WorldSolver, ANewTimelineSaysOfWhomItHasForgottenWhereHeIs) {
+  constexpr BodyNumber kFirst = 10, kMany = 1000;
+  WorldSolver solver = solverOf();
+  ToldWorld told;
+  ASSERT_EQ(solver.take(ballMessage(1), kStart), Reject::None);
+  ASSERT_EQ(solver.take(ballMessage(2), kStart), Reject::None);
+  for (const std::int64_t k : {0, 1, 2}) {  // known until 0.4 s, without a gap
+    const auto beside = rigidPoses(k, tick(20 * k), {ballAt(2, Vector3d(9.0, 0.0, 0.0))});
+    ASSERT_EQ(solver.take(beside, kStart), Reject::None);
+  }
+  for (std::int64_t n = 0; solver.counts().timelines < 2 && n < 80; ++n) {
+    std::vector<BodyPose> poses = {ballAt(1, Vector3d::Zero())};
+    for (BodyNumber body = kFirst; n % 4 == 0 && body < kFirst + kMany; ++body) {
+      BodyMessage message = ballMessage(body, n);
+      message.isPresent = n % 8 == 0;
+      message.sinceUs = tick(n);
+      message.pose.translation = {0.0, 0.0, static_cast<double>(body)};
+      ASSERT_EQ(solver.take(message, tick(n)), Reject::None) << body;
+      if (message.isPresent) poses.push_back(ballAt(body, message.pose.translation));
+    }
+    ASSERT_EQ(say(solver, rigidPoses(n, tick(n), std::move(poses))), Reject::None);
+    told.hear(solver);
+  }
+  ASSERT_EQ(solver.counts().timelines, 2U);
+  const EventsMessage& first =
+      *std::find_if(told.answers.begin(), told.answers.end(),
+                    [](const EventsMessage& answer) { return answer.timeline == 2; });
+  const auto isSaid = [&](const UnknownPart& part) {
+    return part.body == 2 && part.fromUs <= first.fromUs && part.toUs >= first.toUs;
+  };
+  EXPECT_TRUE(std::any_of(first.unknown.begin(), first.unknown.end(), isSaid));
+}
+
 BodyMessage heldBy(BodyNumber carrier, BodyNumber body, std::int64_t sequence,
                    std::int64_t sinceUs) {
   BodyMessage message = ballMessage(body, sequence, 2);
