@@ -3,7 +3,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . dev/common.sh
-
 . dev/machines.sh
 
 # The tests that run there (docs/machines.md says which do not).

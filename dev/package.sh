@@ -3,7 +3,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . dev/common.sh
-
 . dev/twice.sh
 
 bill_of_materials() {  # bill_of_materials TREE

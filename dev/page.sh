@@ -3,7 +3,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . dev/common.sh
-
 . dev/machines.sh
 
 # The built page is kept in the repository: only who changes viewer/ needs node.

@@ -4,7 +4,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . dev/common.sh
-
 . dev/machines.sh
 . dev/twice.sh
 

@@ -87,7 +87,7 @@ struct alignas(128) Worker {
 
 struct WorldFollower::Impl {
   FollowOptions options;
-  std::optional<WorkerPool> threads;
+  std::optional<WorkerPool> pool;
   std::int64_t startUs = 0, untilUs = 0;
   std::uint64_t world = 0;  // that it follows; 0: none yet
   BodyMasses masses;
@@ -137,7 +137,7 @@ struct WorldFollower::Impl {
       if (std::exchange(isFollowedLost, false)) followed.assign(open.all());
       followed.tellKnown(of.parts(), untilUs, toUs, known);
       FORETOUCH_CHECK(
-          askWindow(of, untilUs, toUs, threads ? &*threads : nullptr, *scratch, contacts, &known));
+          askWindow(of, untilUs, toUs, pool ? &*pool : nullptr, *scratch, contacts, &known));
       internal::addCounters(contacts.counters, answer.world);
       ++answer.counters.windows;
       FORETOUCH_CHECK(traceWindow(of.parts(), toUs));
@@ -335,8 +335,8 @@ struct WorldFollower::Impl {
             [&] { worker.tracer = BodiesTracer(); });
       }
     };
-    if (threads && tasks.size() > 1) {
-      threads->run(std::ref(takePart));
+    if (pool && tasks.size() > 1) {
+      pool->run(std::ref(takePart));
     } else {
       takePart(0);
     }
@@ -388,9 +388,9 @@ Result<WorldFollower> WorldFollower::start(std::int64_t fromUs, const FollowOpti
   impl->options = options;
   impl->startUs = impl->untilUs = fromUs;
   if (options.threads != 1) {
-    FORETOUCH_TRY(impl->threads, WorkerPool::start(options.threads));
+    FORETOUCH_TRY(impl->pool, WorkerPool::start(options.threads));
   }
-  const int count = impl->threads ? impl->threads->threads() : 1;
+  const int count = impl->pool ? impl->pool->threads() : 1;
   for (int i = 0; i < count; ++i) impl->workers.push_back(std::make_unique<Worker>());
   return WorldFollower(std::move(impl));
 }

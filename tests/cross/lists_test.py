@@ -20,7 +20,7 @@ OF_THE_COMPILER = re.compile(r"libc6-dev|libstdc\+\+-\d+-dev")
 
 
 # Of every Debian, or brought along by what is named.
-NEEDS_NO_WORD = {"g++", "cmake", "ninja-build", "iproute2", "nodejs", "npm", "libtinyxml-dev"}
+NEEDS_NO_WORD = {"g++", "cmake", "ninja-build", "iproute2", "nodejs", "npm"}
 
 
 def packages_of(source):
