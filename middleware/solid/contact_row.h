@@ -26,6 +26,8 @@ struct ContactRow {
   /// the person's own affair; and such a row is a wish, which no proof stands behind.
   double slack = 0.0;
   bool isSoft = false;
+  /// Of a joint's range (joint_ranges.h) instead: n.(turn of `link` on `other`) >= bound. A wish.
+  bool isTurn = false;
   bool isFace = false;  ///< A face of the scene holds it, with all that goes on flat around it.
   double along = 0.0;   ///< Then: where on the axis, from end a (0) to end b (1).
   double bound = 0.0;   ///< Of the step along n.

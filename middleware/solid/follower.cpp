@@ -28,6 +28,8 @@ constexpr double kWithinPace = 0.99;
 constexpr int kDoublings = 3, kCorrections = 2;
 /// What is not proven but wished for may be missed by so much in a step (m).
 constexpr double kSoft = 5e-3;
+/// Nobody turns back for less (m, as the gaps of ranges).
+constexpr double kSameTurn = 1e-4;
 /// A row holds what is shown within this share of the skin.
 constexpr double kHolds = 1.25;
 /// Two faces are of one plane: a cosine, and metres, as where near features are reduced.
@@ -232,7 +234,7 @@ void Follower::moveThere(const FollowRequest& request, double clearance, Pose& s
 /// Rows that push go along with their links from there_ to here_: faces stay below them.
 void Follower::moveRows(const QueryPlan& plan) {
   for (ContactRow& row : rows_) {
-    if (!(row.push > 0.0)) continue;
+    if (!(row.push > 0.0) || row.isTurn) continue;
     const LinkState &from = there_.states[slotOf(row.link)], &to = here_.states[slotOf(row.link)];
     if (row.isFace && row.other == kNoParent) {
       const Lss& lss = plan.avatar.lss(row.link)[slotOf(row.lss)];
@@ -279,6 +281,7 @@ void Follower::gather(const FollowRequest& request, Certifier& certifier, SolidT
     own_.append(certifier.plan(), {here_.states, request.states}, options_.skin, reach_, hotFor_,
                 rows_);
   }
+  if (!isCaught_) request.ranges.append(here_.states, trust_ / kTwistLever, rows_);
   ++tick.counters.iterations;
   tick.counters.features += static_cast<std::uint32_t>(rows_.size());
   certifier.spend(kIterationWork + kRowWork * rows_.size() + WorkMeter::workOf(features_.counters));
@@ -287,7 +290,7 @@ void Follower::gather(const FollowRequest& request, Certifier& certifier, SolidT
 void Follower::setBounds(bool mayPush) {
   for (ContactRow& row : rows_) {
     row.bias = 0.0;
-    row.bound = boundOf(row.gap + row.slack, options_.skin, mayPush);
+    row.bound = boundOf(row, options_.skin, mayPush);
   }
 }
 
@@ -308,7 +311,7 @@ bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, cons
       goFarther(request, plan, shown, share);
       return true;
     }
-    if (!isLast) correctFor(plan, share);
+    if (!isLast) correctFor(request, plan, share);
   }
   setBounds(false);
   solve(tick);
@@ -334,7 +337,7 @@ bool Follower::halve(const FollowRequest& request, const QueryPlan& plan, const 
       share *= kWithinPace * fits;
       isNearer = tryShare(request, shown, share);
     }
-    if (isNearer && keepsGaps(plan)) return true;
+    if (isNearer && keepsGaps(request, plan)) return true;
     if (halving == halvings) return false;
     share *= 0.5;
   }
@@ -344,14 +347,16 @@ bool Follower::halve(const FollowRequest& request, const QueryPlan& plan, const 
 /// is tried as long as that is nearer to the target.
 void Follower::goFarther(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
                          double share) {
-  if (enough_ > kSettled) return;
+  // Doubled steps along the ends of ranges, which curve, would make much of what is off a little.
+  const auto isEnd = [](const ContactRow& row) { return row.isTurn && row.push > 0.0; };
+  if (enough_ > kSettled || std::any_of(rows_.begin(), rows_.end(), isEnd)) return;
   for (int doubling = 0; doubling < kDoublings; ++doubling) {
     if (2.0 * share > mostShare_) return;
     nearer_ = tried_;
     const double merit = there_.merit;
     const bool isNearer = tryShare(request, shown, 2.0 * share);
     if (!isNearer || there_.merit >= kFalls * merit || fitOf(request, shown) < 1.0 ||
-        !keepsGaps(plan)) {
+        !keepsGaps(request, plan)) {
       tried_ = nearer_;
       isOfTried_ = false;
       return;
@@ -425,21 +430,27 @@ double Follower::pairGapAt(const std::vector<LinkState>& states, const QueryPlan
                states[slotOf(row.link)], states[slotOf(other)]);
 }
 
-bool Follower::keepsGaps(const QueryPlan& plan) const {
+bool Follower::keepsGaps(const FollowRequest& request, const QueryPlan& plan) const {
   return std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
+    if (row.isTurn) {  // at most kSoft beyond its end, or not farther than it is
+      return request.ranges.gapAt(there_.states, row) >= std::min(row.gap - kSameTurn, -kSoft);
+    }
     if (!(row.push > 0.0)) return true;
-    if (row.isSoft) return gapAt(there_.states, plan, row) >= std::min(row.gap, -row.slack) - kSoft;
-    return gapAt(there_.states, plan, row) >= std::min(kKeptGap * row.gap, kRest * options_.skin);
+    const double gap = gapAt(there_.states, plan, row);
+    if (row.isSoft) return gap >= std::min(row.gap, -row.slack) - kSoft;
+    return gap >= std::min(kKeptGap * row.gap, kRest * options_.skin);
   });
 }
 
 /// What the surfaces' curvature took of the gaps at the share that was tried, the next solution
 /// keeps away from.
-void Follower::correctFor(const QueryPlan& plan, double share) {
+void Follower::correctFor(const FollowRequest& request, const QueryPlan& plan, double share) {
   for (ContactRow& row : rows_) {
-    if (!(row.push > 0.0)) continue;
-    const double wanted = std::min(row.gap, kAimed * options_.skin - row.slack);
-    const double gap = gapAt(there_.states, plan, row);
+    if (!(row.push > 0.0 || row.isTurn)) continue;
+    const double aimed = row.isTurn ? 0.0 : kAimed * options_.skin - row.slack;
+    const double wanted = std::min(row.gap, aimed);
+    const double gap =
+        row.isTurn ? request.ranges.gapAt(there_.states, row) : gapAt(there_.states, plan, row);
     if (gap < wanted) row.bias += (wanted - gap) / share;
   }
 }
@@ -471,7 +482,7 @@ void Follower::keepHot() {
   for (std::uint8_t& ticks : hotFor_)
     ticks = ticks != 0 ? static_cast<std::uint8_t>(ticks - 1) : ticks;
   for (const ContactRow& row : rows_) {
-    if (!(row.push > 0.0)) continue;
+    if (!(row.push > 0.0) || row.isTurn) continue;
     hotFor_[slotOf(row.link)] = kHotTicks;
     if (row.other != kNoParent) hotFor_[slotOf(row.other)] = kHotTicks;
   }
@@ -479,7 +490,7 @@ void Follower::keepHot() {
 
 void Follower::letGo() {
   for (ContactRow& row : rows_) {
-    if (row.gap + row.slack > kHolds * options_.skin) row.push = 0.0;
+    if (row.isTurn || row.gap + row.slack > kHolds * options_.skin) row.push = 0.0;
   }
 }
 

@@ -9,6 +9,7 @@
 #include "middleware/query/near_features.h"
 #include "middleware/solid/certifier.h"
 #include "middleware/solid/contact_row.h"
+#include "middleware/solid/joint_ranges.h"
 #include "middleware/solid/own_features.h"
 #include "middleware/solid/pace.h"
 #include "middleware/solid/pulled_step.h"
@@ -22,6 +23,7 @@ struct FollowRequest {
   const Pose& target;
   const std::vector<LinkState>& states;        ///< The links at the target.
   const std::vector<Eigen::Vector3d>& wanted;  ///< The body's points there.
+  const JointRanges& ranges;                   ///< How far surfaces may turn joints.
   Pace& pace;                                  ///< How far the avatar may move in this tick.
 };
 
@@ -87,8 +89,8 @@ class Follower {
                  double share);
   void solve(SolidTick& tick);
   [[nodiscard]] bool tryShare(const FollowRequest& request, const Pose& shown, double share);
-  [[nodiscard]] bool keepsGaps(const QueryPlan& plan) const;
-  void correctFor(const QueryPlan& plan, double share);
+  [[nodiscard]] bool keepsGaps(const FollowRequest& request, const QueryPlan& plan) const;
+  void correctFor(const FollowRequest& request, const QueryPlan& plan, double share);
   [[nodiscard]] bool isTargetApart(const FollowRequest& request, Certifier& certifier);
   [[nodiscard]] double gapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
                              const ContactRow& row) const;

@@ -26,6 +26,9 @@ constexpr int kMostBlocks = 20, kBlockPatience = 3;
 double LeastPush::excess(const ContactRow& row, const TreeStep& step, const TreePull& pull,
                          const Eigen::Vector3d& origin) const {
   const auto link = slotOf(row.link);
+  if (row.isTurn) {
+    return row.n.dot(step.twists[link].w - step.twists[slotOf(row.other)].w) - row.bound - row.bias;
+  }
   double along = row.n.dot(step.twists[link].at(row.x - origin) + pull.drifts[link]);
   if (row.other != kNoParent) {
     const auto other = slotOf(row.other);
@@ -122,9 +125,14 @@ void LeastPush::take(const TreeInertia& inertia, const Eigen::Vector3d& origin,
                      const ContactRow& row, std::size_t index) {
   Taken taken;
   taken.row = index;
-  taken.onLink = wrench(row.x - origin, row.n);
-  taken.onOther = row.other == kNoParent ? Vector6d(Vector6d::Zero())
-                                         : Vector6d(-wrench(row.y - origin, row.n));
+  taken.onLink = taken.onOther = Vector6d::Zero();
+  if (row.isTurn) {
+    taken.onLink.head<3>() = row.n;
+    taken.onOther.head<3>() = -row.n;
+  } else {
+    taken.onLink = wrench(row.x - origin, row.n);
+    if (row.other != kNoParent) taken.onOther = -wrench(row.y - origin, row.n);
+  }
   taken.free = frees_[index];
   taken.push = 0.0;
   taken.wayBegin = ways_.size();

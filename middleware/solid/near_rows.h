@@ -55,8 +55,10 @@ inline void appendRows(const NearFeatures& near, std::vector<ContactRow>& rows) 
   }
 }
 
-/// What a step must keep of a gap to what rests.
-[[nodiscard]] inline double boundOf(double gap, double skin, bool mayPushBack) {
+/// What a step must keep of a row's gap to what rests.
+[[nodiscard]] inline double boundOf(const ContactRow& row, double skin, bool mayPushBack) {
+  if (row.isTurn) return -std::max(0.0, row.gap);
+  const double gap = row.gap + row.slack;
   if (gap >= skin) return skin - gap;
   if (gap >= kRest * skin || !mayPushBack) return 0.0;
   return std::min(kBackShare * (kBackTo * skin - gap), kMostBack);

@@ -163,7 +163,7 @@ class SolidAvatar::Parts {
     return Done{};
   }
 
-  [[nodiscard]] const Pose& target() const { return target_.pose(); }
+  [[nodiscard]] internal::TargetPose& target() { return target_; }
 
   void resume(const Pose& shown) {
     shown_ = shown;
@@ -241,8 +241,8 @@ class SolidAvatar::Parts {
     isTargetFree_ = maySnapIn(dtS) && certifier_.isClear(target_.pose(), target_.pose());
     if (around_.isStale(shown_, wanted_)) around_.reset();
     if (!(around_.hasWay() && walkAround(tick))) {
-      follower_.follow({target_.pose(), target_.states(), wanted_, pace_}, certifier_, shown_,
-                       tick);
+      follower_.follow({target_.pose(), target_.states(), wanted_, target_.ranges(), pace_},
+                       certifier_, shown_, tick);
       if (!internal::isSamePose(shown_, target_.pose())) lookFurther(dtS, tick);
     }
     pace_.end();
@@ -392,7 +392,7 @@ class SolidAvatar::Parts {
     if (!follower_.hasPushes()) return;
     internal::placeLinks(skeleton(), before_, statesBefore_);
     for (const internal::ContactRow& row : follower_.rows()) {
-      if (row.push > 0.0) reportRow(row, dtS, tick);
+      if (row.push > 0.0 && !row.isTurn) reportRow(row, dtS, tick);
     }
   }
 
@@ -474,11 +474,16 @@ Result<Done> SolidAvatar::changeScene(const Scene& scene) {
 }
 
 const Pose& SolidAvatar::target() const {
-  return parts_->target();
+  return parts_->target().pose();
 }
 
-void SolidAvatar::resume(const Pose& shown) {
+void SolidAvatar::resume(const Pose& shown, const SolidAvatar* before) {
+  if (before != nullptr) parts_->target().remember(before->ranges());
   parts_->resume(shown);
+}
+
+const internal::JointRanges& SolidAvatar::ranges() const {
+  return parts_->target().ranges();
 }
 
 const Avatar& SolidAvatar::avatar() const {

@@ -19,6 +19,10 @@
 
 namespace foretouch {
 
+namespace internal {
+class JointRanges;
+}  // namespace internal
+
 /// One avatar's shown pose, its scene and its memory. For one thread; any number of them may share
 /// an Avatar and a Scene. The answers depend on the sequence of targets and the options only, not
 /// on time, threads or vector width within the query's promise.
@@ -53,8 +57,11 @@ class SolidAvatar {
   /// target led, its lost joints at their places and the lift included; empty before the first one.
   [[nodiscard]] const Pose& target() const;
   /// Goes on from another place, to which the caller has led the avatar by motions of his own, and
-  /// for which he vouches. Precondition: a validated pose of the avatar.
-  void resume(const Pose& shown);
+  /// for which he vouches. Precondition: a validated pose of the avatar. `before`: the same person
+  /// without what the hands have taken; what was seen of the joints there stays known.
+  void resume(const Pose& shown, const SolidAvatar* before = nullptr);
+  /// How the tracked joints were seen to turn.
+  [[nodiscard]] const internal::JointRanges& ranges() const;
 
   [[nodiscard]] const Avatar& avatar() const;
   [[nodiscard]] const Scene& scene() const;

@@ -34,6 +34,7 @@ Result<Done> TargetPose::take(const SolidTarget& given, const Pose* shown) {
     pose_.rotations[j] = kept != nullptr ? kept->rotations[j] : skeleton_.restRotation(joint);
     pose_.translations[j] = kept != nullptr ? kept->translations[j] : skeleton_.restOffset(joint);
   }
+  ranges_.learn(pose_, isLost_);
   for (std::size_t j = 0; hasLast_ && j < n; ++j) {
     hasFound_ = hasFound_ || (wasLost_[j] != 0 && isLost_[j] == 0);
   }

@@ -9,6 +9,7 @@
 #include "articulated/motion.h"
 #include "articulated/result.h"
 #include "lss/index.h"
+#include "middleware/solid/joint_ranges.h"
 #include "middleware/solid/solid_target.h"
 
 namespace foretouch::internal {
@@ -16,7 +17,7 @@ namespace foretouch::internal {
 /// Keeps its memory.
 class TargetPose {
  public:
-  explicit TargetPose(const Avatar& avatar) : skeleton_(avatar.skeleton()) {}
+  explicit TargetPose(const Avatar& avatar) : skeleton_(avatar.skeleton()), ranges_(skeleton_) {}
 
   /// Becomes the target of the next tick. `shown`: what lost joints keep; null: the last target's,
   /// or at first their rest pose. Errors: as validatedPose(), and of a wrong number of flags; then
@@ -25,7 +26,10 @@ class TargetPose {
   /// Moves all of it, but for lost roots, which stay where they are shown.
   void moveRoots(const Eigen::Vector3d& by);
   /// Forgets the last target.
-  void reset() { isAny_ = hasLast_ = false; }
+  void reset() {
+    isAny_ = hasLast_ = false;
+    ranges_.forget();
+  }
 
   [[nodiscard]] const Pose& pose() const { return pose_; }
   [[nodiscard]] bool isLost(JointId joint) const { return isLost_[slotOf(joint)] != 0; }
@@ -39,9 +43,14 @@ class TargetPose {
   [[nodiscard]] const std::vector<LinkState>& states();
   [[nodiscard]] const std::vector<LinkState>& lastStates();
   [[nodiscard]] bool hasLast() const { return hasLast_; }
+  /// How the tracked joints were seen to turn.
+  [[nodiscard]] const JointRanges& ranges() const { return ranges_; }
+  /// The same person was seen before. Precondition: by the same joints.
+  void remember(const JointRanges& ranges) { ranges_ = ranges; }
 
  private:
   Skeleton skeleton_;
+  JointRanges ranges_;
   Pose pose_, last_, candidate_;
   std::vector<std::uint8_t> isLost_, wasLost_;
   std::vector<LinkState> states_, lastStates_;

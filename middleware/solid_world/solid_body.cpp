@@ -132,8 +132,7 @@ Result<Done> SolidBody::hold(bool isNew, const std::vector<HeldTool>& held,
     FORETOUCH_TRY(const bool may, mayWear(tool, around, us, numbers));
     tries_ = may ? 0 : tries_ + i + 1;
     if (may) {
-      outfit_ = std::move(next_);
-      outfit_->solid.resume(shown_);
+      putOn(std::move(next_));
       worn_.push_back(tool);
     }
     break;
@@ -142,11 +141,16 @@ Result<Done> SolidBody::hold(bool isNew, const std::vector<HeldTool>& held,
 }
 
 Result<Done> SolidBody::wear(std::vector<HeldTool> tools, KindNumbers& numbers) {
-  FORETOUCH_TRY(outfit_, dress(avatar_, still_, options_, tools, numbers));
-  outfit_->solid.resume(shown_);
+  FORETOUCH_TRY(auto outfit, dress(avatar_, still_, options_, tools, numbers));
+  putOn(std::move(outfit));
   worn_ = std::move(tools);
   next_.reset();
   return Done{};
+}
+
+void SolidBody::putOn(std::unique_ptr<Outfit> outfit) {
+  outfit->solid.resume(shown_, &outfit_->solid);
+  outfit_ = std::move(outfit);
 }
 
 /// With the tool as part of it, it would touch nothing where it is shown.
@@ -354,7 +358,8 @@ void SolidBody::yield(std::int64_t fromUs, std::int64_t toUs, Surroundings& arou
   const double step =
       lastWanted_.size() == wanted_.size() ? VisualBody::farthest(wanted_, lastWanted_) : 0.0;
   const double budget = step + options_.catchUp * secondsOf(toUs - fromUs);
-  yielding.run({outfit_->solid.target(), targetStates_, wanted_, step, budget, fromUs, toUs},
+  yielding.run({outfit_->solid.target(), targetStates_, wanted_, outfit_->solid.ranges(), step,
+                budget, fromUs, toUs},
                outfit_->prover, around, shown_, own, endsUs_, crushers_);
   finishYield(fromUs, toUs, tick);
   outfit_->solid.resume(shown_);
@@ -418,7 +423,7 @@ void SolidBody::report(double lengthS, SolidBodyTick& tick) {
   };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const ContactRow& row = rows[i];
-    if (!(row.push > 0.0)) continue;
+    if (!(row.push > 0.0) || row.isTurn) continue;
     for (const LinkId link : {row.link, row.other}) {
       if (link != kNoParent && own.joints[slotOf(link)] == SolidJointState::Free) {
         own.joints[slotOf(link)] = state;

@@ -78,6 +78,7 @@ class SolidBody {
   SolidBody(BodyId id, const Avatar& avatar, const Scene& still, const SolidOptions& options)
       : id_(id), avatar_(avatar), still_(still), options_(options) {}
   Result<Done> wear(std::vector<HeldTool> tools, KindNumbers& numbers);
+  void putOn(std::unique_ptr<Outfit> outfit);
   [[nodiscard]] Result<bool> mayWear(const HeldTool& tool, const Surroundings& around,
                                      std::int64_t us, KindNumbers& numbers);
   void partFromLetGo(Surroundings& around, std::int64_t us);

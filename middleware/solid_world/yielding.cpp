@@ -113,6 +113,7 @@ void Yielding::gather(Run& run) {
   Certifier& certifier = run.prover.certifier();
   own_.append(certifier.plan(), {here_.states, run.request.states}, options_.skin, reach_, isAsked_,
               rows_);
+  run.request.ranges.append(here_.states, trust_ / kTwistLever, rows_);
   numStill_ = rows_.size();
   around_.append(run.prover, run.around, run.atUs, run.untilUs, here_.states, reach_, rows_);
   ++run.tick.counters.iterations;
@@ -125,7 +126,7 @@ void Yielding::setBounds(bool mayPushBack) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     ContactRow& row = rows_[i];
     row.bias = 0.0;
-    row.bound = boundOf(row.gap + row.slack, options_.skin, mayPushBack);
+    row.bound = boundOf(row, options_.skin, mayPushBack);
     if (i >= numStill_) row.bound += around_.features()[i - numStill_].comes;
   }
 }
@@ -163,7 +164,8 @@ bool Yielding::correct(Run& run) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     ContactRow& row = rows_[i];
     if (!(row.push > 0.0)) continue;
-    const double wanted = std::min(row.gap, kAimed * options_.skin - row.slack);
+    const double aimed = row.isTurn ? 0.0 : kAimed * options_.skin - row.slack;
+    const double wanted = std::min(row.gap, aimed);
     const double gap = gapThere(run, i);
     if (gap >= (wanted > 0.0 ? kKeptGap * wanted : wanted)) continue;
     row.bias += wanted - gap;
@@ -178,6 +180,7 @@ double Yielding::gapThere(const Run& run, std::size_t i) const {
     return around_.gapAtEnd(row, around_.features()[i - numStill_], run.prover.volumes(),
                             there_.states);
   }
+  if (row.isTurn) return run.request.ranges.gapAt(there_.states, row);
   const LinkId other = row.other == kNoParent ? row.link : row.other;
   return gapOf(run.prover.certifier().plan(),
                {row.link, row.lss, row.triangle, row.other, row.otherLss},

@@ -8,6 +8,7 @@
 
 #include "middleware/query/near_features.h"
 #include "middleware/solid/contact_row.h"
+#include "middleware/solid/joint_ranges.h"
 #include "middleware/solid/own_features.h"
 #include "middleware/solid/pulled_step.h"
 #include "middleware/solid/solid_options.h"
@@ -21,6 +22,7 @@ struct YieldRequest {
   const Pose& target;
   const std::vector<LinkState>& states;        ///< The links at the target.
   const std::vector<Eigen::Vector3d>& wanted;  ///< The body's points there.
+  const JointRanges& ranges;                   ///< How far surfaces may turn joints.
   double trackedStep;                          ///< How far the target moved since the last tick.
   double budget;                               ///< How far the target may pull any point.
   std::int64_t beginUs, endUs;

@@ -16,6 +16,7 @@ namespace {
 constexpr double kLiftSpeed = 0.05, kRounding = 1e-6;
 /// A link so deep in another, beyond the tracked one (m), is seen.
 constexpr double kSeen = 0.05;
+constexpr double kDegrees = 180.0 / 3.14159265358979;
 constexpr std::size_t kMostFindings = 20;
 
 double angleBetween(const std::array<double, 4>& one, const std::array<double, 4>& other) {
@@ -44,6 +45,7 @@ void MotionTally::add(const MotionTally& other) {
     LinkMotion& own = links[name];
     own.beyond = std::max(own.beyond, link.beyond);
     own.turn = std::max(own.turn, link.turn);
+    own.unseen = std::max(own.unseen, link.unseen);
     own.turnSpeed = std::max(own.turnSpeed, link.turnSpeed);
     own.ownDepth = std::max(own.ownDepth, link.ownDepth);
     own.acceleration = std::max(own.acceleration, link.acceleration);
@@ -57,14 +59,15 @@ void MotionTally::add(const MotionTally& other) {
 std::string MotionTally::table() const {
   std::string text = fmt::format(
       "{} ticks: {} in which a point outran the tracked ones, {} in which the lift jumped, {} with "
-      "a link {:g} m deeper in another than tracked\n{:24} {:>8} {:>9} {:>10} {:>9} {:>8} {:>8}\n",
-      ticks, outrun, liftJumped, deeper, kSeen, "link, at worst", "beyond", "turned", "turning",
-      "in itself", "m/s2", "tracked");
+      "a link {:g} m deeper in another than tracked\n{:24} {:>8} {:>8} {:>8} {:>9} {:>9} {:>8} "
+      "{:>8}\n",
+      ticks, outrun, liftJumped, deeper, kSeen, "link, at worst", "beyond", "turned", "unseen",
+      "turning", "in itself", "m/s2", "tracked");
   for (const auto& [name, link] : links) {
-    text +=
-        fmt::format("{:24} {:>8.2f} {:>9.0f} {:>10.0f} {:>9.0f} {:>8.0f} {:>8.0f}\n", name,
-                    link.beyond, link.turn * 180 / 3.14159265, link.turnSpeed * 180 / 3.14159265,
-                    1e3 * link.ownDepth, link.acceleration, link.tracked);
+    text += fmt::format("{:24} {:>8.2f} {:>8.0f} {:>8.0f} {:>9.0f} {:>9.0f} {:>8.0f} {:>8.0f}\n",
+                        name, link.beyond, kDegrees * link.turn, kDegrees * link.unseen,
+                        kDegrees * link.turnSpeed, 1e3 * link.ownDepth, link.acceleration,
+                        link.tracked);
   }
   return text + fmt::format(
                     "head, m/s2: shown p99 {:.1f}, p99.9 {:.1f}, most {:.1f}; tracked p99 "
@@ -100,6 +103,7 @@ MotionAudit::MotionAudit(const oracle::Scene& scene, const Avatar& avatar,
 void MotionAudit::begin(std::string name) {
   name_ = std::move(name);
   tickOfRun_ = 0;
+  seen_.clear();
   shown_.clear();
   tracked_.clear();
 }
@@ -118,12 +122,14 @@ void MotionAudit::look(const Pose& tracked, const SolidTick& tick, double dtS) {
   ++tickOfRun_;
   ++tally_.ticks;
   const Body shown = placed(tick.shown), there = placed(tracked);
+  seen_.push_back(there.turns);
   if (tick.hasAppeared || tick.state == SolidState::Placing) {
     shown_.clear();
     tracked_.clear();
   }
   if (!shown_.empty()) {
     lookAtSpeed(shown, there, dtS);
+    lookAtTurns(shown, there, dtS);
     lookAtDepth(shown, there);
     const double change = std::abs(tick.lift - lift_) / dtS;
     if (change > kLiftSpeed * (1.0 + kRounding)) {
@@ -159,17 +165,26 @@ void MotionAudit::lookAtSpeed(const Body& shown, const Body& tracked, double dtS
       worst = std::max(worst, beyond);
     }
   }
-  for (std::size_t j = 0; j < shown.turns.size(); ++j) {
-    if (body_.capsules[j].empty()) continue;
-    LinkMotion& own = of(j);
-    own.turn = std::max(own.turn, angleBetween(shown.turns[j], tracked.turns[j]));
-    own.turnSpeed =
-        std::max(own.turnSpeed, angleBetween(shown.turns[j], shownBefore.turns[j]) / dtS);
-  }
   if (worst <= catchUp_ + kRounding) return;
   ++tally_.outrun;
   find(fmt::format("{} outruns the tracked ones, which move at {:.2f} m/s, by {:.3f} m/s",
                    names_[link], fastest, worst));
+}
+
+void MotionAudit::lookAtTurns(const Body& shown, const Body& tracked, double dtS) {
+  for (std::size_t j = 0; j < shown.turns.size(); ++j) {
+    if (body_.capsules[j].empty()) continue;
+    LinkMotion& own = of(j);
+    const double turn = angleBetween(shown.turns[j], tracked.turns[j]);
+    own.turn = std::max(own.turn, turn);
+    own.turnSpeed =
+        std::max(own.turnSpeed, angleBetween(shown.turns[j], shown_.back().turns[j]) / dtS);
+    double unseen = turn;
+    for (std::size_t i = 0; i < seen_.size() && unseen > own.unseen; ++i) {
+      unseen = std::min(unseen, angleBetween(shown.turns[j], seen_[i][j]));
+    }
+    own.unseen = std::max(own.unseen, unseen);
+  }
 }
 
 double MotionAudit::ownDepth(const Body& body, std::size_t i, std::size_t k) const {

@@ -18,10 +18,11 @@ namespace foretouch::test {
 
 /// Of one link, the worst of all ticks.
 struct LinkMotion {
-  double beyond = 0.0;        ///< Faster than the fastest tracked point (m/s).
-  double turn = 0.0;          ///< Of its joint from where that is tracked (rad).
-  double turnSpeed = 0.0;     ///< Of its joint (rad/s).
-  double ownDepth = 0.0;      ///< In other own links, deeper than tracked (m).
+  double beyond = 0.0;     ///< Faster than the fastest tracked point (m/s).
+  double turn = 0.0;       ///< Of its joint from where that is tracked (rad).
+  double unseen = 0.0;     ///< The same from the nearest turn in which it was ever tracked (rad).
+  double turnSpeed = 0.0;  ///< Of its joint (rad/s).
+  double ownDepth = 0.0;   ///< In other own links, deeper than tracked (m).
   double acceleration = 0.0;  ///< Of its points (m/s^2), from tick to tick; of no appearance.
   double tracked = 0.0;       ///< The tracked one's.
 };
@@ -60,6 +61,7 @@ class MotionAudit {
   };
   [[nodiscard]] Body placed(const Pose& pose);
   void lookAtSpeed(const Body& shown, const Body& tracked, double dtS);
+  void lookAtTurns(const Body& shown, const Body& tracked, double dtS);
   void lookAtDepth(const Body& shown, const Body& tracked);
   void lookAtHead(const Body& shown, const Body& tracked, double dtS);
   void find(const std::string& what);
@@ -78,7 +80,8 @@ class MotionAudit {
   std::string name_;
   std::uint64_t tickOfRun_ = 0;
   double lift_ = 0.0;
-  std::vector<Body> shown_, tracked_;  // of the last two ticks since it appeared
+  std::vector<std::vector<std::array<double, 4>>> seen_;  // per tick of the run, the tracked turns
+  std::vector<Body> shown_, tracked_;                     // of the last two ticks since it appeared
 };
 
 }  // namespace foretouch::test
