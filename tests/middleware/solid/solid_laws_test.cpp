@@ -159,6 +159,45 @@ TEST(SolidLaws, SceneAndTargetsMovedAlikeGiveTheSameWay) {
   EXPECT_GT(touching, 20);
 }
 
+/// By arithmetic of its own: each coordinate of a joint's turn, as half an angle from the first
+/// turn, against all that was tracked.
+TEST(SolidLaws, SurfacesTurnNoJointFarBeyondWhatWasSeen) {
+  constexpr double kMargin = 0.7, kMissed = 0.05;
+  int touching = 0, atAnEnd = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Random random(seed);
+    SolidRunner run(furniture());
+    const std::size_t n = run.rest().rotations.size();
+    std::vector<Quaternion> first;
+    std::vector<Vector3d> least(n, Vector3d::Zero()), most(n, Vector3d::Zero());
+    const auto halvesOf = [&](const Pose& pose, std::size_t j) {
+      Eigen::Quaterniond turn(first[j].conjugate() * pose.rotations[j]);
+      if (turn.w() < 0.0) turn.coeffs() *= -1.0;
+      return Vector3d(turn.vec().array().max(-1.0).min(1.0).asin());
+    };
+    Pose target = run.rest();
+    for (int i = 0; i < 240; ++i) {
+      if (i % 30 == 0) target = randomPose(run, random, 0.8, 0.6);
+      if (first.empty()) first = target.rotations;
+      const SolidTick& tick = run.follow(target);
+      touching += tick.contacts.empty() ? 0 : 1;
+      for (std::size_t j = 1; j < n; ++j) {
+        const Vector3d tracked = halvesOf(target, j), shown = halvesOf(tick.shown, j);
+        least[j] = least[j].cwiseMin(tracked);
+        most[j] = most[j].cwiseMax(tracked);
+        for (int k = 0; k < 3; ++k) {
+          const double beyond = std::max(shown[k] - most[j][k], least[j][k] - shown[k]);
+          EXPECT_LT(2.0 * beyond, kMargin + kMissed) << seed << ", tick " << i << ", joint " << j;
+          atAnEnd += 2.0 * beyond > 0.9 * kMargin ? 1 : 0;
+        }
+      }
+    }
+    EXPECT_EQ(run.violations(), 0u) << seed;
+  }
+  EXPECT_GT(touching, 200);
+  EXPECT_GT(atAnEnd, 20);
+}
+
 TEST(SolidLaws, MoreTrianglesOfTheSameWallChangeNothing) {
   for (const double rateHz : {90.0, 30.0, 10.0}) {
     SolidRunner coarse(wallAt(-0.5)), fine(wallAt(-0.5, 98));
