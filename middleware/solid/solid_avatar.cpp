@@ -392,7 +392,7 @@ class SolidAvatar::Parts {
     if (!follower_.hasPushes()) return;
     internal::placeLinks(skeleton(), before_, statesBefore_);
     for (const internal::ContactRow& row : follower_.rows()) {
-      if (row.push > 0.0 && !row.isTurn) reportRow(row, dtS, tick);
+      if (row.push > 0.0) reportRow(row, dtS, tick);
     }
   }
 

@@ -116,6 +116,7 @@ void Yielding::gather(Run& run) {
   run.request.ranges.append(here_.states, trust_ / kTwistLever, rows_);
   numStill_ = rows_.size();
   around_.append(run.prover, run.around, run.atUs, run.untilUs, here_.states, reach_, rows_);
+  if (isApproached()) letGoOfRanges();
   ++run.tick.counters.iterations;
   run.tick.counters.features += static_cast<std::uint32_t>(rows_.size());
   certifier.spend(kIterationWork + kRowWork * rows_.size() + WorkMeter::workOf(features_.counters));
@@ -129,6 +130,15 @@ void Yielding::setBounds(bool mayPushBack) {
     row.bound = boundOf(row, options_.skin, mayPushBack);
     if (i >= numStill_) row.bound += around_.features()[i - numStill_].comes;
   }
+}
+
+/// Who has to get out of the way bends as he must.
+void Yielding::letGoOfRanges() {
+  const auto isTurn = [](const ContactRow& row) { return row.isTurn; };
+  const auto still = rows_.begin() + static_cast<std::ptrdiff_t>(numStill_);
+  const auto kept = std::remove_if(rows_.begin(), still, isTurn);
+  numStill_ = static_cast<std::size_t>(kept - rows_.begin());
+  rows_.erase(kept, still);
 }
 
 /// A pose for the window's end that is nearer to the target, or out of the way: tried_.

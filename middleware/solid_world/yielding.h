@@ -73,6 +73,7 @@ class Yielding {
   void step(Run& run);
   void gather(Run& run);
   void setBounds(bool mayPushBack);
+  void letGoOfRanges();
   [[nodiscard]] bool propose(Run& run);
   void solveAndCorrect(Run& run);
   [[nodiscard]] bool findNearer(Run& run);
