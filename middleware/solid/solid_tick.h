@@ -59,7 +59,7 @@ struct SolidContact {
   double gap = 0.0;
   /// How hard the tracked pose presses, >= 0 (m). Times a stiffness (N/m) it is the force along
   /// nhat_W with which a haptic device holds the hand; the pushes of all contacts together hold the
-  /// shown pose from the tracked one exactly (solid.md 4). Zero only if it holds nothing.
+  /// shown pose from the tracked one, ends of joints apart (solid.md 4). Zero: it holds nothing.
   double push = 0.0;
   double slipSpeed = 0.0;  ///< Of the link's point along the surface, m/s.
 };
