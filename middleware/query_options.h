@@ -75,7 +75,7 @@ struct QueryOptions {
   /// tolerance, each by the surface of its own fidelity.
   std::optional<PairRules> self;
   /// Work that the step may cost, all links together, in evaluations of a pair in lanes (about 10
-  /// ns; middleware/query/work_meter.h converts other work). Links without an answer by then are
+  /// ns; middleware/pair/work_meter.h converts other work). Links without an answer by then are
   /// Undecided, free as far as proven; more work never proves less. A step that costs at most seven
   /// eighths of it gets the answer that it gets without a budget. Counted, not timed: the same
   /// query gives the same answer.

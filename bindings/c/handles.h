@@ -14,7 +14,7 @@
 #include "articulated/pose.h"
 #include "assets/avatar/joint_match.h"
 #include "bindings/c/status.h"
-#include "middleware/query/near_features.h"
+#include "middleware/near/near_features.h"
 #include "middleware/query/query.h"
 #include "middleware/scene/scene.h"
 #include "middleware/surface/avatar_surface.h"

@@ -10,7 +10,7 @@
 #include "bindings/python/poses.h"
 #include "bindings/python/query_options.h"
 #include "lss/index.h"
-#include "middleware/query/near_features.h"
+#include "middleware/near/near_features.h"
 
 namespace foretouch::python {
 namespace {

@@ -2,7 +2,7 @@
 // proven to stay so. Proofs: events.md 2 and 3. Not installed.
 #pragma once
 
-#include "middleware/query/moving_pair.h"
+#include "middleware/pair/moving_pair.h"
 
 namespace foretouch::internal {
 

@@ -7,8 +7,8 @@
 
 #include "lss/rounding.h"
 #include "middleware/mechanics/impulse.h"
-#include "middleware/query/approach.h"
-#include "middleware/query/link_query.h"
+#include "middleware/pair/approach.h"
+#include "middleware/pair/link_query.h"
 
 namespace foretouch::internal {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "lss/rounding.h"
 #include "middleware/events/contact_hold.h"
-#include "middleware/query/link_query.h"
+#include "middleware/pair/link_query.h"
 
 namespace foretouch::internal {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "articulated/motion.h"
 #include "lss/lss.h"
-#include "middleware/query/pairs_asked.h"
-#include "middleware/query/side.h"
+#include "middleware/pair/pairs_asked.h"
+#include "middleware/pair/side.h"
 #include "middleware/scene/scene.h"
 #include "tessellation/swept_lss.h"
 

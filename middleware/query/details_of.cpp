@@ -5,11 +5,11 @@
 
 #include "lss/assert.h"
 #include "lss/index.h"
-#include "middleware/query/approach.h"
+#include "middleware/pair/approach.h"
+#include "middleware/pair/query_plan.h"
+#include "middleware/pair/side.h"
 #include "middleware/query/contact_details.h"
 #include "middleware/query/manifold.h"
-#include "middleware/query/query_plan.h"
-#include "middleware/query/side.h"
 #include "middleware/scene/scene_parts.h"
 
 namespace foretouch {

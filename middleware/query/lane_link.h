@@ -8,11 +8,11 @@
 #include <optional>
 #include <vector>
 
-#include "middleware/query/backtracking.h"
+#include "middleware/pair/backtracking.h"
+#include "middleware/pair/query_plan.h"
+#include "middleware/pair/scratch_parts.h"
+#include "middleware/pair/work_meter.h"
 #include "middleware/query/body.h"
-#include "middleware/query/query_plan.h"
-#include "middleware/query/scratch_parts.h"
-#include "middleware/query/work_meter.h"
 #include "middleware/scene/flat_bvh.h"
 
 namespace foretouch::internal {

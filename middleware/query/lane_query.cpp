@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "lss/index.h"
-#include "middleware/query/leaving.h"
+#include "middleware/pair/leaving.h"
 
 namespace foretouch::internal {
 namespace {

@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <optional>
 
+#include "middleware/pair/lane_cull.h"
+#include "middleware/pair/query_plan.h"
+#include "middleware/pair/scratch_parts.h"
+#include "middleware/pair/work_meter.h"
 #include "middleware/query/body.h"
-#include "middleware/query/lane_cull.h"
 #include "middleware/query/lane_link.h"
-#include "middleware/query/query_plan.h"
-#include "middleware/query/scratch_parts.h"
-#include "middleware/query/work_meter.h"
 
 namespace foretouch::internal {
 

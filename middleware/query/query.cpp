@@ -6,12 +6,12 @@
 #include "articulated/try.h"
 #include "lss/assert.h"
 #include "lss/simd.h"
+#include "middleware/pair/pair_query.h"
+#include "middleware/pair/query_plan.h"
+#include "middleware/pair/scratch_parts.h"
 #include "middleware/query/body.h"
 #include "middleware/query/lane_query.h"
-#include "middleware/query/pair_query.h"
-#include "middleware/query/query_plan.h"
 #include "middleware/query/scalar_query.h"
-#include "middleware/query/scratch_parts.h"
 #include "middleware/scene/scene_parts.h"
 
 namespace foretouch {

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "lss/index.h"
-#include "middleware/query/backtracking.h"
-#include "middleware/query/query_plan.h"
-#include "middleware/query/scratch_parts.h"
-#include "middleware/query/skin_sweep.h"
+#include "middleware/pair/backtracking.h"
+#include "middleware/pair/query_plan.h"
+#include "middleware/pair/scratch_parts.h"
+#include "middleware/pair/skin_sweep.h"
 #include "middleware/scene/scene_parts.h"
 #include "middleware/surface/link_surface.h"
 

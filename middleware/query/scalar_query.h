@@ -4,9 +4,9 @@
 
 #include "articulated/motion.h"
 #include "middleware/contact.h"
+#include "middleware/pair/query_plan.h"
+#include "middleware/pair/work_meter.h"
 #include "middleware/query/body.h"
-#include "middleware/query/query_plan.h"
-#include "middleware/query/work_meter.h"
 #include "middleware/scratch.h"
 
 namespace foretouch::internal {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "lss/assert.h"
+#include "middleware/pair/link_query.h"
 #include "middleware/query/first_failure.h"
-#include "middleware/query/link_query.h"
 #include "middleware/query/query.h"
 
 namespace foretouch {

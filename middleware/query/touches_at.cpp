@@ -4,9 +4,9 @@
 #include "lss/assert.h"
 #include "lss/segment_triangle.h"
 #include "middleware/exact/triangles_meet.h"
+#include "middleware/pair/query_plan.h"
+#include "middleware/pair/scratch_parts.h"
 #include "middleware/query/query.h"
-#include "middleware/query/query_plan.h"
-#include "middleware/query/scratch_parts.h"
 #include "middleware/scene/scene_parts.h"
 #include "middleware/surface/link_surface.h"
 

@@ -10,10 +10,10 @@
 #include "lss/hull.h"
 #include "lss/index.h"
 #include "lss/separation.h"
-#include "middleware/query/link_query.h"
-#include "middleware/query/near_places.h"
-#include "middleware/query/scratch_parts.h"
-#include "middleware/query/work_meter.h"
+#include "middleware/near/near_places.h"
+#include "middleware/pair/link_query.h"
+#include "middleware/pair/scratch_parts.h"
+#include "middleware/pair/work_meter.h"
 #include "middleware/scene/scene_parts.h"
 
 namespace foretouch::internal {

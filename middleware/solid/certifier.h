@@ -7,8 +7,8 @@
 
 #include "articulated/motion.h"
 #include "articulated/pose.h"
+#include "middleware/pair/query_plan.h"
 #include "middleware/query/query.h"
-#include "middleware/query/query_plan.h"
 #include "middleware/solid/solid_options.h"
 
 namespace foretouch::internal {

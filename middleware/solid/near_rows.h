@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "middleware/query/near_features.h"
+#include "middleware/near/near_features.h"
 #include "middleware/solid/contact_row.h"
 
 namespace foretouch::internal {

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "articulated/motion.h"
-#include "middleware/query/query_plan.h"
+#include "middleware/pair/query_plan.h"
 #include "middleware/solid/contact_row.h"
 
 namespace foretouch::internal {

@@ -6,9 +6,9 @@
 
 #include "articulated/try.h"
 #include "lss/rounding.h"
-#include "middleware/query/pair_query.h"
-#include "middleware/query/scratch_parts.h"
-#include "middleware/query/work_meter.h"
+#include "middleware/pair/pair_query.h"
+#include "middleware/pair/scratch_parts.h"
+#include "middleware/pair/work_meter.h"
 
 namespace foretouch::internal {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "articulated/relative_motion.h"
 #include "articulated/result.h"
-#include "middleware/query/near_features.h"
+#include "middleware/near/near_features.h"
+#include "middleware/pair/query_plan.h"
+#include "middleware/pair/side_plan.h"
 #include "middleware/query/query.h"
-#include "middleware/query/query_plan.h"
-#include "middleware/query/side_plan.h"
 #include "middleware/solid_world/around_body.h"
 
 namespace foretouch::internal {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "middleware/query/near_features.h"
+#include "middleware/near/near_features.h"
 #include "middleware/solid/contact_row.h"
 #include "middleware/solid/own_features.h"
 #include "middleware/solid_world/passage.h"

@@ -7,7 +7,7 @@
 #include "articulated/try.h"
 #include "lss/assert.h"
 #include "lss/index.h"
-#include "middleware/query/work_meter.h"
+#include "middleware/pair/work_meter.h"
 #include "middleware/solid/near_rows.h"
 #include "middleware/solid/solid_way.h"
 

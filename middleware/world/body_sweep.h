@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include "articulated/motion.h"
-#include "middleware/query/lane_scratch.h"
+#include "middleware/pair/lane_scratch.h"
 #include "middleware/query_counters.h"
 #include "middleware/world/box_sweep.h"
 #include "middleware/world/system_plan.h"

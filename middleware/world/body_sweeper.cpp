@@ -7,8 +7,8 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
-#include "middleware/query/scratch_parts.h"
-#include "middleware/query/work_meter.h"
+#include "middleware/pair/scratch_parts.h"
+#include "middleware/pair/work_meter.h"
 #include "middleware/scene/scene_parts.h"
 #include "middleware/world/work_shares.h"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "middleware/query/link_query.h"
-#include "middleware/query/work_meter.h"
+#include "middleware/pair/link_query.h"
+#include "middleware/pair/work_meter.h"
 #include "middleware/world/body_sweeper.h"
 #include "middleware/world/system_query.h"
 #include "middleware/world/window_scratch.h"

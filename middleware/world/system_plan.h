@@ -13,8 +13,8 @@
 
 #include "articulated/relative_motion.h"
 #include "articulated/result.h"
+#include "middleware/pair/side_plan.h"
 #include "middleware/query/query.h"
-#include "middleware/query/side_plan.h"
 #include "middleware/world/body_system.h"
 #include "middleware/world/world_parts.h"
 #include "tessellation/lss_table.h"

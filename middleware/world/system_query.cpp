@@ -7,9 +7,9 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "middleware/counter_fields.h"
-#include "middleware/query/query_plan.h"
-#include "middleware/query/scratch_parts.h"
-#include "middleware/query/work_meter.h"
+#include "middleware/pair/query_plan.h"
+#include "middleware/pair/scratch_parts.h"
+#include "middleware/pair/work_meter.h"
 
 namespace foretouch::internal {
 namespace {

@@ -12,7 +12,7 @@
 #include "middleware/contact.h"
 #include "middleware/lanes/node_planes.h"
 #include "middleware/lanes/pair_boxes.h"
-#include "middleware/query/pair_query.h"
+#include "middleware/pair/pair_query.h"
 #include "middleware/scratch.h"
 #include "middleware/world/body_system.h"
 #include "middleware/world/system_plan.h"

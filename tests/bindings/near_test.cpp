@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/query/near_features.h"
+#include "middleware/near/near_features.h"
 #include "tests/bindings/c_world.h"
 #include "tests/middleware/random_scene.h"
 

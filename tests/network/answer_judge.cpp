@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "middleware/query/link_query.h"
+#include "middleware/pair/link_query.h"
 #include "network/wire/codec.h"
 #include "tests/support/judged_answer.h"
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "lss/simd.h"
-#include "middleware/query/link_query.h"
+#include "middleware/pair/link_query.h"
 #include "tests/oracle/sweep.h"
 #include "tests/oracle/sweep_placement.h"
 #include "tests/support/shared_data.h"

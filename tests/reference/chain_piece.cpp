@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "lss/rounding.h"
-#include "middleware/query/link_query.h"
+#include "middleware/pair/link_query.h"
 #include "tests/reference/rigid_plane.h"
 
 namespace foretouch::internal {

@@ -8,7 +8,7 @@
 
 #include "articulated/motion.h"
 #include "lss/triangle.h"
-#include "middleware/query/provers.h"
+#include "middleware/pair/provers.h"
 #include "tests/reference/rigid_query.h"
 
 namespace foretouch::internal {

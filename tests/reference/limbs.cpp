@@ -2,7 +2,7 @@
 
 #include "lss/index.h"
 #include "lss/rounding.h"
-#include "middleware/query/pairs_asked.h"
+#include "middleware/pair/pairs_asked.h"
 
 namespace foretouch::internal {
 namespace {

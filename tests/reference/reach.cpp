@@ -1,7 +1,7 @@
 #include "tests/reference/reach.h"
 
 #include "middleware/contact.h"
-#include "middleware/query/link_query.h"
+#include "middleware/pair/link_query.h"
 #include "middleware/scene/scene_parts.h"
 #include "tessellation/aabb.h"
 

@@ -5,7 +5,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
-#include "middleware/query/provers.h"
+#include "middleware/pair/provers.h"
 #include "middleware/scene/scene.h"
 #include "tessellation/lss_table.h"
 

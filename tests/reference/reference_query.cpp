@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "articulated/try.h"
-#include "middleware/query/query_plan.h"
+#include "middleware/pair/query_plan.h"
 #include "middleware/scene/flat_bvh_lanes.h"
 #include "tests/reference/chain_piece.h"
 #include "tests/reference/point_query_culler.h"

@@ -2,7 +2,7 @@
 // step's volumes, their first contacts, and the verdicts of the links that they cover.
 #pragma once
 
-#include "middleware/query/provers.h"
+#include "middleware/pair/provers.h"
 #include "tests/reference/rungs.h"
 
 namespace foretouch::internal {

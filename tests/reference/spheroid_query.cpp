@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "middleware/query/backtracking.h"
+#include "middleware/pair/backtracking.h"
 
 namespace foretouch::internal {
 namespace {

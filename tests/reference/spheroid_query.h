@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "middleware/contact.h"
-#include "middleware/query/ignored_objects.h"
-#include "middleware/query/work_meter.h"
+#include "middleware/pair/ignored_objects.h"
+#include "middleware/pair/work_meter.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/scene.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "articulated/try.h"
-#include "middleware/query/work_budget.h"
+#include "middleware/work_budget.h"
 
 namespace foretouch::tools {
 namespace {

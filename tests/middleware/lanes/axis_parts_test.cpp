@@ -16,7 +16,7 @@
 #include "judge/plain_motion.h"
 #include "lss/simd.h"
 #include "middleware/lanes/frame_lanes.h"
-#include "middleware/query/still_axis.h"
+#include "middleware/pair/still_axis.h"
 #include "tests/support/name_of_simd.h"
 #include "tests/support/random_motion.h"
 

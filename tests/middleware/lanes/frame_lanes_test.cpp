@@ -13,8 +13,8 @@
 #include "articulated/motion.h"
 #include "judge/plain_motion.h"
 #include "lss/simd.h"
-#include "middleware/query/lane_backtracking.h"
-#include "middleware/query/part_lanes.h"
+#include "middleware/pair/lane_backtracking.h"
+#include "middleware/pair/part_lanes.h"
 #include "tests/support/name_of_simd.h"
 #include "tests/support/random_motion.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "lss/simd.h"
-#include "middleware/query/near_features.h"
+#include "middleware/near/near_features.h"
 #include "middleware/query/query.h"
 #include "middleware/worker_pool.h"
 #include "tests/middleware/mesh_body.h"

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "middleware/pair/query_plan.h"
 #include "middleware/query/query.h"
-#include "middleware/query/query_plan.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/reference/reference_query.h"

@@ -10,9 +10,9 @@
 
 #include "lss/separation.h"
 #include "lss/simd.h"
-#include "middleware/query/pair_query.h"
+#include "middleware/pair/pair_query.h"
+#include "middleware/pair/query_plan.h"
 #include "middleware/query/query.h"
-#include "middleware/query/query_plan.h"
 #include "middleware/scene/scene_parts.h"
 #include "middleware/scratch.h"
 #include "tessellation/swept_lss.h"

@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
+#include "middleware/pair/query_plan.h"
+#include "middleware/pair/work_meter.h"
 #include "middleware/query/lane_query.h"
 #include "middleware/query/query.h"
-#include "middleware/query/query_plan.h"
 #include "middleware/query/scalar_query.h"
-#include "middleware/query/work_meter.h"
 #include "middleware/scene/scene_parts.h"
 #include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"

@@ -1,0 +1,26 @@
+// middleware/pair/lane_nearest.h: what is near an LSS that stands still, asked of lanes. Not
+// installed.
+#pragma once
+
+#include <cstdint>
+
+#include "middleware/lanes/near_triangles.h"
+#include "middleware/pair/leaf_hits.h"
+#include "middleware/query_counters.h"
+#include "middleware/scene/scene.h"
+#include "tessellation/swept_lss.h"
+
+namespace foretouch::internal {
+
+/// Where the hits of one LSS lie.
+struct HitRange {
+  std::uint32_t begin, end;
+};
+
+/// Leaves in `near` those triangles of the hits that lanes cannot prove farther than
+/// `reach` (m) from an LSS with this axis. The ends are taken for exact: their rounding is the
+/// reach's.
+void findNear(const Scene& scene, const AxisEnds& ends, double radius, double reach, HitRange range,
+              const LeafHits& hits, NearTriangles& near, QueryCounters& counters);
+
+}  // namespace foretouch::internal
