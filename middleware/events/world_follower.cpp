@@ -91,7 +91,7 @@ struct WorldFollower::Impl {
   std::int64_t startUs = 0, untilUs = 0;
   std::uint64_t world = 0;  // that it follows; 0: none yet
   BodyMasses masses;
-  std::optional<internal::WorldScratchParts> scratch{std::in_place};
+  std::optional<internal::WorldMemory> scratch{std::in_place};
   WorldContacts contacts;
   OpenParts open, openBefore;       // the latter: as it was before the call
   internal::FollowedList followed;  // all that is open, and more about it

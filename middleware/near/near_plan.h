@@ -23,7 +23,7 @@ struct NearPlan {
   const FlatEdges* flat;  // the scene's
 };
 
-struct NearScratchParts : ScratchPart {
+struct NearMemory : ScratchPart {
   static constexpr ScratchKind kKind = ScratchKind::Near;
 
   ChainMotion still;                      // of a pose that is asked

@@ -20,16 +20,16 @@ namespace {
 /// What the places of a triangle cost in lanes, in evaluations of a pair.
 constexpr std::uint64_t kPlacesWork = 4;
 
+using internal::NearMemory;
 using internal::NearPlace;
 using internal::NearPlan;
-using internal::NearScratchParts;
 using internal::StandingLss;
 
 /// One answer.
 class NearSearch {
  public:
   NearSearch(const NearPlan& plan, const std::vector<LinkState>& states,
-             const std::vector<double>& reach, NearScratchParts& scratch, NearDetail detail,
+             const std::vector<double>& reach, NearMemory& scratch, NearDetail detail,
              NearFeatures& near)
       : plan_(plan),
         states_(states),
@@ -232,7 +232,7 @@ class NearSearch {
   const NearPlan& plan_;
   const std::vector<LinkState>& states_;
   const std::vector<double>& reach_;
-  NearScratchParts& scratch_;
+  NearMemory& scratch_;
   NearDetail detail_;
   NearFeatures& near_;
 };
@@ -258,12 +258,12 @@ void NearQuery::answer(const std::vector<LinkState>& states, const std::vector<d
                        Scratch& scratch, NearFeatures& near, NearDetail detail) const {
   const std::size_t links = countOf(plan_->avatar.numLinks());
   FORETOUCH_ASSERT(states.size() == links && reach.size() == links);
-  NearSearch(*plan_, states, reach, scratch.of<NearScratchParts>(), detail, near).run();
+  NearSearch(*plan_, states, reach, scratch.of<NearMemory>(), detail, near).run();
 }
 
 void NearQuery::answer(const Pose& pose, double reach, Scratch& scratch, NearFeatures& near,
                        NearDetail detail) const {
-  NearScratchParts& parts = scratch.of<NearScratchParts>();
+  NearMemory& parts = scratch.of<NearMemory>();
   parts.still.assign(plan_->avatar.skeleton(), pose, pose);
   parts.still.statesAt(0.0, parts.states);
   parts.reach.assign(countOf(plan_->avatar.numLinks()), reach);

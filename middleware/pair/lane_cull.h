@@ -4,8 +4,8 @@
 #pragma once
 
 #include "articulated/motion.h"
+#include "middleware/pair/query_memory.h"
 #include "middleware/pair/query_plan.h"
-#include "middleware/pair/scratch_parts.h"
 #include "middleware/query_counters.h"
 #include "tessellation/lss_table.h"
 
@@ -20,7 +20,7 @@ struct LaneCull {
   const QueryPlan& plan;
   const LssTable& table;
   const ChainMotion& motion;
-  ScratchParts& scratch;
+  QueryMemory& scratch;
 
   /// Leaves the hits in the scratch, by LSS; false if there are none. `areAllAsked`: no link is
   /// left out (LaneScratch::isAsked). Keeps the nodes that the scratch has of this span.

@@ -40,7 +40,7 @@ bool comesBefore(const PairContact& x, const PairContact& y) {
 }  // namespace
 
 PairQuery::PairQuery(const PairPlan& plan, const PairMotions& motions, const WorkMeter& meter,
-                     ScratchParts& scratch)
+                     QueryMemory& scratch)
     : plan_(plan),
       asked_(plan.asked),
       meter_(meter),

@@ -13,7 +13,7 @@
 #include "middleware/contact.h"
 #include "middleware/pair/lane_backtracking.h"
 #include "middleware/pair/link_query.h"
-#include "middleware/pair/scratch_parts.h"
+#include "middleware/pair/query_memory.h"
 #include "middleware/pair/side_plan.h"
 #include "middleware/pair/work_meter.h"
 
@@ -41,7 +41,7 @@ class PairQuery final : private Neighbours, private LaneFrames {
  public:
   /// Preconditions: the plan asks for pairs; the scratch's step began with these motions.
   PairQuery(const PairPlan& plan, const PairMotions& motions, const WorkMeter& meter,
-            ScratchParts& scratch);
+            QueryMemory& scratch);
 
   /// Fills `step.pairs`.
   void run(StepContacts& step);
@@ -117,7 +117,7 @@ class PairQuery final : private Neighbours, private LaneFrames {
   const PairPlan plan_;
   const PairsAsked& asked_;
   const WorkMeter& meter_;
-  ScratchParts& scratch_;
+  QueryMemory& scratch_;
   PairScratch& pair_;
   bool isOneChain_;
   Moving one_, other_;

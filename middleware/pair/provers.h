@@ -15,7 +15,7 @@ struct Candidate;
 struct LinkQuery;
 struct MovingPair;
 struct QueryPlan;
-struct ScratchParts;
+struct QueryMemory;
 class WorkMeter;
 
 /// Proves a pair of triangles apart, beside conservative advancement (provenFrom(), link_query.h).
@@ -36,7 +36,7 @@ class StepAnswerer {
   /// True: every link of `step` has its answer. False: none has, and the query goes its own way.
   /// Precondition: `meter` started with the query.
   [[nodiscard]] virtual bool answers(const QueryPlan& plan, const ChainMotion& motion,
-                                     const WorkMeter& meter, ScratchParts& scratch,
+                                     const WorkMeter& meter, QueryMemory& scratch,
                                      StepContacts& step) const = 0;
 };
 

@@ -19,7 +19,7 @@ struct StepContacts;
 
 namespace foretouch::internal {
 
-struct ScratchParts;
+struct QueryMemory;
 class WorkMeter;
 
 /// Each link has a surface of its own, fixed to it.
@@ -54,7 +54,7 @@ struct QueryPlan : SidePlan {
 
 /// As Query::answer(), with the meter's budget in place of the options'.
 void answerStep(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
-                ScratchParts& scratch, StepContacts& step);
+                QueryMemory& scratch, StepContacts& step);
 
 /// Every pair names a link of the avatar, and an object of the scene or all of them.
 [[nodiscard]] Result<Done> checkedIgnored(const Avatar& avatar, const Scene& scene,

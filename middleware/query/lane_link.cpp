@@ -46,7 +46,7 @@ FloatBox sweptBox(const SweptBoxes& boxes, std::int32_t lss) {
 }  // namespace
 
 LaneLink::LaneLink(const QueryPlan& plan, const Body& body, const LssTable& table,
-                   const ChainMotion& motion, const WorkMeter& meter, ScratchParts& scratch)
+                   const ChainMotion& motion, const WorkMeter& meter, QueryMemory& scratch)
     : plan_(plan),
       body_(body),
       table_(table),

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "middleware/pair/backtracking.h"
+#include "middleware/pair/query_memory.h"
 #include "middleware/pair/query_plan.h"
-#include "middleware/pair/scratch_parts.h"
 #include "middleware/pair/work_meter.h"
 #include "middleware/query/body.h"
 #include "middleware/scene/flat_bvh.h"
@@ -23,7 +23,7 @@ class LaneLink final : private Neighbours {
   static constexpr float kBegin = -1.0F, kEnd = 1.0F;  ///< Of u, the time of a span.
 
   LaneLink(const QueryPlan& plan, const Body& body, const LssTable& table,
-           const ChainMotion& motion, const WorkMeter& meter, ScratchParts& scratch);
+           const ChainMotion& motion, const WorkMeter& meter, QueryMemory& scratch);
 
   void beginSpan(double begin, double end) {
     begin_ = begin;
@@ -76,7 +76,7 @@ class LaneLink final : private Neighbours {
   const ChainMotion& motion_;
   const Scene& scene_;
   const WorkMeter& meter_;
-  ScratchParts& scratch_;
+  QueryMemory& scratch_;
   LaneScratch& lanes_;
   const FlatBvh& bvh_;
   double tolerance_ = 0.0;  // of the current link

@@ -22,7 +22,7 @@ bool isSpent(const LinkContact& contact) {
 }  // namespace
 
 LaneQuery::LaneQuery(const QueryPlan& plan, const Body& body, const LssTable& table,
-                     const ChainMotion& motion, const WorkMeter& meter, ScratchParts& scratch)
+                     const ChainMotion& motion, const WorkMeter& meter, QueryMemory& scratch)
     : plan_(plan),
       body_(body),
       table_(table),

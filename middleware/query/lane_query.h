@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "middleware/pair/lane_cull.h"
+#include "middleware/pair/query_memory.h"
 #include "middleware/pair/query_plan.h"
-#include "middleware/pair/scratch_parts.h"
 #include "middleware/pair/work_meter.h"
 #include "middleware/query/body.h"
 #include "middleware/query/lane_link.h"
@@ -21,7 +21,7 @@ class LaneQuery {
   /// `table` holds the body's LSS; `meter` started with the query. The scratch's evaluator is that
   /// of the motion.
   LaneQuery(const QueryPlan& plan, const Body& body, const LssTable& table,
-            const ChainMotion& motion, const WorkMeter& meter, ScratchParts& scratch);
+            const ChainMotion& motion, const WorkMeter& meter, QueryMemory& scratch);
 
   /// Answers every link of `step`. With Scope::FirstOfAvatar: only the earliest contacts; all other
   /// links are AfterFirst.

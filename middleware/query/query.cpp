@@ -7,8 +7,8 @@
 #include "lss/assert.h"
 #include "lss/simd.h"
 #include "middleware/pair/pair_query.h"
+#include "middleware/pair/query_memory.h"
 #include "middleware/pair/query_plan.h"
-#include "middleware/pair/scratch_parts.h"
 #include "middleware/query/body.h"
 #include "middleware/query/lane_query.h"
 #include "middleware/query/scalar_query.h"
@@ -19,7 +19,7 @@ namespace foretouch {
 namespace {
 
 void linkQuery(const internal::QueryPlan& plan, const ChainMotion& motion,
-               const internal::WorkMeter& meter, internal::ScratchParts& scratch,
+               const internal::WorkMeter& meter, internal::QueryMemory& scratch,
                StepContacts& step) {
   if (plan.stepAnswerer != nullptr &&
       plan.stepAnswerer->answers(plan, motion, meter, scratch, step)) {
@@ -59,7 +59,7 @@ void keepFirst(const internal::QueryPlan& plan, StepContacts& step) {
 }
 
 /// Of all links, also of those that began nearer than theirs and left.
-double leastTolerance(const internal::QueryPlan& plan, const internal::ScratchParts& scratch) {
+double leastTolerance(const internal::QueryPlan& plan, const internal::QueryMemory& scratch) {
   double least = plan.tolerances.least;
   if (!plan.inLanes) return least;
   for (const double own : scratch.lanes.tolerances) {
@@ -88,7 +88,7 @@ const QueryOptions& Query::options() const {
 }
 
 void internal::answerStep(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
-                          ScratchParts& scratch, StepContacts& step) {
+                          QueryMemory& scratch, StepContacts& step) {
   beginAnswer(step);
   leaveUnanswered(plan.avatar.numLinks(), step.links);
   FORETOUCH_ASSERT(motion.numLinks() == plan.avatar.numLinks());
@@ -105,12 +105,12 @@ void internal::answerStep(const QueryPlan& plan, const ChainMotion& motion, cons
 
 void Query::answer(const ChainMotion& motion, Scratch& scratch, StepContacts& step) const {
   internal::answerStep(*plan_, motion, internal::WorkMeter(plan_->options),
-                       scratch.of<internal::ScratchParts>(), step);
+                       scratch.of<internal::QueryMemory>(), step);
 }
 
 ContactDetails Query::details(const ChainMotion& motion, const LinkContact& contact,
                               Scratch& scratch) const {
-  return internal::detailsOf(*plan_, motion, contact, scratch.of<internal::ScratchParts>().found);
+  return internal::detailsOf(*plan_, motion, contact, scratch.of<internal::QueryMemory>().found);
 }
 
 ContactDetails Query::details(const ChainMotion& motion, const PairContact& contact,

@@ -5,8 +5,8 @@
 
 #include "lss/index.h"
 #include "middleware/pair/backtracking.h"
+#include "middleware/pair/query_memory.h"
 #include "middleware/pair/query_plan.h"
-#include "middleware/pair/scratch_parts.h"
 #include "middleware/pair/skin_sweep.h"
 #include "middleware/scene/scene_parts.h"
 #include "middleware/surface/link_surface.h"
@@ -25,7 +25,7 @@ static_assert(kMaxPiecesUsed <= kMaxPieces);
 class StepQuery final : private Neighbours {
  public:
   StepQuery(const QueryPlan& plan, const Body& body, const ChainMotion& motion,
-            const WorkMeter& meter, ScratchParts& scratch)
+            const WorkMeter& meter, QueryMemory& scratch)
       : plan_(plan),
         body_(body),
         motion_(motion),
@@ -226,7 +226,7 @@ class StepQuery final : private Neighbours {
   const Body& body_;
   const ChainMotion& motion_;
   const Scene& scene_;
-  ScratchParts& scratch_;
+  QueryMemory& scratch_;
   WorkMeter meter_;
   double tolerance_ = 0.0;  // of the current link
   // Of the current link; null at other fidelities.
@@ -238,7 +238,7 @@ class StepQuery final : private Neighbours {
 }  // namespace
 
 void scalarQuery(const QueryPlan& plan, const Body& body, const ChainMotion& motion,
-                 const WorkMeter& meter, ScratchParts& scratch, StepContacts& step) {
+                 const WorkMeter& meter, QueryMemory& scratch, StepContacts& step) {
   StepQuery(plan, body, motion, meter, scratch).run(step);
 }
 

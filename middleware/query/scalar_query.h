@@ -13,6 +13,6 @@ namespace foretouch::internal {
 
 /// Answers every link of `step`. Precondition: `meter` started with the query.
 void scalarQuery(const QueryPlan& plan, const Body& body, const ChainMotion& motion,
-                 const WorkMeter& meter, ScratchParts& scratch, StepContacts& step);
+                 const WorkMeter& meter, QueryMemory& scratch, StepContacts& step);
 
 }  // namespace foretouch::internal

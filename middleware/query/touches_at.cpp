@@ -4,8 +4,8 @@
 #include "lss/assert.h"
 #include "lss/segment_triangle.h"
 #include "middleware/exact/triangles_meet.h"
+#include "middleware/pair/query_memory.h"
 #include "middleware/pair/query_plan.h"
-#include "middleware/pair/scratch_parts.h"
 #include "middleware/query/query.h"
 #include "middleware/scene/scene_parts.h"
 #include "middleware/surface/link_surface.h"
@@ -69,8 +69,8 @@ bool Query::touchesAt(const ChainMotion& motion, LinkId link, double t, Scratch&
   FORETOUCH_ASSERT(link >= 0 && link < avatar.numLinks());
   FORETOUCH_ASSERT(motion.numLinks() == avatar.numLinks());
   const internal::LinkPlan& asked = plan_->of(link);
-  std::vector<TriangleId>& found = scratch.of<internal::ScratchParts>().found;
-  IgnoredObjects& ignored = scratch.of<internal::ScratchParts>().ignored;
+  std::vector<TriangleId>& found = scratch.of<internal::QueryMemory>().found;
+  IgnoredObjects& ignored = scratch.of<internal::QueryMemory>().ignored;
   if (ignored.collect(plan_->options.ignored, link)) return false;
   if (asked.skin != nullptr) {
     const std::vector<AxisBounds> none;

@@ -12,7 +12,7 @@
 #include "lss/separation.h"
 #include "middleware/near/near_places.h"
 #include "middleware/pair/link_query.h"
-#include "middleware/pair/scratch_parts.h"
+#include "middleware/pair/query_memory.h"
 #include "middleware/pair/work_meter.h"
 #include "middleware/scene/scene_parts.h"
 

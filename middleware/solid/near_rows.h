@@ -15,7 +15,7 @@ namespace foretouch::internal {
 inline constexpr double kLeastTrust = 0.01, kMostTrust = 0.05, kTrustOfStep = 1.5;
 /// Below this a step is not worth a motion: the avatar rests.
 inline constexpr double kSettled = 2e-5;
-/// A merit falls if it is below this share.
+/// A cost falls if it is below this share.
 inline constexpr double kFalls = 1.0 - 1e-9;
 /// How far to look beyond the skin: the free step, and what it may be off.
 inline constexpr double kReachOfStep = 1.2, kReachMore = 3e-3, kReachMargin = 2e-3;

@@ -35,7 +35,7 @@ class OwnFeatures {
     const std::vector<LinkState>&here, &target;
   };
   /// Appends a row (without its bound) per pair of LSS that is nearer than the sum of its links'
-  /// reaches, if one of the two is hot (not 0).
+  /// reaches, if one of the two is active (not 0).
   void append(const QueryPlan& plan, const Places& places, double skin,
               const std::vector<double>& reach, const std::vector<std::uint8_t>& isHot,
               std::vector<ContactRow>& rows) const;

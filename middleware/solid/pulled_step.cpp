@@ -20,22 +20,22 @@ PulledStep::PulledStep(const Avatar& avatar, const std::vector<double>& visibili
   change_.resize(n);
 }
 
-void PulledStep::place(const Pose& pose, Stance& stance) const {
-  placeLinks(skeleton_, pose, stance.states);
-  body_.place(stance.states, stance.places);
+void PulledStep::place(const Pose& pose, BodyState& state) const {
+  placeLinks(skeleton_, pose, state.states);
+  body_.place(state.states, state.places);
 }
 
-void PulledStep::weigh(const Pose& target, const std::vector<Eigen::Vector3d>& wanted,
-                       const Pose& pose, Stance& stance) const {
-  stance.turns.resize(pose.rotations.size());
+void PulledStep::evaluate(const Pose& target, const std::vector<Eigen::Vector3d>& wanted,
+                          const Pose& pose, BodyState& state) const {
+  state.turns.resize(pose.rotations.size());
   for (std::size_t j = 0; j < pose.rotations.size(); ++j) {
-    stance.turns[j] = turnBetween(pose.rotations[j], target.rotations[j]);
+    state.turns[j] = turnBetween(pose.rotations[j], target.rotations[j]);
   }
-  stance.merit = body_.merit(stance.places, wanted, stance.turns);
+  state.cost = body_.cost(state.places, wanted, state.turns);
 }
 
 void PulledStep::aim(const Pose& target, const std::vector<Eigen::Vector3d>& wanted,
-                     const Stance& here, const Pose& shown) {
+                     const BodyState& here, const Pose& shown) {
   const std::vector<JointId>& parents = skeleton_.parents();
   const std::size_t n = parents.size();
   const std::vector<LinkState>& states = here.states;
@@ -88,7 +88,7 @@ std::size_t PulledStep::solve(std::vector<ContactRow>& rows) {
   return push_.solve(inertia_, pull_, origin_, rows, step_);
 }
 
-void PulledStep::farthestFree(const Stance& here, std::vector<double>& far) const {
+void PulledStep::farthestFree(const BodyState& here, std::vector<double>& far) const {
   far.assign(skeleton_.parents().size(), 0.0);
   const auto& points = body_.points();
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -99,7 +99,7 @@ void PulledStep::farthestFree(const Stance& here, std::vector<double>& far) cons
   }
 }
 
-double PulledStep::sizeOf(const TreeStep& step, const Stance& here) const {
+double PulledStep::sizeOf(const TreeStep& step, const BodyState& here) const {
   double most = 0.0;
   const auto& points = body_.points();
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -115,7 +115,7 @@ double PulledStep::sizeOf(const TreeStep& step, const Stance& here) const {
   return most;
 }
 
-Moved PulledStep::moveOf(const Stance& here, const Pace& pace) const {
+Moved PulledStep::moveOf(const BodyState& here, const Pace& pace) const {
   Moved most;
   const auto& points = body_.points();
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -129,7 +129,7 @@ Moved PulledStep::moveOf(const Stance& here, const Pace& pace) const {
   return most;
 }
 
-void PulledStep::move(const Stance& here, const Pose& shown, double share, Pose& moved) {
+void PulledStep::move(const BodyState& here, const Pose& shown, double share, Pose& moved) {
   for (std::size_t j = 0; j < step_.turns.size(); ++j) {
     change_.turn[j] = step_.turns[j];
     if (skeleton_.parents()[j] == kNoParent) change_.shift[j] = step_.shifts[j];

@@ -21,11 +21,11 @@
 namespace foretouch::internal {
 
 /// Where a pose places what counts, and how far that is from the target.
-struct Stance {
+struct BodyState {
   std::vector<LinkState> states;
   std::vector<Eigen::Vector3d> places;  // of the body's points
   std::vector<Eigen::Vector3d> turns;   // per joint, to the target
-  double merit = 0.0;
+  double cost = 0.0;
 };
 
 /// For one thread; keeps its memory.
@@ -36,14 +36,14 @@ class PulledStep {
   [[nodiscard]] const VisualBody& body() const { return body_; }
   [[nodiscard]] const Skeleton& skeleton() const { return skeleton_; }
 
-  void place(const Pose& pose, Stance& stance) const;
-  /// Of a stance that place() made. `wanted`: the body's points at the target.
-  void weigh(const Pose& target, const std::vector<Eigen::Vector3d>& wanted, const Pose& pose,
-             Stance& stance) const;
+  void place(const Pose& pose, BodyState& state) const;
+  /// Of a state that place() made. `wanted`: the body's points at the target.
+  void evaluate(const Pose& target, const std::vector<Eigen::Vector3d>& wanted, const Pose& pose,
+                BodyState& state) const;
 
   /// Finds the step that would reach the target to first order if nothing were in the way, from
-  /// `here`, the stance of `shown`. O(joints + LSS).
-  void aim(const Pose& target, const std::vector<Eigen::Vector3d>& wanted, const Stance& here,
+  /// `here`, the state of `shown`. O(joints + LSS).
+  void aim(const Pose& target, const std::vector<Eigen::Vector3d>& wanted, const BodyState& here,
            const Pose& shown);
   /// Only this share of the way to the target, 0 to 1, from now on.
   void pullLess(double share);
@@ -54,17 +54,17 @@ class PulledStep {
   std::size_t solve(std::vector<ContactRow>& rows);
 
   /// How far the free step moves the body's points on each link, at most. Resizes `far`.
-  void farthestFree(const Stance& here, std::vector<double>& far) const;
+  void farthestFree(const BodyState& here, std::vector<double>& far) const;
   /// The farthest that the whole step moves any point, a joint's turn counted by its lever.
-  [[nodiscard]] double size(const Stance& here) const { return sizeOf(step_, here); }
+  [[nodiscard]] double size(const BodyState& here) const { return sizeOf(step_, here); }
   /// How far the whole step moves the body, to first order.
-  [[nodiscard]] Moved moveOf(const Stance& here, const Pace& pace) const;
-  [[nodiscard]] double sizeOfFree(const Stance& here) const { return sizeOf(free_, here); }
+  [[nodiscard]] Moved moveOf(const BodyState& here, const Pace& pace) const;
+  [[nodiscard]] double sizeOfFree(const BodyState& here) const { return sizeOf(free_, here); }
   /// A share of the step on from `shown`, which `here` is of.
-  void move(const Stance& here, const Pose& shown, double share, Pose& moved);
+  void move(const BodyState& here, const Pose& shown, double share, Pose& moved);
 
  private:
-  [[nodiscard]] double sizeOf(const TreeStep& step, const Stance& here) const;
+  [[nodiscard]] double sizeOf(const TreeStep& step, const BodyState& here) const;
 
   Skeleton skeleton_;
   VisualBody body_;

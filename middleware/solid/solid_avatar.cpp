@@ -11,10 +11,10 @@
 #include "lss/index.h"
 #include "middleware/solid/certifier.h"
 #include "middleware/solid/floor_lift.h"
-#include "middleware/solid/follower.h"
 #include "middleware/solid/pace.h"
 #include "middleware/solid/placing.h"
 #include "middleware/solid/solid_way.h"
+#include "middleware/solid/still_controller.h"
 #include "middleware/solid/target_pose.h"
 #include "middleware/solid/tree_pose.h"
 #include "middleware/solid/way_around.h"
@@ -100,15 +100,15 @@ SolidOptions completed(const Avatar& avatar, SolidOptions options) {
 class SolidAvatar::Parts {
  public:
   Parts(const Avatar& avatar, SolidOptions options, internal::Certifier certifier,
-        internal::Follower follower)
+        internal::StillController controller)
       : options_(std::move(options)),
         certifier_(std::move(certifier)),
-        follower_(std::move(follower)),
+        controller_(std::move(controller)),
         target_(avatar),
         lift_(avatar, options_),
         placing_(avatar.skeleton(), options_),
         around_(avatar, options_),
-        pace_(avatar, follower_.body(), options_) {}
+        pace_(avatar, controller_.body(), options_) {}
 
   Result<Done> follow(const SolidTarget& given, SolidTick& tick) {
     if (!(given.dtS > 0.0 && given.dtS <= kLongestTick)) {
@@ -120,8 +120,8 @@ class SolidAvatar::Parts {
     isAround_ = false;
     if (!isPlaced_) place(tick);
     if (isPlaced_) move(given.dtS, tick);
-    lift_.remember(follower_.rows());
-    follower_.letGo();
+    lift_.remember(controller_.rows());
+    controller_.letGo();
     finish(given.dtS, tick);
     return Done{};
   }
@@ -150,9 +150,10 @@ class SolidAvatar::Parts {
   Result<Done> changeScene(const Scene& scene) {
     const Avatar& avatar = certifier_.avatar();
     FORETOUCH_TRY(auto certifier, internal::Certifier::build(avatar, scene, options_));
-    FORETOUCH_TRY(auto follower, internal::Follower::build(avatar, scene, options_, certifier));
+    FORETOUCH_TRY(auto controller,
+                  internal::StillController::build(avatar, scene, options_, certifier));
     certifier_ = std::move(certifier);
-    follower_ = std::move(follower);
+    controller_ = std::move(controller);
     forget();
     lift_.forgetFloors();
     wasEqual_ = false;
@@ -170,7 +171,7 @@ class SolidAvatar::Parts {
     isPlaced_ = true;
     isInside_ = mustSayPlace_ = hasSnapped_ = false;
     wasEqual_ = internal::isSamePose(shown_, target_.pose());
-    follower_.reset();
+    controller_.reset();
   }
 
   [[nodiscard]] const SolidOptions& options() const { return options_; }
@@ -181,7 +182,7 @@ class SolidAvatar::Parts {
   [[nodiscard]] const Skeleton& skeleton() const { return certifier_.avatar().skeleton(); }
 
   void forget() {
-    follower_.reset();
+    controller_.reset();
     placing_.reset();
     around_.reset();
     pace_.rest();
@@ -224,12 +225,12 @@ class SolidAvatar::Parts {
     const double liftBefore = lift_.lift();
     if (lift_.isAny()) liftTarget(dtS, tick);
     const bool goesAlong = wasEqual_ && !target_.hasFound();
-    if (goesAlong && !follower_.isAnyHot()) {
+    if (goesAlong && !controller_.isAnyActive()) {
       pace_.rest();
-      if (follower_.goStraight(target_.pose(), certifier_, shown_, tick)) return;
+      if (controller_.goStraight(target_.pose(), certifier_, shown_, tick)) return;
     }
     before_ = shown_;
-    const internal::VisualBody& body = follower_.body();
+    const internal::VisualBody& body = controller_.body();
     body.place(target_.states(), wanted_);
     lastWanted_.clear();
     if (target_.hasLast()) body.place(target_.lastStates(), lastWanted_);
@@ -241,8 +242,8 @@ class SolidAvatar::Parts {
     isTargetFree_ = maySnapIn(dtS) && certifier_.isClear(target_.pose(), target_.pose());
     if (around_.isStale(shown_, wanted_)) around_.reset();
     if (!(around_.hasWay() && walkAround(tick))) {
-      follower_.follow({target_.pose(), target_.states(), wanted_, target_.ranges(), pace_},
-                       certifier_, shown_, tick);
+      controller_.follow({target_.pose(), target_.states(), wanted_, target_.ranges(), pace_},
+                         certifier_, shown_, tick);
       if (!internal::isSamePose(shown_, target_.pose())) lookFurther(dtS, tick);
     }
     pace_.end();
@@ -263,7 +264,7 @@ class SolidAvatar::Parts {
   /// On along the way that was found; false if it is no longer free.
   bool walkAround(SolidTick& tick) {
     isAround_ = true;
-    around_.tighten(follower_.body(), shown_, certifier_);
+    around_.tighten(controller_.body(), shown_, certifier_);
     while (around_.hasWay() && !pace_.isSpent()) {
       const double share = pace_.shareOf(shown_, around_.next(), towards_);
       if (!(share > 0.0)) break;
@@ -290,7 +291,7 @@ class SolidAvatar::Parts {
 
   /// Held away from the target: is there a way around, or has the time come to snap?
   void lookFurther(double dtS, SolidTick& tick) {
-    const internal::VisualBody& body = follower_.body();
+    const internal::VisualBody& body = controller_.body();
     internal::placeLinks(skeleton(), shown_, states_);
     double far = 0.0;
     std::size_t farthest = 0;
@@ -367,7 +368,7 @@ class SolidAvatar::Parts {
     if (wasEqual_) return SolidState::Equal;
     if (isAround_) return SolidState::Around;
     if (tick.numWay == 0) return SolidState::Held;
-    return follower_.hasPushes() ? SolidState::Sliding : SolidState::Following;
+    return controller_.hasPushes() ? SolidState::Sliding : SolidState::Following;
   }
 
   /// What holds each joint, and how far it is from where its tracker says.
@@ -381,7 +382,7 @@ class SolidAvatar::Parts {
     }
     if (!isPlaced_ || wasEqual_) return;
     internal::placeLinks(skeleton(), shown_, states_);
-    const auto& points = follower_.body().points();
+    const auto& points = controller_.body().points();
     for (const internal::VisualBody::Point& point : points) {
       const auto link = slotOf(point.link);
       const double off =
@@ -389,9 +390,9 @@ class SolidAvatar::Parts {
       tick.linkDeviation[link] = std::max(tick.linkDeviation[link], off);
       tick.deviation = std::max(tick.deviation, off);
     }
-    if (!follower_.hasPushes()) return;
+    if (!controller_.hasPushes()) return;
     internal::placeLinks(skeleton(), before_, statesBefore_);
-    for (const internal::ContactRow& row : follower_.rows()) {
+    for (const internal::ContactRow& row : controller_.rows()) {
       if (row.push > 0.0) reportRow(row, dtS, tick);
     }
   }
@@ -422,7 +423,7 @@ class SolidAvatar::Parts {
 
   SolidOptions options_;
   internal::Certifier certifier_;
-  internal::Follower follower_;
+  internal::StillController controller_;
   internal::TargetPose target_;
   internal::FloorLift lift_;
   internal::Placing placing_;
@@ -447,9 +448,9 @@ Result<SolidAvatar> SolidAvatar::build(const Avatar& avatar, const Scene& scene,
   SolidOptions whole = completed(avatar, options);
   FORETOUCH_CHECK(checked(avatar, whole));
   FORETOUCH_TRY(auto certifier, internal::Certifier::build(avatar, scene, whole));
-  FORETOUCH_TRY(auto follower, internal::Follower::build(avatar, scene, whole, certifier));
-  return SolidAvatar(
-      std::make_unique<Parts>(avatar, std::move(whole), std::move(certifier), std::move(follower)));
+  FORETOUCH_TRY(auto controller, internal::StillController::build(avatar, scene, whole, certifier));
+  return SolidAvatar(std::make_unique<Parts>(avatar, std::move(whole), std::move(certifier),
+                                             std::move(controller)));
 }
 
 SolidAvatar::SolidAvatar(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}

@@ -46,9 +46,9 @@ void VisualBody::place(const std::vector<LinkState>& states,
   }
 }
 
-double VisualBody::merit(const std::vector<Eigen::Vector3d>& places,
-                         const std::vector<Eigen::Vector3d>& wanted,
-                         const std::vector<Eigen::Vector3d>& turns) const {
+double VisualBody::cost(const std::vector<Eigen::Vector3d>& places,
+                        const std::vector<Eigen::Vector3d>& wanted,
+                        const std::vector<Eigen::Vector3d>& turns) const {
   double sum = 0.0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     sum += points_[k].weight * (places[k] - wanted[k]).squaredNorm();

@@ -38,9 +38,9 @@ class VisualBody {
   /// f, in m^2: sum of weighted squared distances and of a_j |turn|^2 (solid.md 2). `places`,
   /// `wanted`: of the points at a pose and at the target; `turns`: from the pose's rotations to the
   /// target's. O(LSS).
-  [[nodiscard]] double merit(const std::vector<Eigen::Vector3d>& places,
-                             const std::vector<Eigen::Vector3d>& wanted,
-                             const std::vector<Eigen::Vector3d>& turns) const;
+  [[nodiscard]] double cost(const std::vector<Eigen::Vector3d>& places,
+                            const std::vector<Eigen::Vector3d>& wanted,
+                            const std::vector<Eigen::Vector3d>& turns) const;
   /// The largest distance of two places of one point.
   [[nodiscard]] static double farthest(const std::vector<Eigen::Vector3d>& one,
                                        const std::vector<Eigen::Vector3d>& other);

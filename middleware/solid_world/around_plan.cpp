@@ -7,7 +7,7 @@
 #include "articulated/try.h"
 #include "lss/rounding.h"
 #include "middleware/pair/pair_query.h"
-#include "middleware/pair/scratch_parts.h"
+#include "middleware/pair/query_memory.h"
 #include "middleware/pair/work_meter.h"
 
 namespace foretouch::internal {
@@ -123,7 +123,7 @@ void AroundPlan::askLss(const Pose& from, const Pose& to, const Pose& otherFrom,
   moveRoots(otherSkeleton_, otherFrom, origin, scratch.otherFrom);
   moveRoots(otherSkeleton_, otherTo, origin, scratch.otherTo);
   scratch.other.assign(otherSkeleton_, scratch.otherFrom, scratch.otherTo);
-  ScratchParts& parts = scratch.query.of<ScratchParts>();
+  QueryMemory& parts = scratch.query.of<QueryMemory>();
   beginAnswer(scratch.step);
   parts.beginStep(scratch.motion, scratch.other);
   const WorkMeter meter(one_->options);

@@ -98,7 +98,7 @@ Passage PassageProver::askPart(const TimedMotion& motion, const Surroundings& ar
 void PassageProver::askBodies(const TimedMotion& motion, const Surroundings& around,
                               Passage& passage) {
   const bool isRefuge =
-      isSamePose(motion.from, motion.to) && isSamePose(motion.from, around.refuge);
+      isSamePose(motion.from, motion.to) && isSamePose(motion.from, around.fallback);
   whole_.assign(avatar_.skeleton(), motion.from, motion.to);
   const Eigen::AlignedBox3d swept = sweptBox(volumes_, whole_, states_);
   for (const AroundBody* const body : around.bodies) {
@@ -158,7 +158,7 @@ void PassageProver::askLeg(const TimedMotion& motion, const AroundBody& body, co
 /// Other solid avatars have counted on whoever they saw standing to be able to stay.
 void PassageProver::askToStay(const TimedMotion& motion, const Surroundings& around,
                               Passage& passage) {
-  if (isSamePose(motion.to, around.refuge)) return;
+  if (isSamePose(motion.to, around.fallback)) return;
   const TimedMotion stay{motion.to, motion.to, motion.endUs, around.endUs};
   Passage staying;
   staying.isClear = true;

@@ -39,7 +39,7 @@ struct Surroundings {
   std::vector<BodyId> passed;             ///< Those that are not asked: they crush it already.
   std::int64_t endUs = 0;                 ///< Of the tick.
   /// Where it may stay until then: no solid avatar that moves meets it there, which is proven.
-  Pose refuge;
+  Pose fallback;
 
   [[nodiscard]] bool isPassed(BodyId body) const;
 };

@@ -61,7 +61,7 @@ Result<std::unique_ptr<SolidBody::Outfit>> SolidBody::dress(const Avatar& avatar
   // Completed by it.
   const SolidOptions completed = solid.options();
   FORETOUCH_TRY(auto prover, PassageProver::build(whole.avatar, still, completed));
-  FORETOUCH_TRY(auto yielding, Yielding::build(whole.avatar, still, completed, prover));
+  FORETOUCH_TRY(auto controller, MovingController::build(whole.avatar, still, completed, prover));
   const std::int32_t number = tools.empty() ? numbers.ofAvatar(avatar.identity()) : numbers.next();
   AroundKind kind{number, whole.avatar.skeleton(), 0, prover.volumes(), std::nullopt, 0.0};
   for (const std::vector<Lss>& link : kind.volumes) {
@@ -70,7 +70,7 @@ Result<std::unique_ptr<SolidBody::Outfit>> SolidBody::dress(const Avatar& avatar
     }
   }
   return std::make_unique<Outfit>(
-      Outfit{std::move(kind), std::move(solid), std::move(prover), std::move(yielding)});
+      Outfit{std::move(kind), std::move(solid), std::move(prover), std::move(controller)});
 }
 
 Result<SolidBody> SolidBody::build(BodyId id, const Avatar& avatar, const Scene& still,
@@ -239,8 +239,8 @@ void SolidBody::move(std::int64_t fromUs, std::int64_t toUs, Surroundings& aroun
   around.passed.clear();
   around.endUs = toUs;
   // Those who have moved have proven that they meet nobody who stays.
-  if (isPlaced_) around.refuge = shown_;
-  if (!isPlaced_) around.refuge.rotations.clear();
+  if (isPlaced_) around.fallback = shown_;
+  if (!isPlaced_) around.fallback.rotations.clear();
   partFromLetGo(around, fromUs);
   endCrushes(around, fromUs, tick);
   for (const Crusher& crusher : crushers_) around.passed.push_back(crusher.body);
@@ -252,15 +252,15 @@ void SolidBody::move(std::int64_t fromUs, std::int64_t toUs, Surroundings& aroun
   FORETOUCH_ASSERT(followed.ok());  // the target was checked
   std::swap(wanted_, lastWanted_);
   placeLinks(avatar_.skeleton(), outfit_->solid.target(), targetStates_);
-  outfit_->yielding.body().place(targetStates_, wanted_);
+  outfit_->controller.body().place(targetStates_, wanted_);
   const bool isElsewhere = !isPlaced_ && appear(fromUs, toUs, around, tick.tick);
-  if (isPlaced_) around.refuge = shown_;  // whoever has just appeared may stay, too
+  if (isPlaced_) around.fallback = shown_;  // whoever has just appeared may stay, too
   if (!isPlaced_) {
     stayUnplaced(tick.tick);
   } else if (isElsewhere || !crushers_.empty() || !takeWay(fromUs, toUs, around, tick.tick)) {
     yield(fromUs, toUs, around, tick);
   } else {
-    outfit_->yielding.forget();
+    outfit_->controller.forget();
     shown_ = tick.tick.shown;
     proven_ = tick.tick.clearance;
   }
@@ -354,13 +354,13 @@ void SolidBody::yield(std::int64_t fromUs, std::int64_t toUs, Surroundings& arou
     own.clearance = clearance;
     endsUs_.push_back(fromUs);
   }
-  Yielding& yielding = outfit_->yielding;
+  MovingController& controller = outfit_->controller;
   const double step =
       lastWanted_.size() == wanted_.size() ? VisualBody::farthest(wanted_, lastWanted_) : 0.0;
   const double budget = step + options_.catchUp * secondsOf(toUs - fromUs);
-  yielding.run({outfit_->solid.target(), targetStates_, wanted_, outfit_->solid.ranges(), step,
-                budget, fromUs, toUs},
-               outfit_->prover, around, shown_, own, endsUs_, crushers_);
+  controller.run({outfit_->solid.target(), targetStates_, wanted_, outfit_->solid.ranges(), step,
+                  budget, fromUs, toUs},
+                 outfit_->prover, around, shown_, own, endsUs_, crushers_);
   finishYield(fromUs, toUs, tick);
   outfit_->solid.resume(shown_);
 }
@@ -397,15 +397,15 @@ void SolidBody::finishYield(std::int64_t fromUs, std::int64_t toUs, SolidBodyTic
 
 void SolidBody::report(double lengthS, SolidBodyTick& tick) {
   SolidTick& own = tick.tick;
-  const Yielding& yielding = outfit_->yielding;
+  const MovingController& controller = outfit_->controller;
   const std::size_t n = countOf(avatar_.numLinks());
   own.linkDeviation.assign(n, 0.0);
   own.joints.assign(n, SolidJointState::Free);
   own.deviation = 0.0;
   placeLinks(avatar_.skeleton(), shown_, states_);
-  yielding.body().place(states_, places_);
+  controller.body().place(states_, places_);
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    const auto link = slotOf(yielding.body().points()[k].link);
+    const auto link = slotOf(controller.body().points()[k].link);
     const double off = (places_[k] - wanted_[k]).norm();
     own.linkDeviation[link] = std::max(own.linkDeviation[link], off);
     own.deviation = std::max(own.deviation, off);
@@ -414,7 +414,7 @@ void SolidBody::report(double lengthS, SolidBodyTick& tick) {
     if (flags_[j] == 0) own.joints[j] = SolidJointState::Lost;
   }
   const auto state = own.numWay == 0 ? SolidJointState::Held : SolidJointState::Sliding;
-  const std::vector<ContactRow>& rows = yielding.rows();
+  const std::vector<ContactRow>& rows = controller.rows();
   const auto slipOf = [&](const ContactRow& row, const Eigen::Vector3d& surfaceV_W) {
     const LinkState &now = states_[slotOf(row.link)], &then = statesBefore_[slotOf(row.link)];
     const Eigen::Vector3d p_L = now.R_WL.transpose() * (row.x - now.p_WL);
@@ -429,7 +429,7 @@ void SolidBody::report(double lengthS, SolidBodyTick& tick) {
         own.joints[slotOf(link)] = state;
       }
     }
-    if (i < yielding.numStill()) {
+    if (i < controller.numStill()) {
       SolidContact contact;
       contact.link = row.link;
       contact.lss = row.lss;
@@ -443,7 +443,7 @@ void SolidBody::report(double lengthS, SolidBodyTick& tick) {
       own.contacts.push_back(contact);
       continue;
     }
-    const AroundFeature& feature = yielding.features()[i - yielding.numStill()];
+    const AroundFeature& feature = controller.features()[i - controller.numStill()];
     tick.contacts.push_back({feature.body->body, row.link, row.lss, feature.triangle, row.y, row.n,
                              row.gap, row.push, slipOf(row, feature.velocity_W)});
   }

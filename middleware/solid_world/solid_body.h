@@ -11,10 +11,10 @@
 #include "middleware/solid/placing.h"
 #include "middleware/solid/solid_avatar.h"
 #include "middleware/solid_world/held_tools.h"
+#include "middleware/solid_world/moving_controller.h"
 #include "middleware/solid_world/passage.h"
 #include "middleware/solid_world/solid_body_tick.h"
 #include "middleware/solid_world/world_movers.h"
-#include "middleware/solid_world/yielding.h"
 
 namespace foretouch::internal {
 
@@ -69,7 +69,7 @@ class SolidBody {
     AroundKind kind;
     SolidAvatar solid;
     PassageProver prover;
-    Yielding yielding;
+    MovingController controller;
   };
   static Result<std::unique_ptr<Outfit>> dress(const Avatar& avatar, const Scene& still,
                                                const SolidOptions& options,

@@ -7,7 +7,7 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
-#include "middleware/pair/scratch_parts.h"
+#include "middleware/pair/query_memory.h"
 #include "middleware/pair/work_meter.h"
 #include "middleware/scene/scene_parts.h"
 #include "middleware/world/work_shares.h"
@@ -127,7 +127,7 @@ Result<Done> BodySweeper::fill(BodyId body, SystemQuestion question, SpanSweep& 
   span.own.clear();
   span.counters = {};
   FORETOUCH_TRY(const SystemPlan* const plan, query_.prepare(question, body, kStillScene));
-  ScratchParts& parts = scratch_.query.of<ScratchParts>();
+  QueryMemory& parts = scratch_.query.of<QueryMemory>();
   const bool isAsked = question != SystemQuestion::Boxes && query_.isResolved();
   if (isAsked) {
     query_.ask(*plan, body, kStillScene, 0, span.own, span.counters);

@@ -23,7 +23,7 @@ namespace foretouch::internal {
 class PairAsker {
  public:
   PairAsker(const WorldParts& world, const Window& window, const FollowedLinks* followed,
-            WorldScratchParts& scratch, WindowWorker& worker)
+            WorldMemory& scratch, WindowWorker& worker)
       : world_(world),
         window_(window),
         followed_(followed),
@@ -65,7 +65,7 @@ class PairAsker {
   const WorldParts& world_;
   const Window& window_;
   const FollowedLinks* followed_;
-  WorldScratchParts& scratch_;
+  WorldMemory& scratch_;
   WindowWorker& worker_;
   SystemQuery query_;
   std::uint64_t limit_ = 0, startsAt_ = 0;

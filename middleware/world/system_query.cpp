@@ -7,8 +7,8 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "middleware/counter_fields.h"
+#include "middleware/pair/query_memory.h"
 #include "middleware/pair/query_plan.h"
-#include "middleware/pair/scratch_parts.h"
 #include "middleware/pair/work_meter.h"
 
 namespace foretouch::internal {
@@ -114,7 +114,7 @@ bool SystemQuery::askAgainFrom(std::int64_t fromUs, const SystemPlan& plan, Body
   if (areTriangles || !(begin > 0.0)) return false;
   nameAll(plan, a, met);
   const WorkMeter meter(work_);
-  PairQuery query(plan.pair(), beginStep(plan), meter, scratch_.query.of<ScratchParts>());
+  PairQuery query(plan.pair(), beginStep(plan), meter, scratch_.query.of<QueryMemory>());
   if (!query.runAmongFrom(begin, foundPairs(), scratch_.step)) return false;
   const std::size_t count = found.size();
   keepAll(plan, a, kStillScene, first, found, counters);
@@ -173,17 +173,17 @@ bool SystemQuery::isUndone(BodyId b, const LinkContact& contact) {
 void SystemQuery::answer(const SystemPlan& plan) {
   if (plan.query) {
     answerStep(plan.query->plan(), scratch_.motion, WorkMeter(work_),
-               scratch_.query.of<ScratchParts>(), scratch_.step);
+               scratch_.query.of<QueryMemory>(), scratch_.step);
   } else {
     const WorkMeter meter(work_);
-    PairQuery(plan.pair(), beginStep(plan), meter, scratch_.query.of<ScratchParts>())
+    PairQuery(plan.pair(), beginStep(plan), meter, scratch_.query.of<QueryMemory>())
         .run(scratch_.step);
   }
 }
 
 void SystemQuery::answerAmong(const SystemPlan& plan) {
   const WorkMeter meter(work_);
-  PairQuery(plan.pair(), beginStep(plan), meter, scratch_.query.of<ScratchParts>())
+  PairQuery(plan.pair(), beginStep(plan), meter, scratch_.query.of<QueryMemory>())
       .runAmong(foundPairs(), scratch_.step);
 }
 
@@ -195,7 +195,7 @@ FoundPairs SystemQuery::foundPairs() const {
 PairMotions SystemQuery::beginStep(const SystemPlan& plan) {
   beginAnswer(scratch_.step);
   const ChainMotion& other = plan.isMerged() ? scratch_.motion : scratch_.other;
-  scratch_.query.of<ScratchParts>().beginStep(scratch_.motion, other);
+  scratch_.query.of<QueryMemory>().beginStep(scratch_.motion, other);
   return {scratch_.motion, other};
 }
 

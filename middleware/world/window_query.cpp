@@ -46,7 +46,7 @@ constexpr std::size_t kTasksAtOnce = 8;
 class WindowQuery {
  public:
   WindowQuery(const WorldParts& world, std::int64_t fromUs, std::int64_t toUs, WorkerPool* pool,
-              WorldScratchParts& scratch, WorldContacts& answer, const FollowedLinks* followed)
+              WorldMemory& scratch, WorldContacts& answer, const FollowedLinks* followed)
       : world_(world),
         window_{fromUs, toUs, ++scratch.windows, Eigen::Vector3d::Zero(), followed != nullptr},
         pool_(pool),
@@ -298,7 +298,7 @@ class WindowQuery {
   Window window_;
   WorkerPool* pool_;
   const FollowedLinks* followed_;
-  WorldScratchParts& scratch_;
+  WorldMemory& scratch_;
   WorldContacts& answer_;
 };
 
@@ -342,8 +342,7 @@ void addCounters(const WorldCounters& more, WorldCounters& sum) {
 }
 
 Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs, WorkerPool* pool,
-                       WorldScratchParts& scratch, WorldContacts& answer,
-                       const FollowedLinks* followed) {
+                       WorldMemory& scratch, WorldContacts& answer, const FollowedLinks* followed) {
   FORETOUCH_CHECK(checkedWindow(world, fromUs, toUs));
   return WindowQuery(world.parts(), fromUs, toUs, pool, scratch, answer, followed).run();
 }
@@ -354,13 +353,13 @@ namespace foretouch {
 
 Result<Done> World::contacts(std::int64_t fromUs, std::int64_t toUs, Scratch& scratch,
                              WorldContacts& answer) const {
-  auto& parts = scratch.of<internal::WorldScratchParts>();
+  auto& parts = scratch.of<internal::WorldMemory>();
   return internal::askWindow(*this, fromUs, toUs, nullptr, parts, answer);
 }
 
 Result<Done> World::contacts(std::int64_t fromUs, std::int64_t toUs, WorkerPool& pool,
                              WorldContacts& answer) const {
-  auto& parts = pool.scratch().of<internal::WorldScratchParts>();
+  auto& parts = pool.scratch().of<internal::WorldMemory>();
   return internal::askWindow(*this, fromUs, toUs, &pool, parts, answer);
 }
 

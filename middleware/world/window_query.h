@@ -21,7 +21,7 @@ Result<Done> checkedWindow(const World& world, std::int64_t fromUs, std::int64_t
 /// `followed`: null, or what need not be told. Errors besides: on several threads, memory ran out
 /// (DeviceFailed).
 Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs, WorkerPool* pool,
-                       WorldScratchParts& scratch, WorldContacts& answer,
+                       WorldMemory& scratch, WorldContacts& answer,
                        const FollowedLinks* followed = nullptr);
 
 }  // namespace foretouch::internal

@@ -60,7 +60,7 @@ struct FollowedLinks {
   std::vector<KnownLinks> pairs;  ///< He knows all of them in the window. By bodies.
 };
 
-struct WorldScratchParts : ScratchPart {
+struct WorldMemory : ScratchPart {
   static constexpr ScratchKind kKind = ScratchKind::World;
 
   std::uint64_t world = 0;    // whose this is

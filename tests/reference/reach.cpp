@@ -31,7 +31,7 @@ bool ReachProver::isClear(const ChainMotion& motion, QueryCounters& counters) co
 }
 
 bool ReachProver::answers(const QueryPlan& /*plan*/, const ChainMotion& motion,
-                          const WorkMeter& /*meter*/, ScratchParts& /*scratch*/,
+                          const WorkMeter& /*meter*/, QueryMemory& /*scratch*/,
                           StepContacts& step) const {
   if (!isClear(motion, step.counters)) return false;
   for (LinkContact& contact : step.links) answerClear(contact);

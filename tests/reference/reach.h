@@ -24,7 +24,7 @@ class ReachProver final : public StepAnswerer {
   [[nodiscard]] bool isClear(const ChainMotion& motion, QueryCounters& counters) const;
   /// Whether that is so; then every link is answered.
   [[nodiscard]] bool answers(const QueryPlan& plan, const ChainMotion& motion,
-                             const WorkMeter& meter, ScratchParts& scratch,
+                             const WorkMeter& meter, QueryMemory& scratch,
                              StepContacts& step) const override;
 
  private:

@@ -6,8 +6,8 @@
 #include "lss/assert.h"
 #include "lss/index.h"
 #include "middleware/contact.h"
+#include "middleware/pair/query_memory.h"
 #include "middleware/pair/query_plan.h"
-#include "middleware/pair/scratch_parts.h"
 #include "middleware/pair/work_meter.h"
 #include "middleware/query/body.h"
 #include "middleware/query/lane_query.h"
@@ -40,7 +40,7 @@ RungScratch& scratchOfThread() {
 class RungQuery {
  public:
   RungQuery(Rung rung, const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
-            ScratchParts& scratch)
+            QueryMemory& scratch)
       : rung_(rung),
         plan_(plan),
         avatar_(plan.avatar),
@@ -182,7 +182,7 @@ class RungQuery {
   const ChainMotion& motion_;
   const Scene& scene_;
   const QueryOptions& options_;
-  ScratchParts& scratch_;
+  QueryMemory& scratch_;
   const WorkMeter& meter_;
   RungScratch& rungs_;
 };
@@ -190,7 +190,7 @@ class RungQuery {
 }  // namespace
 
 bool RungAnswerer::answers(const QueryPlan& plan, const ChainMotion& motion, const WorkMeter& meter,
-                           ScratchParts& scratch, StepContacts& step) const {
+                           QueryMemory& scratch, StepContacts& step) const {
   RungQuery(rung_, plan, motion, meter, scratch).run(step);
   return true;
 }
@@ -215,8 +215,7 @@ std::vector<RungVolume> rungVolumes(const Avatar& avatar, const ChainMotion& mot
   const QueryOptions options;
   const auto plan = internal::QueryPlan::make(avatar, scene, options);
   const internal::WorkMeter meter(options);
-  internal::RungQuery query(rung, plan.value(), motion, meter,
-                            scratch.of<internal::ScratchParts>());
+  internal::RungQuery query(rung, plan.value(), motion, meter, scratch.of<internal::QueryMemory>());
   QueryCounters counters;
   query.evaluate(counters);
   std::vector<RungVolume> volumes;

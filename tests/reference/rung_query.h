@@ -13,7 +13,7 @@ class RungAnswerer final : public StepAnswerer {
   explicit RungAnswerer(Rung rung) : rung_(rung) {}
   /// Always true.
   [[nodiscard]] bool answers(const QueryPlan& plan, const ChainMotion& motion,
-                             const WorkMeter& meter, ScratchParts& scratch,
+                             const WorkMeter& meter, QueryMemory& scratch,
                              StepContacts& step) const override;
 
  private:

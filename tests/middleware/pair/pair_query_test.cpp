@@ -109,17 +109,17 @@ TEST(PairQuery, TwoChainsAnswerAsOneThatHasBoth) {
     const ChainMotion motion = both.motion();
     StepContacts asOne;
     internal::beginAnswer(asOne);
-    scratch.of<internal::ScratchParts>().beginStep(motion);
+    scratch.of<internal::QueryMemory>().beginStep(motion);
     internal::PairQuery(PairPlan{sideOfBoth, sideOfBoth, ofOne, startShare}, {motion, motion},
-                        meter, scratch.of<internal::ScratchParts>())
+                        meter, scratch.of<internal::QueryMemory>())
         .run(asOne);
 
     const ChainMotion motionOfOne = one.motion(), motionOfOther = other.motion();
     StepContacts asTwo;
     internal::beginAnswer(asTwo);
-    scratch.of<internal::ScratchParts>().beginStep(motionOfOne, motionOfOther);
+    scratch.of<internal::QueryMemory>().beginStep(motionOfOne, motionOfOther);
     internal::PairQuery(PairPlan{sideOfOne, sideOfOther, ofTwo, startShare},
-                        {motionOfOne, motionOfOther}, meter, scratch.of<internal::ScratchParts>())
+                        {motionOfOne, motionOfOther}, meter, scratch.of<internal::QueryMemory>())
         .run(asTwo);
 
     expectSame(asOne, asTwo, one.avatar.numLinks());

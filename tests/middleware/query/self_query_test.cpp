@@ -191,12 +191,12 @@ TEST_P(SelfQueries, FromAnInstantOnAreSoundAndTight) {
       }
     }
     const ChainMotion motion = body.motion();
-    scratch.of<internal::ScratchParts>().beginStep(motion);
+    scratch.of<internal::QueryMemory>().beginStep(motion);
     const internal::WorkMeter meter(plan.options);
     const double begin = random.uniform(0.01, 0.99);
     StepContacts step;
     const internal::PairPlan own{plan, plan, plan.self, 0.0, plan.scene.parts().origin};
-    internal::PairQuery query(own, {motion, motion}, meter, scratch.of<internal::ScratchParts>());
+    internal::PairQuery query(own, {motion, motion}, meter, scratch.of<internal::QueryMemory>());
     if (!query.runAmongFrom(begin, {meeting.data(), meeting.size(), open.data(), open.size()},
                             step)) {
       ++refused;

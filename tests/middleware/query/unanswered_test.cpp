@@ -233,7 +233,7 @@ void ask(const Case& c, const Path& path, const internal::TriangleCuller& culler
       buildReference(c.body.avatar, c.scene, options, path.reference).value().plan();
   plan.culler = {std::shared_ptr<const void>(), &culler};  // the caller's
   const internal::Body body(plan.avatar.lss(), plan.options.ignored);
-  auto& parts = scratch.of<internal::ScratchParts>();
+  auto& parts = scratch.of<internal::QueryMemory>();
   const internal::WorkMeter meter(options);
   parts.beginStep(c.motion);
   if (plan.stepAnswerer != nullptr &&

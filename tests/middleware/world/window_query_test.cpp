@@ -35,7 +35,7 @@ Scene wall(double x) {
 }
 
 struct Asker {
-  WorldScratchParts scratch;
+  WorldMemory scratch;
   WorldContacts answer;
   void ask(const World& world, std::int64_t fromUs, std::int64_t toUs,
            const FollowedLinks* followed = nullptr) {

@@ -1,4 +1,4 @@
-// middleware/pair/scratch_parts.h: what queries keep in a Scratch. Not installed.
+// middleware/pair/query_memory.h: what queries keep in a Scratch. Not installed.
 #pragma once
 
 #include <vector>
@@ -47,7 +47,7 @@ struct PairScratch {
 };
 
 /// Memory that one thread's queries reuse.
-struct ScratchParts : ScratchPart {
+struct QueryMemory : ScratchPart {
   static constexpr ScratchKind kKind = ScratchKind::Query;
 
   std::vector<std::vector<LinkState>> nodes;  // per piece boundary, per link

@@ -1,6 +1,6 @@
-// middleware/solid_world/yielding.h: one tick of a solid avatar among bodies that move: towards its
-// target as far as they let it, out of their way where they come, and nowhere without proof. The
-// algorithm: middleware/solid_world/solid_world.md 3. Metres in W. Not installed.
+// middleware/solid_world/moving_controller.h: one tick of a solid avatar among bodies that move:
+// towards its target as far as they let it, out of their way where they come, and nowhere without
+// proof. The algorithm: middleware/solid_world/solid_world.md 3. Metres in W. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -36,10 +36,10 @@ struct Crusher {
 };
 
 /// For one thread; keeps its memory.
-class Yielding {
+class MovingController {
  public:
-  static Result<Yielding> build(const Avatar& avatar, const Scene& scene,
-                                const SolidOptions& options, PassageProver& prover);
+  static Result<MovingController> build(const Avatar& avatar, const Scene& scene,
+                                        const SolidOptions& options, PassageProver& prover);
 
   /// Moves `shown` from the tick's begin to its end. Appends the way to the tick, with the instants
   /// at which its pieces end. Whoever leaves no proven motion is appended to `crushers`, and to
@@ -57,8 +57,8 @@ class Yielding {
   void forget() { rows_.clear(); }
 
  private:
-  Yielding(const Avatar& avatar, const SolidOptions& options, NearQuery near,
-           PassageProver& prover);
+  MovingController(const Avatar& avatar, const SolidOptions& options, NearQuery near,
+                   PassageProver& prover);
   /// The run at hand.
   struct Run {
     const YieldRequest& request;
@@ -94,7 +94,7 @@ class Yielding {
   AroundRows around_;
   Scratch scratch_;
   NearFeatures features_;
-  Stance here_, there_;
+  BodyState here_, there_;
   std::vector<ContactRow> rows_;
   std::size_t numStill_ = 0;
   std::vector<double> reach_;

@@ -1,4 +1,4 @@
-#include "middleware/solid_world/yielding.h"
+#include "middleware/solid_world/moving_controller.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,23 +28,24 @@ constexpr double kComes = 1e-7;
 
 }  // namespace
 
-Result<Yielding> Yielding::build(const Avatar& avatar, const Scene& scene,
-                                 const SolidOptions& options, PassageProver& prover) {
+Result<MovingController> MovingController::build(const Avatar& avatar, const Scene& scene,
+                                                 const SolidOptions& options,
+                                                 PassageProver& prover) {
   FORETOUCH_TRY(auto near, NearQuery::build(avatar, scene, options.ignored));
-  return Yielding(avatar, options, std::move(near), prover);
+  return MovingController(avatar, options, std::move(near), prover);
 }
 
-Yielding::Yielding(const Avatar& avatar, const SolidOptions& options, NearQuery near,
-                   PassageProver& prover)
+MovingController::MovingController(const Avatar& avatar, const SolidOptions& options,
+                                   NearQuery near, PassageProver& prover)
     : options_(options),
       step_(avatar, options.visibility),
       near_(std::move(near)),
       own_(prover.certifier().plan()),
       isAsked_(countOf(avatar.numLinks()), 1) {}
 
-void Yielding::run(const YieldRequest& request, PassageProver& prover, Surroundings& around,
-                   Pose& shown, SolidTick& tick, std::vector<std::int64_t>& endsUs,
-                   std::vector<Crusher>& crushers) {
+void MovingController::run(const YieldRequest& request, PassageProver& prover, Surroundings& around,
+                           Pose& shown, SolidTick& tick, std::vector<std::int64_t>& endsUs,
+                           std::vector<Crusher>& crushers) {
   Run run{request, prover, around, shown, tick, endsUs, crushers, request.beginUs, request.endUs};
   trust_ = std::clamp(kTrustOfStep * request.trackedStep, kLeastTrust, kMostTrust);
   left_ = request.budget;
@@ -72,11 +73,11 @@ void Yielding::run(const YieldRequest& request, PassageProver& prover, Surroundi
 }
 
 /// Shows one piece, or finds who crushes the avatar.
-void Yielding::step(Run& run) {
+void MovingController::step(Run& run) {
   bestUs_ = run.atUs;
   blocker_ = nullptr;
   step_.place(run.shown, here_);
-  step_.weigh(run.request.target, run.request.wanted, run.shown, here_);
+  step_.evaluate(run.request.target, run.request.wanted, run.shown, here_);
   gather(run);
   if (propose(run) && go(run, tried_)) return;
   if (isApproached()) {
@@ -96,7 +97,7 @@ void Yielding::step(Run& run) {
 }
 
 /// The rows of what is near, and the pull of the target.
-void Yielding::gather(Run& run) {
+void MovingController::gather(Run& run) {
   rows_.clear();
   step_.aim(run.request.target, run.request.wanted, here_, run.shown);
   const double size = step_.sizeOfFree(here_);
@@ -123,7 +124,7 @@ void Yielding::gather(Run& run) {
 }
 
 /// What each row must keep, once its surface has come as far as it does.
-void Yielding::setBounds(bool mayPushBack) {
+void MovingController::setBounds(bool mayPushBack) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     ContactRow& row = rows_[i];
     row.bias = 0.0;
@@ -133,7 +134,7 @@ void Yielding::setBounds(bool mayPushBack) {
 }
 
 /// Who has to get out of the way bends as he must.
-void Yielding::letGoOfRanges() {
+void MovingController::letGoOfRanges() {
   const auto isTurn = [](const ContactRow& row) { return row.isTurn; };
   const auto still = rows_.begin() + static_cast<std::ptrdiff_t>(numStill_);
   const auto kept = std::remove_if(rows_.begin(), still, isTurn);
@@ -142,7 +143,7 @@ void Yielding::letGoOfRanges() {
 }
 
 /// A pose for the window's end that is nearer to the target, or out of the way: tried_.
-bool Yielding::propose(Run& run) {
+bool MovingController::propose(Run& run) {
   setBounds(true);
   solveAndCorrect(run);
   if (isPushed()) return true;
@@ -158,7 +159,7 @@ bool Yielding::propose(Run& run) {
 
 /// Solves for the step; what the surfaces' curvature takes of the gaps at its end, the next
 /// solution keeps away from. What still comes too near at the last one's end, the certificate cuts.
-void Yielding::solveAndCorrect(Run& run) {
+void MovingController::solveAndCorrect(Run& run) {
   step_.begin();
   for (int attempt = 0;; ++attempt) {
     run.tick.counters.rows += static_cast<std::uint32_t>(step_.solve(rows_));
@@ -169,7 +170,7 @@ void Yielding::solveAndCorrect(Run& run) {
 }
 
 /// True: nothing to correct.
-bool Yielding::correct(Run& run) {
+bool MovingController::correct(Run& run) {
   bool isKept = true;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     ContactRow& row = rows_[i];
@@ -184,7 +185,7 @@ bool Yielding::correct(Run& run) {
   return isKept;
 }
 
-double Yielding::gapThere(const Run& run, std::size_t i) const {
+double MovingController::gapThere(const Run& run, std::size_t i) const {
   const ContactRow& row = rows_[i];
   if (i >= numStill_) {
     return around_.gapAtEnd(row, around_.features()[i - numStill_], run.prover.volumes(),
@@ -198,7 +199,7 @@ double Yielding::gapThere(const Run& run, std::size_t i) const {
 }
 
 /// Something comes, and the step goes out of its way: then it may lead away from the target.
-bool Yielding::isPushed() const {
+bool MovingController::isPushed() const {
   for (std::size_t i = numStill_; i < rows_.size(); ++i) {
     if (!(rows_[i].push > 0.0)) continue;
     if (around_.features()[i - numStill_].comes > kComes || rows_[i].gap < 0.0) return true;
@@ -207,7 +208,7 @@ bool Yielding::isPushed() const {
 }
 
 /// Something near comes.
-bool Yielding::isApproached() const {
+bool MovingController::isApproached() const {
   const std::vector<AroundFeature>& features = around_.features();
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (features[i].comes > kComes || rows_[numStill_ + i].gap < 0.0) return true;
@@ -215,26 +216,26 @@ bool Yielding::isApproached() const {
   return false;
 }
 
-bool Yielding::hasPushes() const {
+bool MovingController::hasPushes() const {
   return std::any_of(rows_.begin(), rows_.end(),
                      [](const ContactRow& row) { return row.push > 0.0; });
 }
 
 /// The step, or a half of a half of it, until it is nearer to the target.
-bool Yielding::findNearer(Run& run) {
+bool MovingController::findNearer(Run& run) {
   if (step_.size(here_) < kSettled) return false;
   double share = 1.0;
   for (int halving = 0; halving <= kHalvings; ++halving, share *= 0.5) {
     step_.move(here_, run.shown, share, tried_);
     step_.place(tried_, there_);
-    step_.weigh(run.request.target, run.request.wanted, tried_, there_);
-    if (there_.merit < kFalls * here_.merit) return true;
+    step_.evaluate(run.request.target, run.request.wanted, tried_, there_);
+    if (there_.cost < kFalls * here_.cost) return true;
   }
   return false;
 }
 
 /// The whole avatar as if it were fixed to who is in its way: tried_.
-bool Yielding::ride(Run& run) {
+bool MovingController::ride(Run& run) {
   const AroundRows::Placed* const at = blocker_ == nullptr ? nullptr : around_.placed(blocker_);
   if (at == nullptr) return false;
   const JointId joint = std::max(blockedBy_, at->atBegin->kind->first);
@@ -253,7 +254,7 @@ bool Yielding::ride(Run& run) {
 }
 
 /// Asks the motion to a pose in the window at hand, and shows it if enough of it is proven.
-bool Yielding::go(Run& run, const Pose& to) {
+bool MovingController::go(Run& run, const Pose& to) {
   std::int64_t reachedUs = 0;
   const Passage passage =
       run.prover.advance({run.shown, to, run.atUs, run.untilUs}, run.around, reached_, reachedUs);
@@ -275,18 +276,18 @@ bool Yielding::go(Run& run, const Pose& to) {
   return false;
 }
 
-void Yielding::show(Run& run, const Pose& to, std::int64_t untilUs, double clearance) {
+void MovingController::show(Run& run, const Pose& to, std::int64_t untilUs, double clearance) {
   appendPiece(to, clearance, run.tick);
   run.endsUs.push_back(untilUs);
   left_ = std::max(0.0, left_ - pulled_);
   run.shown = to;
   run.atUs = untilUs;
-  run.around.refuge = run.shown;  // the proof of the motion was one of this, too
+  run.around.fallback = run.shown;  // the proof of the motion was one of this, too
 }
 
 /// Not even staying is proven: from here on, nothing is claimed of the avatar and who is in its
 /// way.
-void Yielding::beCrushed(Run& run) {
+void MovingController::beCrushed(Run& run) {
   // Whoever stays is blocked by a body alone.
   FORETOUCH_ASSERT(blocker_ != nullptr);
   run.crushers.push_back({blocker_->body, blocked_, run.atUs});

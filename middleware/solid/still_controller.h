@@ -1,6 +1,6 @@
-// middleware/solid/follower.h: one tick of a solid avatar that has its place: from the pose shown
-// before towards the target, by certified motions. The algorithm: middleware/solid/solid.md 5. Not
-// installed.
+// middleware/solid/still_controller.h: one tick of a solid avatar that has its place, where nothing
+// else moves: from the pose shown before towards the target, by certified motions. The algorithm:
+// middleware/solid/solid.md 5. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -28,10 +28,10 @@ struct FollowRequest {
 };
 
 /// For one thread; keeps its memory.
-class Follower {
+class StillController {
  public:
-  static Result<Follower> build(const Avatar& avatar, const Scene& scene,
-                                const SolidOptions& options, const Certifier& certifier);
+  static Result<StillController> build(const Avatar& avatar, const Scene& scene,
+                                       const SolidOptions& options, const Certifier& certifier);
 
   /// Moves `shown` as near to the target as it gets in this tick. Appends the way to the tick.
   void follow(const FollowRequest& request, Certifier& certifier, Pose& shown, SolidTick& tick);
@@ -52,11 +52,11 @@ class Follower {
   /// One of them pushes.
   [[nodiscard]] bool hasPushes() const;
   /// Whether links were in contact lately, so that follow() will look around them.
-  [[nodiscard]] bool isAnyHot() const;
+  [[nodiscard]] bool isAnyActive() const;
 
  private:
-  Follower(const Avatar& avatar, const SolidOptions& options, const Certifier& certifier,
-           NearQuery near);
+  StillController(const Avatar& avatar, const SolidOptions& options, const Certifier& certifier,
+                  NearQuery near);
 
   enum class Outcome : std::uint8_t { Clear, Cut, Stuck };
   [[nodiscard]] Outcome show(const FollowRequest& request, const Pose& to, Certifier& certifier,
@@ -70,7 +70,7 @@ class Follower {
   [[nodiscard]] double shareOfDirect(const FollowRequest& request, const Pose& shown);
   [[nodiscard]] bool stepFreely(const FollowRequest& request, double share, Certifier& certifier,
                                 Pose& shown, SolidTick& tick);
-  void weigh(const FollowRequest& request, const Pose& pose, Stance& stance) const;
+  void evaluate(const FollowRequest& request, const Pose& pose, BodyState& state) const;
   void standHere(const FollowRequest& request, const Pose& shown);
   void moveThere(const FollowRequest& request, double clearance, Pose& shown, SolidTick& tick);
   void moveRows(const QueryPlan& plan);
@@ -96,7 +96,7 @@ class Follower {
                              const ContactRow& row) const;
   [[nodiscard]] static double pairGapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
                                         const ContactRow& row);
-  void keepHot();
+  void keepActive();
 
   SolidOptions options_;
   Skeleton skeleton_;
@@ -107,12 +107,12 @@ class Follower {
   NearFeatures features_;
 
   // What is shown, and what may be next.
-  Stance here_, there_;
+  BodyState here_, there_;
   bool isHere_ = false;     // here_ is of the shown pose
   bool isOfTried_ = false;  // there_ is of tried_
 
   // Of the current iteration.
-  std::vector<double> reach_, hotReach_, touchReach_;
+  std::vector<double> reach_, activeReach_, touchReach_;
   std::vector<ContactRow> rows_;
   std::vector<LinkState> partStates_;
   bool areRowsOld_ = false;  // here_ was there_ when they were gathered
@@ -133,7 +133,7 @@ class Follower {
   bool isHeldBySelf_ = false;  // by wishes alone
   bool isCaught_ = false;      // has been so for long: no more wishes
   int heldTicks_ = 0;
-  std::vector<std::uint8_t> hotFor_;  // per link: ticks for which it counts as in contact
+  std::vector<std::uint8_t> activeFor_;  // per link: ticks for which it counts as in contact
 };
 
 }  // namespace foretouch::internal

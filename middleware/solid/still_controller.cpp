@@ -1,4 +1,4 @@
-#include "middleware/solid/follower.h"
+#include "middleware/solid/still_controller.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ constexpr double kEnoughOfStep = 0.2, kMostEnough = 1.5e-3;
 /// Of the step that a second solution would take, as a rule: what the first one's circles about
 /// joints so far away are off their tangents (m).
 constexpr double kLever = 0.3;
-constexpr std::uint8_t kHotTicks = 8;
+constexpr std::uint8_t kActiveTicks = 8;
 /// Of a step that the pace allows to first order: a little is left for what the path is longer.
 constexpr double kWithinPace = 0.99;
 constexpr int kDoublings = 3, kCorrections = 2;
@@ -37,35 +37,37 @@ constexpr double kSamePlane = 1.0 - 1e-6, kInPlane = 1e-4;
 
 }  // namespace
 
-Result<Follower> Follower::build(const Avatar& avatar, const Scene& scene,
-                                 const SolidOptions& options, const Certifier& certifier) {
+Result<StillController> StillController::build(const Avatar& avatar, const Scene& scene,
+                                               const SolidOptions& options,
+                                               const Certifier& certifier) {
   FORETOUCH_TRY(auto near, NearQuery::build(avatar, scene, options.ignored));
-  return Follower(avatar, options, certifier, std::move(near));
+  return StillController(avatar, options, certifier, std::move(near));
 }
 
-Follower::Follower(const Avatar& avatar, const SolidOptions& options, const Certifier& certifier,
-                   NearQuery near)
+StillController::StillController(const Avatar& avatar, const SolidOptions& options,
+                                 const Certifier& certifier, NearQuery near)
     : options_(options),
       skeleton_(avatar.skeleton()),
       step_(avatar, options.visibility),
       near_(std::move(near)),
       own_(certifier.plan()) {
-  hotFor_.assign(countOf(skeleton_.numJoints()), 0);
+  activeFor_.assign(countOf(skeleton_.numJoints()), 0);
 }
 
-void Follower::reset() {
+void StillController::reset() {
   isCaught_ = false;
   heldTicks_ = 0;
   cutClearance_ = -1.0;
-  std::fill(hotFor_.begin(), hotFor_.end(), std::uint8_t{0});
+  std::fill(activeFor_.begin(), activeFor_.end(), std::uint8_t{0});
   rows_.clear();
 }
 
-bool Follower::isAnyHot() const {
-  return std::any_of(hotFor_.begin(), hotFor_.end(), [](std::uint8_t t) { return t != 0; });
+bool StillController::isAnyActive() const {
+  return std::any_of(activeFor_.begin(), activeFor_.end(), [](std::uint8_t t) { return t != 0; });
 }
 
-bool Follower::goStraight(const Pose& target, Certifier& certifier, Pose& shown, SolidTick& tick) {
+bool StillController::goStraight(const Pose& target, Certifier& certifier, Pose& shown,
+                                 SolidTick& tick) {
   cutClearance_ = -1.0;
   if (isSamePose(shown, target)) {
     rows_.clear();
@@ -85,8 +87,8 @@ bool Follower::goStraight(const Pose& target, Certifier& certifier, Pose& shown,
   return true;
 }
 
-void Follower::follow(const FollowRequest& request, Certifier& certifier, Pose& shown,
-                      SolidTick& tick) {
+void StillController::follow(const FollowRequest& request, Certifier& certifier, Pose& shown,
+                             SolidTick& tick) {
   const double trackedStep = request.pace.trackedStep();
   trust_ = std::clamp(kTrustOfStep * trackedStep, kLeastTrust, kMostTrust);
   enough_ = std::clamp(kEnoughOfStep * trackedStep, kSettled, kMostEnough);
@@ -106,15 +108,15 @@ void Follower::follow(const FollowRequest& request, Certifier& certifier, Pose& 
     if (!iterate(request, certifier, shown, tick)) break;
   }
   if (areRowsOld_) moveRows(certifier.plan());
-  keepHot();
+  keepActive();
   // Nobody is caught by himself: wishes that hold him for long are dropped until he is free.
   heldTicks_ = isHeldBySelf_ ? heldTicks_ + 1 : 0;
-  isCaught_ = (isCaught_ || heldTicks_ > kHotTicks) && !isSamePose(shown, request.target);
+  isCaught_ = (isCaught_ || heldTicks_ > kActiveTicks) && !isSamePose(shown, request.target);
 }
 
 /// One step; false if the tick is over.
-bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose& shown,
-                       SolidTick& tick) {
+bool StillController::iterate(const FollowRequest& request, Certifier& certifier, Pose& shown,
+                              SolidTick& tick) {
   rows_.clear();
   if (isSamePose(shown, request.target)) return false;
   if (certifier.workLeft() == 0) {
@@ -122,7 +124,7 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
     return false;
   }
   standHere(request, shown);
-  if (!isAnyHot()) {
+  if (!isAnyActive()) {
     const double share = shareOfDirect(request, shown);
     if (!warmOwn(request, certifier.plan(), share)) {
       return stepFreely(request, share, certifier, shown, tick);
@@ -164,13 +166,13 @@ bool Follower::iterate(const FollowRequest& request, Certifier& certifier, Pose&
 }
 
 /// How much of the direct motion the pace allows; part_ becomes the pose there, if it is not all.
-double Follower::shareOfDirect(const FollowRequest& request, const Pose& shown) {
+double StillController::shareOfDirect(const FollowRequest& request, const Pose& shown) {
   return request.pace.shareOf(shown, request.target, part_);
 }
 
 /// Nothing holds the avatar: straight to the target, or to part_, as far as the pace allows.
-bool Follower::stepFreely(const FollowRequest& request, double share, Certifier& certifier,
-                          Pose& shown, SolidTick& tick) {
+bool StillController::stepFreely(const FollowRequest& request, double share, Certifier& certifier,
+                                 Pose& shown, SolidTick& tick) {
   const bool isWhole = share == 1.0;
   if (!isWhole) {
     tick.limit = SolidLimit::CatchUp;
@@ -183,20 +185,21 @@ bool Follower::stepFreely(const FollowRequest& request, double share, Certifier&
   return outcome == Outcome::Cut || ++fruitless_ < kMostFruitless;
 }
 
-Certified Follower::ask(const Pose& from, const Pose& to, Certifier& certifier, SolidTick& tick) {
+Certified StillController::ask(const Pose& from, const Pose& to, Certifier& certifier,
+                               SolidTick& tick) {
   const Certified answer = certifier.certify(from, to, reached_);
   if (answer.isOverBudget) tick.limit = SolidLimit::Budget;
   isOver_ = answer.isOverBudget || answer.isInside;
   if (answer.hasHit) {
-    hotFor_[slotOf(answer.hit.link)] = kHotTicks;
-    if (answer.hit.other != kNoParent) hotFor_[slotOf(answer.hit.other)] = kHotTicks;
+    activeFor_[slotOf(answer.hit.link)] = kActiveTicks;
+    if (answer.hit.other != kNoParent) activeFor_[slotOf(answer.hit.other)] = kActiveTicks;
   }
   return answer;
 }
 
 /// Certifies the motion, and shows what is proven of it, if that is nearer to the target.
-Follower::Outcome Follower::show(const FollowRequest& request, const Pose& to, Certifier& certifier,
-                                 Pose& shown, SolidTick& tick) {
+StillController::Outcome StillController::show(const FollowRequest& request, const Pose& to,
+                                               Certifier& certifier, Pose& shown, SolidTick& tick) {
   const Certified answer = ask(shown, to, certifier, tick);
   if (answer.isClear) {
     const bool isPlaced = &to == &tried_ && isOfTried_;
@@ -209,20 +212,20 @@ Follower::Outcome Follower::show(const FollowRequest& request, const Pose& to, C
   return showCut(request, answer.clearance, shown, tick) ? Outcome::Cut : Outcome::Stuck;
 }
 
-/// A piece that was cut is part of a way on which the merit falls in the end, perhaps not at once.
-bool Follower::showCut(const FollowRequest& request, double clearance, Pose& shown,
-                       SolidTick& tick) {
+/// A piece that was cut is part of a way on which the cost falls in the end, perhaps not at once.
+bool StillController::showCut(const FollowRequest& request, double clearance, Pose& shown,
+                              SolidTick& tick) {
   step_.place(reached_, there_);
-  weigh(request, reached_, there_);
+  evaluate(request, reached_, there_);
   isOfTried_ = false;
-  if (!(there_.merit < kFalls * here_.merit)) return false;
+  if (!(there_.cost < kFalls * here_.cost)) return false;
   moveThere(request, clearance, shown, tick);
   return true;
 }
 
 /// Shows what was reached, which there_ is of.
-void Follower::moveThere(const FollowRequest& request, double clearance, Pose& shown,
-                         SolidTick& tick) {
+void StillController::moveThere(const FollowRequest& request, double clearance, Pose& shown,
+                                SolidTick& tick) {
   request.pace.spend(shown, reached_, here_.places, there_.places);
   appendPiece(reached_, clearance, tick);
   std::swap(shown, reached_);
@@ -232,7 +235,7 @@ void Follower::moveThere(const FollowRequest& request, double clearance, Pose& s
 }
 
 /// Rows that push go along with their links from there_ to here_: faces stay below them.
-void Follower::moveRows(const QueryPlan& plan) {
+void StillController::moveRows(const QueryPlan& plan) {
   for (ContactRow& row : rows_) {
     if (!(row.push > 0.0) || row.isTurn) continue;
     const LinkState &from = there_.states[slotOf(row.link)], &to = here_.states[slotOf(row.link)];
@@ -251,34 +254,35 @@ void Follower::moveRows(const QueryPlan& plan) {
 }
 
 /// Makes here_ that of the shown pose, unless it is.
-void Follower::standHere(const FollowRequest& request, const Pose& shown) {
+void StillController::standHere(const FollowRequest& request, const Pose& shown) {
   if (std::exchange(isHere_, true)) return;
   step_.place(shown, here_);
-  weigh(request, shown, here_);
+  evaluate(request, shown, here_);
 }
 
-void Follower::weigh(const FollowRequest& request, const Pose& pose, Stance& stance) const {
-  step_.weigh(request.target, request.wanted, pose, stance);
+void StillController::evaluate(const FollowRequest& request, const Pose& pose,
+                               BodyState& state) const {
+  step_.evaluate(request.target, request.wanted, pose, state);
 }
 
 /// How far to look for surfaces around each link, and around those that are in contact.
-void Follower::findReach() {
-  const std::size_t n = hotFor_.size();
+void StillController::findReach() {
+  const std::size_t n = activeFor_.size();
   step_.farthestFree(here_, reach_);
-  hotReach_.resize(n);
+  activeReach_.resize(n);
   for (std::size_t link = 0; link < n; ++link) {
     reach_[link] = reachFor(reach_[link], trust_, options_.skin);
-    hotReach_[link] = hotFor_[link] != 0 ? reach_[link] : -1.0;
+    activeReach_[link] = activeFor_[link] != 0 ? reach_[link] : -1.0;
   }
 }
 
-void Follower::gather(const FollowRequest& request, Certifier& certifier, SolidTick& tick) {
+void StillController::gather(const FollowRequest& request, Certifier& certifier, SolidTick& tick) {
   findReach();
   areRowsOld_ = false;
-  near_.answer(here_.states, hotReach_, scratch_, features_);
+  near_.answer(here_.states, activeReach_, scratch_, features_);
   appendRows(features_, rows_);
   if (options_.self || !isCaught_) {
-    own_.append(certifier.plan(), {here_.states, request.states}, options_.skin, reach_, hotFor_,
+    own_.append(certifier.plan(), {here_.states, request.states}, options_.skin, reach_, activeFor_,
                 rows_);
   }
   if (!isCaught_) request.ranges.append(here_.states, trust_ / kTwistLever, rows_);
@@ -287,7 +291,7 @@ void Follower::gather(const FollowRequest& request, Certifier& certifier, SolidT
   certifier.spend(kIterationWork + kRowWork * rows_.size() + WorkMeter::workOf(features_.counters));
 }
 
-void Follower::setBounds(bool mayPush) {
+void StillController::setBounds(bool mayPush) {
   for (ContactRow& row : rows_) {
     row.bias = 0.0;
     row.bound = boundOf(row, options_.skin, mayPush);
@@ -296,8 +300,8 @@ void Follower::setBounds(bool mayPush) {
 
 /// Finds a step that brings the avatar nearer to the target and keeps the gaps that push: `tried_`.
 /// False: there is none, or none worth a motion.
-bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
-                       SolidTick& tick) {
+bool StillController::propose(const FollowRequest& request, const QueryPlan& plan,
+                              const Pose& shown, SolidTick& tick) {
   step_.begin();
   setBounds(true);
   isWhole_ = false;
@@ -321,15 +325,15 @@ bool Follower::propose(const FollowRequest& request, const QueryPlan& plan, cons
 }
 
 /// How much of the step that was solved for the trust region and the pace allow.
-double Follower::shareToTry(const FollowRequest& request) {
+double StillController::shareToTry(const FollowRequest& request) {
   const double within = kWithinPace * request.pace.shareOf(step_.moveOf(here_, request.pace));
   mostShare_ = std::min(trust_ / size_, within);
   return std::min(1.0, mostShare_);
 }
 
 /// Tries the share, and its halves, until one is nearer to the target and keeps the gaps.
-bool Follower::halve(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
-                     double& share, int halvings) {
+bool StillController::halve(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
+                            double& share, int halvings) {
   for (int halving = 0;; ++halving) {
     bool isNearer = tryShare(request, shown, share);
     const double fits = fitOf(request, shown);
@@ -345,17 +349,17 @@ bool Follower::halve(const FollowRequest& request, const QueryPlan& plan, const 
 
 /// Where the target rests, steps of this method become shorter by a constant share: twice the step
 /// is tried as long as that is nearer to the target.
-void Follower::goFarther(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
-                         double share) {
+void StillController::goFarther(const FollowRequest& request, const QueryPlan& plan,
+                                const Pose& shown, double share) {
   // Doubled steps along the ends of ranges, which curve, would make much of what is off a little.
   const auto isEnd = [](const ContactRow& row) { return row.isTurn && row.push > 0.0; };
   if (enough_ > kSettled || std::any_of(rows_.begin(), rows_.end(), isEnd)) return;
   for (int doubling = 0; doubling < kDoublings; ++doubling) {
     if (2.0 * share > mostShare_) return;
     nearer_ = tried_;
-    const double merit = there_.merit;
+    const double cost = there_.cost;
     const bool isNearer = tryShare(request, shown, 2.0 * share);
-    if (!isNearer || there_.merit >= kFalls * merit || fitOf(request, shown) < 1.0 ||
+    if (!isNearer || there_.cost >= kFalls * cost || fitOf(request, shown) < 1.0 ||
         !keepsGaps(request, plan)) {
       tried_ = nearer_;
       isOfTried_ = false;
@@ -366,33 +370,33 @@ void Follower::goFarther(const FollowRequest& request, const QueryPlan& plan, co
 }
 
 /// How much of the way to tried_ the pace allows.
-double Follower::fitOf(const FollowRequest& request, const Pose& shown) const {
+double StillController::fitOf(const FollowRequest& request, const Pose& shown) const {
   return request.pace.shareOf(request.pace.measure(shown, tried_, here_.places, there_.places));
 }
 
-void Follower::solve(SolidTick& tick) {
+void StillController::solve(SolidTick& tick) {
   tick.counters.rows += static_cast<std::uint32_t>(step_.solve(rows_));
   size_ = step_.size(here_);
 }
 
-bool Follower::tryShare(const FollowRequest& request, const Pose& shown, double share) {
+bool StillController::tryShare(const FollowRequest& request, const Pose& shown, double share) {
   ++tries_;
   step_.move(here_, shown, share, tried_);
   step_.place(tried_, there_);
-  weigh(request, tried_, there_);
+  evaluate(request, tried_, there_);
   isOfTried_ = true;
-  return there_.merit < kFalls * here_.merit;
+  return there_.cost < kFalls * here_.cost;
 }
 
 /// At the target, what pushes is apart, and so is its link from all else: perhaps nothing is in the
 /// way. Of the surface, not of the triangle alone, lest its neighbours are asked in vain.
-bool Follower::isTargetApart(const FollowRequest& request, Certifier& certifier) {
+bool StillController::isTargetApart(const FollowRequest& request, Certifier& certifier) {
   const bool areApart = std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
     return !(row.push > 0.0) || row.isSoft ||
            pairGapAt(request.states, certifier.plan(), row) > 0.0;
   });
   if (!areApart) return false;
-  touchReach_.assign(hotFor_.size(), -1.0);
+  touchReach_.assign(activeFor_.size(), -1.0);
   for (const ContactRow& row : rows_) {
     if (row.push > 0.0) touchReach_[slotOf(row.link)] = 0.0;
   }
@@ -403,8 +407,8 @@ bool Follower::isTargetApart(const FollowRequest& request, Certifier& certifier)
 }
 
 /// Of a face: of the points on the axis that its plane holds, whichever triangles it is cut into.
-double Follower::gapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
-                       const ContactRow& row) const {
+double StillController::gapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
+                              const ContactRow& row) const {
   if (!row.isFace) return pairGapAt(states, plan, row);
   const Lss& lss = plan.avatar.lss(row.link)[slotOf(row.lss)];
   const LinkState& state = states[slotOf(row.link)];
@@ -423,14 +427,14 @@ double Follower::gapAt(const std::vector<LinkState>& states, const QueryPlan& pl
   return least;
 }
 
-double Follower::pairGapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
-                           const ContactRow& row) {
+double StillController::pairGapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
+                                  const ContactRow& row) {
   const LinkId other = row.other == kNoParent ? row.link : row.other;
   return gapOf(plan, {row.link, row.lss, row.triangle, row.other, row.otherLss},
                states[slotOf(row.link)], states[slotOf(other)]);
 }
 
-bool Follower::keepsGaps(const FollowRequest& request, const QueryPlan& plan) const {
+bool StillController::keepsGaps(const FollowRequest& request, const QueryPlan& plan) const {
   return std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
     if (row.isTurn) {  // at most kSoft beyond its end, or not farther than it is
       return request.ranges.gapAt(there_.states, row) >= std::min(row.gap - kSameTurn, -kSoft);
@@ -444,7 +448,8 @@ bool Follower::keepsGaps(const FollowRequest& request, const QueryPlan& plan) co
 
 /// What the surfaces' curvature took of the gaps at the share that was tried, the next solution
 /// keeps away from.
-void Follower::correctFor(const FollowRequest& request, const QueryPlan& plan, double share) {
+void StillController::correctFor(const FollowRequest& request, const QueryPlan& plan,
+                                 double share) {
   for (ContactRow& row : rows_) {
     if (!(row.push > 0.0 || row.isTurn)) continue;
     const double aimed = row.isTurn ? 0.0 : kAimed * options_.skin - row.slack;
@@ -455,40 +460,40 @@ void Follower::correctFor(const FollowRequest& request, const QueryPlan& plan, d
   }
 }
 
-bool Follower::areAllSoft() const {
+bool StillController::areAllSoft() const {
   return std::all_of(rows_.begin(), rows_.end(),
                      [](const ContactRow& row) { return !(row.push > 0.0) || row.isSoft; });
 }
 
 /// Straight on to part_, the body would dig into itself deeper than the target does: those links
 /// are in contact. O(pairs of LSS).
-bool Follower::warmOwn(const FollowRequest& request, const QueryPlan& plan, double share) {
+bool StillController::warmOwn(const FollowRequest& request, const QueryPlan& plan, double share) {
   if (options_.self || isCaught_) return false;
   if (!(share > 0.0 && share < 1.0)) return false;  // the target is as it is
   placeLinks(skeleton_, part_, partStates_);
   const auto deeper =
       own_.findDeeper(plan, partStates_, {here_.states, request.states}, options_.skin);
   if (deeper.one == kNoParent) return false;
-  hotFor_[slotOf(deeper.one)] = hotFor_[slotOf(deeper.other)] = kHotTicks;
+  activeFor_[slotOf(deeper.one)] = activeFor_[slotOf(deeper.other)] = kActiveTicks;
   return true;
 }
 
-bool Follower::hasPushes() const {
+bool StillController::hasPushes() const {
   return std::any_of(rows_.begin(), rows_.end(),
                      [](const ContactRow& row) { return row.push > 0.0; });
 }
 
-void Follower::keepHot() {
-  for (std::uint8_t& ticks : hotFor_)
+void StillController::keepActive() {
+  for (std::uint8_t& ticks : activeFor_)
     ticks = ticks != 0 ? static_cast<std::uint8_t>(ticks - 1) : ticks;
   for (const ContactRow& row : rows_) {
     if (!(row.push > 0.0) || row.isTurn) continue;
-    hotFor_[slotOf(row.link)] = kHotTicks;
-    if (row.other != kNoParent) hotFor_[slotOf(row.other)] = kHotTicks;
+    activeFor_[slotOf(row.link)] = kActiveTicks;
+    if (row.other != kNoParent) activeFor_[slotOf(row.other)] = kActiveTicks;
   }
 }
 
-void Follower::letGo() {
+void StillController::letGo() {
   for (ContactRow& row : rows_) {
     if (row.isTurn || row.gap + row.slack > kHolds * options_.skin) row.push = 0.0;
   }
