@@ -1,8 +1,8 @@
 # What every target of the house has in common.
 
 # Everything above the kernel is compiled several sources at once: headers cost far more than what
-# includes them. The kernel is not: there each source has its own constants of a proof, under the names
-# that its note gives them. It has its headers compiled once instead.
+# includes them. Most of the kernel is not: there each source has its own constants of a proof, under
+# the names that its note gives them. It has its headers compiled once instead.
 #   foretouch_unity(<target> [batch size])
 #   foretouch_precompile(<target> [more headers])
 #   foretouch_precompiled_as(<target> <other>): takes the other's, which costs seconds to make
