@@ -13,7 +13,6 @@
 
 #include <Eigen/Core>
 
-#include "articulated/pose.h"
 #include "articulated/skeleton.h"
 #include "lss/index.h"
 #include "lss/rounding.h"

@@ -7,8 +7,8 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 
 namespace foretouch {
 

@@ -1,9 +1,8 @@
-#include "articulated/pose.h"
-
 #include <string>
 #include <utility>
 
 #include "articulated/quoted.h"
+#include "articulated/skeleton.h"
 #include "articulated/try.h"
 #include "lss/index.h"
 

@@ -6,7 +6,6 @@
 
 #include <vector>
 
-#include "articulated/pose.h"
 #include "articulated/result.h"
 #include "articulated/skeleton.h"
 

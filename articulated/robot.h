@@ -13,8 +13,8 @@
 #include <Eigen/Core>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 
 namespace foretouch {
 

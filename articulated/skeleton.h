@@ -1,7 +1,8 @@
-// articulated/skeleton.h: the tree of joints, in its authoring form and in its validated form.
-// Lengths in metres, rotations as unit quaternions (w, x, y, z). A joint's frame J sits at its
-// articulation; its parent-relative pose places J in the parent's frame (the root's: in the world
-// W). The two-form idea follows ozz-animation's raw and runtime skeletons (REFERENCES.md).
+// articulated/skeleton.h: the tree of joints, in its authoring form and in its validated form, and
+// a pose of it: the place of every joint at one instant. Lengths in metres, rotations as unit
+// quaternions (w, x, y, z). A joint's frame J sits at its articulation; its parent-relative pose
+// places J in the parent's frame (the root's: in the world W). The two-form idea follows
+// ozz-animation's raw and runtime skeletons (REFERENCES.md).
 #pragma once
 
 #include <cstdint>
@@ -90,5 +91,28 @@ class Skeleton {
 /// Appends a chain to `raw`, whose joints are named by their numbers then: its roots hang on
 /// `carrier`, a joint of `raw`, or on nothing. Returns the number of its first joint.
 JointId appendChain(const Skeleton& chain, JointId carrier, RawSkeleton& raw);
+
+/// A frame in another one.
+struct RigidPose {
+  Quaternion rotation = Quaternion::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< Metres.
+};
+
+/// Parent-relative pose of every joint of one Skeleton, in its order (roots: in the world W).
+/// `rotations[j]` replaces the rest rotation, `translations[j]` (metres) replaces the rest offset.
+struct Pose {
+  std::vector<Quaternion> rotations;
+  std::vector<Eigen::Vector3d> translations;
+};
+
+/// The pose in which every joint has its rest values.
+[[nodiscard]] Pose restPose(const Skeleton& skeleton);
+
+/// Checks a pose against its skeleton (joint count, finite values, |translation| <= kMaxCoordinate,
+/// quaternion norms within kMaxQuaternionNormError) and renormalises its rotations.
+/// Error::index is the offending joint.
+[[nodiscard]] Result<Pose> validatedPose(const Skeleton& skeleton, Pose pose);
+/// The same check and renormalisation in place, without a copy; `pose` is unchanged on error.
+Result<Done> validate(const Skeleton& skeleton, Pose& pose);
 
 }  // namespace foretouch

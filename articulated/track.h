@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "articulated/motion.h"
-#include "articulated/pose.h"
 #include "articulated/result.h"
 #include "articulated/skeleton.h"
 

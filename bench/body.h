@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 
 namespace foretouch::tools {
 

@@ -4,7 +4,7 @@
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
-#include "assets/bvh/bvh_avatar.h"
+#include "assets/bvh/bvh_reader.h"
 #include "lss/index.h"
 #include "tools/console.h"
 #include "tools/inputs/example_folder.h"

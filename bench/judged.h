@@ -4,12 +4,11 @@
 #include <array>
 #include <vector>
 
-#include "articulated/pose.h"
 #include "articulated/skeleton.h"
 #include "judge/motion.h"
 #include "judge/vector.h"
 #include "lss/index.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch::tools {
 

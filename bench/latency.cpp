@@ -7,7 +7,7 @@
 
 #include "articulated/try.h"
 #include "bench/machine.h"
-#include "middleware/counter_fields.h"
+#include "middleware/query_counters.h"
 
 namespace foretouch::tools {
 namespace {

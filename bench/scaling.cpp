@@ -10,7 +10,7 @@
 #include "bench/machine.h"
 #include "bench/pool.h"
 #include "lss/index.h"
-#include "middleware/counter_fields.h"
+#include "middleware/query_counters.h"
 
 namespace foretouch::tools {
 namespace {

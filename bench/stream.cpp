@@ -20,7 +20,7 @@
 #include "bench/soak_trouble.h"
 #include "bench/timing.h"
 #include "lss/index.h"
-#include "network/wire/reject.h"
+#include "network/wire/messages.h"
 #include "tools/stream/clip_sender.h"
 
 namespace foretouch::tools {

@@ -20,7 +20,7 @@
 #include "bench/stream_load.h"
 #include "bench/timing.h"
 #include "network/stream/bound_stream.h"
-#include "network/wire/reject.h"
+#include "network/wire/messages.h"
 
 namespace foretouch::tools {
 namespace {

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "articulated/pose.h"
 #include "articulated/skeleton.h"
 
 namespace foretouch::examples {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 #include "examples/mesh_builder.h"
 
 namespace foretouch::examples {

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 
-#include "articulated/pose.h"
 #include "articulated/skeleton.h"
 
 namespace foretouch::examples {

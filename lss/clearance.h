@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "lss/hull.h"
+#include "lss/separation.h"
 
 namespace foretouch {
 

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include "lss/lss.h"
-#include "lss/triangle.h"
 
 namespace foretouch {
 

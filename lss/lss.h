@@ -1,13 +1,27 @@
-// lss/lss.h: the line-swept sphere (LSS), the volume that bounds a link.
-// Lengths in metres. Readers from elsewhere call it a capsule.
-// Source: [Redon04] for LSS as the bounding volume of an avatar's links (REFERENCES.md).
+// lss/lss.h: the line-swept sphere (LSS), the volume that bounds a link, and the two-sided triangle
+// of a scene or of a link's surface. Lengths in metres. Readers from elsewhere call an LSS a
+// capsule. Source: [Redon04] for LSS as the bounding volume of an avatar's links (REFERENCES.md).
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 #include <Eigen/Core>
 
 namespace foretouch {
+
+/// The closed convex hull of three points. Zero area (a segment or a point) is legal.
+/// Two-sided: the order of the vertices carries no meaning.
+struct Triangle {
+  std::array<Eigen::Vector3d, 3> vertices;
+};
+
+/// True if it has no NaN and no infinity.
+[[nodiscard]] inline bool isFinite(const Triangle& triangle) {
+  return std::all_of(triangle.vertices.begin(), triangle.vertices.end(),
+                     [](const Eigen::Vector3d& v) { return v.allFinite(); });
+}
 
 /// All points within `radius` of the segment from `a` to `b` (the axis).
 /// A zero-length axis is legal and means a sphere; a zero radius is legal and means a segment.

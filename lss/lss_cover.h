@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "lss/lss.h"
-#include "lss/triangle.h"
 
 namespace foretouch {
 

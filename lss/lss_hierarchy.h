@@ -10,7 +10,6 @@
 
 #include "lss/index.h"
 #include "lss/lss.h"
-#include "lss/triangle.h"
 
 namespace foretouch {
 

@@ -1,6 +1,7 @@
-// lss/separation.h: proven bounds on the distance of two hulls, rounding included. A plane between
-// two convex sets bounds their distance from below, a pair of points from above, and neither relies
-// on the closest-point solver, which only proposes. Proof: docs/guarantees.md 3.
+// lss/separation.h: the convex hull of two or three points (an LSS's axis, or a triangle), and
+// proven bounds on the distance of two hulls, rounding included. A plane between two convex sets
+// bounds their distance from below, a pair of points from above, and neither relies on the
+// closest-point solver, which only proposes. Metres. Proof: docs/guarantees.md 3.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +9,22 @@
 
 #include <Eigen/Core>
 
-#include "lss/hull.h"
+#include "lss/lss.h"
 #include "lss/rounding.h"
 
 namespace foretouch {
+
+/// Points that coincide are legal: a segment without length is a point.
+struct Hull {
+  std::array<Eigen::Vector3d, 3> points;  ///< The first `count` mean something.
+  int count = 2;                          ///< 2 or 3.
+
+  [[nodiscard]] static Hull segment(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return {{a, b, b}, 2};
+  }
+  [[nodiscard]] static Hull of(const Triangle& triangle) { return {triangle.vertices, 3}; }
+  [[nodiscard]] Triangle triangle() const { return {points}; }
+};
 
 /// Rounding of the plane's and the witnesses' arithmetic, relative to the sum of the extents
 /// involved (docs/guarantees.md 3). Doubling it loses accuracy near 1e-14 m per metre; halving it

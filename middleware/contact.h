@@ -12,7 +12,7 @@
 #include "articulated/skeleton.h"
 #include "middleware/exact/feature.h"
 #include "middleware/query_counters.h"
-#include "middleware/scene/triangle_id.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch {
 

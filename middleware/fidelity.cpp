@@ -1,4 +1,4 @@
-#include "middleware/fidelity.h"
+#include "middleware/query_options.h"
 
 namespace foretouch {
 

@@ -1,11 +1,10 @@
-#include "middleware/object_policies.h"
-
 #include <algorithm>
 #include <string>
 #include <utility>
 
 #include "articulated/try.h"
 #include "lss/index.h"
+#include "middleware/query_options.h"
 
 namespace foretouch {
 namespace {

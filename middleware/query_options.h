@@ -1,19 +1,40 @@
-// middleware/query_options.h: what a query can answer, and how.
+// middleware/query_options.h: what a query can answer, and how: fidelity, tolerance, what is
+// ignored; settings for a link with an object, or for many of both, resolved to these; and how much
+// work a time limit is. A budget counts evaluations in lanes, so the wall clock decides no verdict
+// and a replay repeats every one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "articulated/pair_rules.h"
+#include "articulated/result.h"
 #include "articulated/skeleton.h"
-#include "middleware/fidelity.h"
-#include "middleware/scene/triangle_id.h"
+#include "middleware/scene/scene.h"
 #include "middleware/surface/avatar_surface.h"
-#include "middleware/surface/skinned_surface.h"
 
 namespace foretouch {
+
+/// What counts as a link's surface. Clear at Link implies no contact at Exact, and Link never
+/// reports a contact later than Exact does.
+enum class Fidelity : std::uint8_t {
+  Link,     ///< Its LSS.
+  Exact,    ///< The triangles of its mesh, and LSS that contain no triangle. A subset of Link's
+            ///< contacts, never earlier.
+  Skinned,  ///< The triangles of a skin, whose vertices follow a blend of several links; a link
+            ///< without triangles keeps its LSS.
+};
+
+/// "link", "exact", "skinned".
+[[nodiscard]] const char* toString(Fidelity fidelity);
+
+/// Of "limb", "avatar" and "ellipsoid", volumes around several links that older versions had: that
+/// they are gone, why, and what to use instead. Empty for any other name.
+[[nodiscard]] std::string whyFidelityIsGone(const std::string& name);
 
 /// Which contacts of a step the query reports.
 enum class Scope : std::uint8_t {
@@ -85,5 +106,47 @@ struct QueryOptions {
   /// machine and its load.
   double deadlineUs = std::numeric_limits<double>::infinity();
 };
+
+/// Microseconds per evaluation of a pair in lanes, or as much other work: about its time on a 2.x
+/// GHz server core. On other machines a budget takes more or less time, but the same work.
+inline constexpr double kEvaluationUs = 0.01;
+
+/// QueryOptions::workBudget of a step that may take about `budgetUs`; at least 1.
+/// Precondition: budgetUs > 0 and finite.
+[[nodiscard]] inline std::uint64_t workBudget(double budgetUs) {
+  constexpr double kMost = 1e15;  // beyond any query; a whole number as a double
+  const double work = budgetUs / kEvaluationUs;
+  if (!(work > 1.0)) return 1;
+  return static_cast<std::uint64_t>(work < kMost ? work : kMost);
+}
+
+/// What it leaves out stays as it was.
+struct ObjectPolicy {
+  std::vector<LinkId> links;         ///< None: every link.
+  std::vector<ObjectId> objects;     ///< None: every object.
+  std::optional<double> tolerance;   ///< Metres, kMinTolerance to kMaxTolerance.
+  std::optional<Fidelity> fidelity;  ///< Link or Exact; only without objects.
+  std::optional<bool> ignore;        ///< False: no longer ignored.
+};
+
+/// More than all pairs of a body of a hundred links and a scene of ten thousand objects.
+inline constexpr std::size_t kMaxResolvedPairs = std::size_t{1} << 20;
+
+/// Applies the policies in order, later ones over earlier ones and all of them over the options.
+/// Fills the options' ignored pairs, in as few as possible. If any policy sets a tolerance or
+/// fidelity:
+///   - A link's tolerance is the least of its tolerances for the objects that it does not ignore,
+///     so a contact with any of them is within that object's tolerance.
+///   - The options' own tolerance becomes the largest of the links', and their fidelity Exact if
+///     any link's is, else Link. Links that are ignored altogether do not count.
+///   - The options get link policies only if links differ.
+/// Errors: a tolerance or an ignored pair of the options out of range; and, with the policy's place
+/// in the list as index: a link or an object that is not there, a
+/// tolerance out of range, a fidelity other than Link and Exact or beside objects, a tolerance or
+/// fidelity while the options' fidelity is neither Link nor Exact or while they have link policies,
+/// more than kMaxResolvedPairs pairs. O(policies * links * objects).
+[[nodiscard]] Result<Done> applyObjectPolicies(const std::vector<ObjectPolicy>& policies,
+                                               std::int32_t numLinks, std::int32_t numObjects,
+                                               QueryOptions& options);
 
 }  // namespace foretouch

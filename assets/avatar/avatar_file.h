@@ -1,5 +1,6 @@
-// assets/avatar/avatar_file.h: avatars as JSON files, format "foretouch-avatar" version 1
-// (docs/formats.md). Lengths in metres, quaternions (w, x, y, z).
+// assets/avatar/avatar_file.h: avatars as JSON files, format "foretouch-avatar" version 1, and pair
+// rules, format "foretouch-pairs" version 1 (docs/formats.md). Links by name; lengths in metres,
+// quaternions (w, x, y, z).
 #pragma once
 
 #include <cstddef>
@@ -7,6 +8,7 @@
 #include <string_view>
 
 #include "articulated/avatar.h"
+#include "articulated/pair_rules.h"
 #include "articulated/result.h"
 
 namespace foretouch {
@@ -28,5 +30,26 @@ inline constexpr std::size_t kMaxAvatarFileBytes = 64u << 20;
 
 /// Writes a temporary file and renames it into place: never half a file.
 [[nodiscard]] Result<Done> writeAvatarFile(const Avatar& avatar, const std::string& path);
+
+/// Largest file of pair rules, in bytes.
+inline constexpr std::size_t kMaxPairsFileBytes = 64u << 20;
+
+/// Reads the rules of an avatar. Refuses unknown and repeated keys, wrong types, names that are no
+/// link with LSS of this avatar, pairs listed twice, reasons that this avatar disproves (links that
+/// are not adjacent, LSS that do not overlap at rest), radii that do not fit its LSS, and rules
+/// that leave no pair to ask. Errors name line, pair and expectation.
+[[nodiscard]] Result<PairRules> readPairsFile(const std::string& path, const Avatar& avatar);
+
+/// The same for text in memory; errors name `name` as the file. Safe on hostile input.
+[[nodiscard]] Result<PairRules> parsePairs(std::string_view json, const std::string& name,
+                                           const Avatar& avatar);
+
+/// The text of a file: parsePairs() of it gives the same rules, bit for bit, but for pairs of links
+/// without LSS, which nobody asks and the text leaves out. Precondition: rules of this avatar.
+[[nodiscard]] std::string formatPairs(const PairRules& rules, const Avatar& avatar);
+
+/// Writes a temporary file and renames it into place: never half a file.
+[[nodiscard]] Result<Done> writePairsFile(const PairRules& rules, const Avatar& avatar,
+                                          const std::string& path);
 
 }  // namespace foretouch

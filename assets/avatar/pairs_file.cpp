@@ -1,5 +1,3 @@
-#include "assets/avatar/pairs_file.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "assets/avatar/avatar_file.h"
 #include "assets/avatar/marked_sax.h"
 #include "assets/json_writer.h"
 #include "assets/near_names.h"

@@ -1,5 +1,3 @@
-#include "assets/bvh/bvh_avatar.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "assets/bvh/bvh_reader.h"
 #include "assets/bvh/bvh_roles.h"
 #include "lss/index.h"
 

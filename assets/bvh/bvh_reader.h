@@ -1,18 +1,35 @@
-// assets/bvh/bvh_reader.h: BVH mocap files, with the quirks found in the wild, in bounded memory.
-// BVH has no specification; docs/formats.md lists what the reader accepts, tolerates with a note,
-// and refuses. Rotation channels compose in file order (Z X Y means Rz*Rx*Ry); position channels
+// assets/bvh/bvh_reader.h: BVH mocap files, with the quirks found in the wild, in bounded memory;
+// an avatar made from a clip's skeleton, one LSS per bone; a person's height, head and feet. BVH
+// has no specification; docs/formats.md lists what the reader accepts, tolerates with a note, and
+// refuses. Rotation channels compose in file order (Z X Y means Rz*Rx*Ry); position channels
 // replace the joint's OFFSET; angles are degrees in the file.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "articulated/avatar.h"
 #include "articulated/clip.h"
 #include "articulated/result.h"
-#include "assets/bvh/bvh_limits.h"
+#include "articulated/skeleton.h"
 
 namespace foretouch {
+
+/// Limits beyond which the reader refuses a file, before it allocates memory for it.
+inline constexpr std::size_t kMaxBvhFileBytes = std::size_t{1} << 30;
+/// Frames x channels. A joint counts as at least three channels, since it has a pose in every
+/// frame.
+inline constexpr std::size_t kMaxBvhValues = std::size_t{1} << 26;
+inline constexpr std::size_t kMaxBvhToken = 4096;  ///< bytes of one word
+/// Degrees; 2777 turns. Unwrapped angles grow beyond 360, but at this one degrees still resolve
+/// 1e-10.
+inline constexpr double kMaxBvhAngleDeg = 1e6;
+/// Seconds between frames: from a microsecond, the unit of times, to an hour.
+inline constexpr double kMinFrameTimeS = 1e-6;
+inline constexpr double kMaxFrameTimeS = 3600.0;
 
 struct BvhOptions {
   double scale = 1.0;  ///< Metres per file unit: 0.01 for centimetres, 0.0254 for inches. > 0.
@@ -25,5 +42,27 @@ struct BvhOptions {
 /// The same for text in memory; errors name `name` as the file. Safe on hostile input.
 [[nodiscard]] Result<Clip> parseBvh(std::string_view text, const std::string& name,
                                     const BvhOptions& options = {});
+
+/// From the length of the legs, hip to ankle, at rest (metres); so it is the same in every pose.
+/// Nothing if the joints' names show no legs with knees and ankles: not a person, or one with joint
+/// names that docs/formats.md does not list.
+[[nodiscard]] std::optional<double> statureOf(const Skeleton& skeleton);
+
+/// By the joints' names.
+struct HeadAndFeet {
+  JointId head = kNoParent;   ///< kNoParent: no joint is called so.
+  std::vector<JointId> feet;  ///< Ankles.
+};
+[[nodiscard]] HeadAndFeet headAndFeetOf(const Skeleton& skeleton);
+
+struct BvhAvatarOptions {
+  double radiusScale = 1.0;  ///< Multiplies every radius. Finite, > 0.
+};
+
+/// One LSS per bone (a joint to each of its child joints and End Sites), in the parent joint's
+/// link, with a radius from the bone's length and its role (from the joint's name). Zero-length
+/// bones and pure connector bones get none if another LSS still covers the link. The rules and
+/// their anthropometric source are in docs/formats.md.
+[[nodiscard]] Result<Avatar> avatarFromClip(const Clip& clip, const BvhAvatarOptions& options = {});
 
 }  // namespace foretouch

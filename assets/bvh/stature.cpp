@@ -1,7 +1,6 @@
-#include "assets/bvh/stature.h"
-
 #include <vector>
 
+#include "assets/bvh/bvh_reader.h"
 #include "assets/bvh/bvh_roles.h"
 #include "lss/index.h"
 

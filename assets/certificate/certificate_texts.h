@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch {

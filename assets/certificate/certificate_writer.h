@@ -1,8 +1,10 @@
 // assets/certificate/certificate_writer.h: planes and spans that show that a link touches nothing
-// (docs/certificates.md). Slow, and apart from the kernel: it takes the kernel's answer and looks
-// for a proof of it that foretouch-verify, which shares no code with either, can check.
+// (docs/certificates.md), of steps and of edges of a robot. Slow, and apart from the kernel: it
+// takes the kernel's answer and looks for a proof of it that foretouch-verify, which shares no code
+// with either, can check.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,7 +15,9 @@
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
 #include "articulated/pair_rules.h"
-#include "articulated/pose.h"
+#include "articulated/result.h"
+#include "articulated/skeleton.h"
+#include "middleware/edges/edge_query.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/scene.h"
 
@@ -89,5 +93,25 @@ class CertificateWriter {
   std::vector<ChainMotion::JointBounds> joints_;  // the most of all parts
   CertificateCounts counts_;
 };
+
+/// What foretouch-verify reads, and what was found.
+struct EdgeCertificate {
+  std::string scene, avatar, edges, proof;  ///< Texts of its four files.
+  std::vector<EdgeAnswer> answers;          ///< Of each edge.
+  std::vector<bool> isProven;  ///< Of each edge. Not of a clear one if it comes so near to
+                               ///< something that no proof was found.
+  CertificateCounts counts;    ///< `unproven` counts edges.
+};
+
+/// `count` edges: q0 and q1 each hold `count` configurations one after the other. The same texts on
+/// every machine that answers alike. Errors: as EdgeQuery::answer() (Error::index is the edge); no
+/// edge; props, which are not of the one scene that a certificate is about; pair rules with radii
+/// of their own.
+[[nodiscard]] Result<EdgeCertificate> certifyEdges(const EdgeQuery& edges, const double* q0,
+                                                   const double* q1, std::size_t count);
+
+/// Writes scene.obj, avatar.json, edges.txt and certificate.txt; makes the folder.
+[[nodiscard]] Result<Done> writeEdgeCertificate(const EdgeCertificate& certificate,
+                                                const std::string& folder);
 
 }  // namespace foretouch

@@ -1,5 +1,3 @@
-#include "assets/certificate/edge_certificate.h"
-
 #include <cstdint>
 #include <utility>
 
@@ -8,6 +6,7 @@
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "assets/certificate/certificate_texts.h"
+#include "assets/certificate/certificate_writer.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
 

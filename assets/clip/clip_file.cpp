@@ -9,7 +9,7 @@
 #include "articulated/try.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/import/model_import.h"
-#include "assets/model/model_clip.h"
+#include "assets/model/model_avatar.h"
 #include "assets/text_file.h"
 
 namespace foretouch {

@@ -9,7 +9,7 @@
 
 #include "articulated/clip.h"
 #include "articulated/result.h"
-#include "assets/import/imported_scene.h"
+#include "assets/import/scene_import.h"
 
 namespace foretouch {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 
 namespace foretouch {
 

@@ -13,7 +13,7 @@
 #include "assets/import/gltf_json.h"
 #include "assets/import/text.h"
 #include "lss/index.h"
-#include "middleware/scene/raw_scene.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
 namespace {

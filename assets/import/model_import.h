@@ -1,7 +1,8 @@
 // assets/import/model_import.h: rigged models from files: glTF, every other format with bones or
-// nodes that assimp reads, URDF, and MJCF where libmujoco is. Reads them in the same child process,
-// under the same limits, as scenes (assets/import/scene_import.h), and checks its output like any
-// other untrusted data.
+// nodes that assimp reads, URDF, and MJCF where libmujoco is; and a robot from its URDF or MJCF,
+// with links as LSS around their collision geometry. Reads them in the same child process, under
+// the same limits, as scenes (assets/import/scene_import.h), and checks its output like any other
+// untrusted data.
 #pragma once
 
 #include <string>
@@ -10,6 +11,7 @@
 #include "articulated/result.h"
 #include "assets/import/scene_import.h"
 #include "assets/model/model.h"
+#include "assets/model/model_avatar.h"
 
 namespace foretouch {
 
@@ -36,5 +38,21 @@ struct ModelImportOptions {
 /// file, never leaves a child process behind.
 [[nodiscard]] Result<Model> importModel(const std::string& path,
                                         const ModelImportOptions& options = {});
+
+struct RobotImportOptions {
+  /// `isRobot` is set. Without `import.up`, W is the frame of the URDF's root link,
+  /// or MuJoCo's world.
+  ModelImportOptions reading;
+  ModelAvatarOptions making;
+};
+
+struct ImportedRobot {
+  ModelRobot made;
+  std::vector<std::string> notes;  ///< As Model::notes.
+};
+
+/// Errors: as importModel() with `isRobot`, and robotFromModel(), with the file's name.
+[[nodiscard]] Result<ImportedRobot> importRobot(const std::string& path,
+                                                const RobotImportOptions& options = {});
 
 }  // namespace foretouch

@@ -1,6 +1,6 @@
 #include "assets/import/model_records.h"
 #include "assets/import/model_stream.h"
-#include "middleware/scene/raw_scene.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
 namespace {

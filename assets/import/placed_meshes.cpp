@@ -2,7 +2,7 @@
 
 #include "assets/import/failure.h"
 #include "assets/import/text.h"
-#include "middleware/scene/raw_scene.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
 

@@ -1,8 +1,7 @@
-#include "assets/import/robot_import.h"
-
 #include <utility>
 
 #include "articulated/try.h"
+#include "assets/import/model_import.h"
 
 namespace foretouch {
 

@@ -16,8 +16,8 @@
 #include <unistd.h>
 
 #include "articulated/try.h"
-#include "assets/import/packaged_importer.h"
 #include "assets/import/process.h"
+#include "assets/import/scene_import.h"
 #include "assets/import/text.h"
 #include "assets/import/usable_memory.h"
 

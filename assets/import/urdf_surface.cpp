@@ -9,7 +9,7 @@
 #include "assets/import/side_files.h"
 #include "assets/import/text.h"
 #include "lss/index.h"
-#include "middleware/scene/raw_scene.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
 namespace {

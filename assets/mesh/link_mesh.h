@@ -10,7 +10,7 @@
 #include "articulated/avatar.h"
 #include "articulated/result.h"
 #include "assets/import/model_import.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch {
 

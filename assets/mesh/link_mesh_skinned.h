@@ -6,7 +6,7 @@
 
 #include "articulated/result.h"
 #include "assets/model/model.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch::internal {
 

@@ -10,12 +10,11 @@
 
 #include "articulated/robot.h"
 #include "articulated/try.h"
-#include "assets/bvh/bvh_limits.h"
+#include "assets/bvh/bvh_reader.h"
 #include "assets/model/joint_table.h"
-#include "assets/model/model_clip.h"
+#include "assets/model/model_avatar.h"
 #include "assets/model/model_links.h"
 #include "assets/model/model_ownership.h"
-#include "assets/model/model_robot.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
 

@@ -1,20 +1,25 @@
 // assets/model/model_avatar.h: a rigged model as an avatar: bones become links, every triangle goes
-// to one link, and each link gets LSS that contain its triangles. Metres.
+// to one link, and each link gets LSS that contain its triangles; its animations, or a robot's
+// joint positions, as clips; and one with joints (a URDF's) as a robot that moves by joint
+// coordinates. Metres, radians.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "articulated/avatar.h"
+#include "articulated/clip.h"
 #include "articulated/result.h"
+#include "articulated/robot.h"
 #include "articulated/skin.h"
 #include "assets/model/model.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch {
 
@@ -54,4 +59,49 @@ struct ModelAvatar {
 [[nodiscard]] Result<ModelAvatar> avatarFromModel(const Model& model,
                                                   const ModelAvatarOptions& options = {});
 
+struct ModelClipOptions {
+  std::string animation;  ///< By name; empty: the first. Also its number, counted from 0.
+  double rateHz = 30.0;   ///< Samples of the animation per second.
+};
+
+/// The animation sampled at a fixed rate, on a skeleton with the joints that avatarFromModel()
+/// makes of the same model (names, order, frames), so that it drives that avatar directly. Error if
+/// the model has no animation of that name.
+[[nodiscard]] Result<Clip> clipFromModel(const Model& model, const ModelClipOptions& options = {});
+
+/// Joint positions as a clip of the robot `model` (a URDF's). CSV text: a header `time` (seconds)
+/// and joint names, then one row per instant, equally spaced; radians or metres. From each row to
+/// the next the robot moves as EdgeQuery moves it: where a joint turns too far for the shorter arc,
+/// poses are put in between (Clip::framesPerRow). Joints that the table does not name stay at zero,
+/// or follow the one that they mimic; notes positions outside a joint's limits. Errors name `name`
+/// as the file. Safe on hostile text.
+[[nodiscard]] Result<Clip> clipFromJointPositions(const Model& model, std::string_view csv,
+                                                  const std::string& name);
+
+/// Poses at `samples` configurations of the robot `model`, drawn within its limits
+/// (Robot::sampledPoses()), as a clip whose frames have no order. All its joints are named.
+[[nodiscard]] Result<Clip> clipFromSampledJoints(const Model& model, std::int32_t samples,
+                                                 std::uint64_t seed);
+
+struct ModelRobot {
+  Robot robot;
+  std::vector<std::vector<Triangle>> surface;  ///< As ModelAvatar::surface; the LSS contain it.
+  ModelAvatarReport report;
+};
+
+/// Links and LSS as of avatarFromModel(); a coordinate has the name of the file's joint, and its
+/// limits. Errors: as avatarFromModel() and Robot::build(), a node without a joint (a floating one)
+/// below another one, and triangles that are not finite.
+[[nodiscard]] Result<ModelRobot> robotFromModel(const Model& model,
+                                                const ModelAvatarOptions& options = {});
+
+namespace internal {
+
+/// The joints of a model's links, link by link, with those that follow others. One that is free
+/// counts as fixed. `linkOfNode`: kNoParent, where a node is no link.
+[[nodiscard]] std::vector<RobotJoint> robotJoints(const Model& model,
+                                                  const std::vector<LinkId>& linkOfNode,
+                                                  std::size_t numLinks);
+
+}  // namespace internal
 }  // namespace foretouch

@@ -1,5 +1,3 @@
-#include "assets/model/model_clip.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,6 +6,7 @@
 #include "articulated/try.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/model/chord_error.h"
+#include "assets/model/model_avatar.h"
 #include "assets/model/model_frames.h"
 #include "assets/model/model_tracks.h"
 #include "assets/model/pose_frames.h"

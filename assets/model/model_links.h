@@ -14,7 +14,6 @@
 
 #include <Eigen/Core>
 
-#include "articulated/pose.h"
 #include "articulated/result.h"
 #include "articulated/skeleton.h"
 #include "assets/model/model.h"

@@ -1,11 +1,10 @@
-#include "assets/model/model_robot.h"
-
 #include <cstdint>
 #include <string>
 #include <utility>
 
 #include "articulated/quoted.h"
 #include "articulated/try.h"
+#include "assets/model/model_avatar.h"
 #include "lss/index.h"
 
 namespace foretouch {

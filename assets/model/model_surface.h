@@ -9,7 +9,7 @@
 #include "assets/model/model.h"
 #include "assets/model/model_links.h"
 #include "assets/model/model_ownership.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch::internal {
 

@@ -10,10 +10,8 @@
 
 #include <Eigen/Core>
 
-#include "articulated/pose.h"
 #include "articulated/skeleton.h"
 #include "lss/lss.h"
-#include "lss/triangle.h"
 #include "middleware/scene/scene.h"
 #include "tools/portable_random.h"
 

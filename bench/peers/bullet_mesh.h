@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "bench/peers/rigid_sweep.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch::tools {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch::tools {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/peers/sweep_solver.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch::tools {
 

@@ -9,7 +9,7 @@
 #include "bench/peers/hand_follower.h"
 #include "bench/peers/moving_pairs.h"
 #include "bench/peers/sweep_solver.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch::tools {
 

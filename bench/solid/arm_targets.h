@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "lss/index.h"
 #include "tools/portable_random.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/peers/hand_follower.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch::tools {
 

@@ -7,7 +7,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/pair_rules.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "bench/judged.h"
 #include "judge/way_judge.h"
 #include "lss/index.h"

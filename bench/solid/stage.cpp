@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "articulated/try.h"
-#include "assets/bvh/bvh_avatar.h"
+#include "assets/bvh/bvh_reader.h"
 #include "assets/import/scene_import.h"
 #include "bench/judged.h"
 #include "lss/index.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "bench/trade/nearest_tree.h"
 
 namespace foretouch::tools {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "bench/judged.h"
 #include "judge/world_judge.h"
 #include "lss/index.h"

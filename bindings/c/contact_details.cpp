@@ -1,11 +1,10 @@
 // bindings/c/contact_details.cpp: more about one contact of a query's last step.
-#include "middleware/query/contact_details.h"
-
 #include <cstddef>
 
 #include "bindings/c/last_step.h"
 #include "bindings/c/sized_struct.h"
 #include "lss/index.h"
+#include "middleware/query/query.h"
 
 namespace foretouch::c {
 namespace {

@@ -11,7 +11,7 @@
 #include "articulated/clip.h"
 #include "articulated/motion.h"
 #include "articulated/pair_rules.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "assets/avatar/joint_match.h"
 #include "bindings/c/status.h"
 #include "middleware/near/near_features.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "articulated/try.h"
-#include "assets/avatar/pairs_file.h"
+#include "assets/avatar/avatar_file.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/robot_handle.h"
 #include "bindings/c/sized_struct.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lss/index.h"
-#include "middleware/object_policies.h"
+#include "middleware/query_options.h"
 
 namespace foretouch::c {
 namespace {

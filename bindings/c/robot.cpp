@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "articulated/try.h"
-#include "assets/import/robot_import.h"
+#include "assets/import/model_import.h"
 #include "bindings/c/import_options.h"
 #include "bindings/c/robot_handle.h"
 #include "bindings/c/sized_struct.h"

@@ -7,7 +7,7 @@
 #include "bindings/c/sized_struct.h"
 #include "bindings/c/world_handle.h"
 #include "lss/index.h"
-#include "middleware/triggers/trigger_volume.h"
+#include "middleware/triggers/triggers.h"
 
 namespace foretouch::c {
 namespace {

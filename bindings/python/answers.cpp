@@ -7,7 +7,7 @@
 
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
-#include "middleware/counter_fields.h"
+#include "middleware/query_counters.h"
 
 namespace foretouch::python {
 namespace {

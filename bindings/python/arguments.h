@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 
 #include "articulated/avatar.h"
-#include "assets/import/imported_scene.h"
+#include "assets/import/scene_import.h"
 #include "assets/near_names.h"
 #include "bindings/python/errors.h"
 #include "bindings/python/shown.h"

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "assets/avatar/avatar_file.h"
-#include "assets/bvh/bvh_avatar.h"
 #include "assets/bvh/bvh_reader.h"
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"

@@ -1,11 +1,10 @@
 // bindings/python/contact_details.cpp: Contact.details().
-#include "middleware/query/contact_details.h"
-
 #include <algorithm>
 
 #include "bindings/python/answers.h"
 #include "bindings/python/arguments.h"
 #include "bindings/python/poses.h"
+#include "middleware/query/query.h"
 
 namespace foretouch::python {
 namespace {

@@ -9,7 +9,7 @@
 #include "bindings/python/world.h"
 #include "lss/index.h"
 #include "middleware/events/world_follower.h"
-#include "middleware/mechanics/avatar_mass.h"
+#include "middleware/mechanics/mass.h"
 #include "middleware/worker_pool.h"
 
 namespace foretouch::python {

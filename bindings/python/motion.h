@@ -7,7 +7,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 
 namespace foretouch::python {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "assets/avatar/pairs_file.h"
+#include "assets/avatar/avatar_file.h"
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
 #include "bindings/python/poses.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "bindings/python/arguments.h"
 
 namespace foretouch::python {

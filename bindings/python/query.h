@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "bindings/python/answers.h"
 #include "bindings/python/instants.h"
 #include "bindings/python/motion.h"

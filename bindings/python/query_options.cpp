@@ -7,7 +7,7 @@
 #include "bindings/python/pair_rules.h"
 #include "bindings/python/surface.h"
 #include "lss/index.h"
-#include "middleware/object_policies.h"
+#include "middleware/query_options.h"
 
 namespace foretouch::python {
 namespace {

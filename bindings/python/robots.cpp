@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "articulated/robot.h"
-#include "assets/certificate/edge_certificate.h"
-#include "assets/import/robot_import.h"
+#include "assets/certificate/certificate_writer.h"
+#include "assets/import/model_import.h"
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
 #include "bindings/python/importer_place.h"

@@ -10,7 +10,7 @@
 
 #include "articulated/avatar.h"
 #include "bindings/python/arguments.h"
-#include "middleware/depth/world_depth.h"
+#include "middleware/depth/depth.h"
 #include "middleware/events/world_event.h"
 #include "middleware/scene/scene.h"
 #include "middleware/world/world.h"

@@ -11,7 +11,6 @@
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
-#include "assets/bvh/bvh_avatar.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/certificate/certificate_writer.h"
 #include "bindings/c/handles.h"

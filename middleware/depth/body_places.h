@@ -8,11 +8,10 @@
 #include <Eigen/Core>
 
 #include "articulated/motion.h"
-#include "articulated/pose.h"
 #include "articulated/skeleton.h"
 #include "lss/lss.h"
+#include "middleware/world/world_contacts.h"
 #include "middleware/world/world_parts.h"
-#include "middleware/world/world_time.h"
 
 namespace foretouch::internal {
 

@@ -1,6 +1,7 @@
-// middleware/depth/depth.h: how deep one rigid set of LSS is in another or in triangles, and which
-// way out: bounds from below and from above, and a translation that is proven to clear. What each
-// proves: depth.md 4. Metres.
+// middleware/depth/depth.h: how deep one rigid set of LSS is in another or in triangles, or a body
+// of a world in another or in what stands still, and which way out: bounds from below and from
+// above, and a translation that is proven to clear. What each proves: depth.md 4; the promise:
+// docs/guarantees.md 18. Metres, in W; world time in microseconds.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,8 @@
 #include "lss/lss.h"
 #include "middleware/scene/scene.h"
 #include "middleware/scratch.h"
+#include "middleware/world/world.h"
+#include "middleware/world/world_contacts.h"
 
 namespace foretouch {
 
@@ -42,5 +45,20 @@ inline constexpr std::int64_t kMostDepthLooks = 200'000;
                                Scratch& scratch, double rounding = 0.0);
 [[nodiscard]] Depth depthIn(const std::vector<Lss>& moved, const Scene& scene, Scratch& scratch,
                             double rounding = 0.0);
+
+/// Who is moved, and out of whom: whole bodies, or a link of each.
+struct DepthQuestion {
+  BodyId a = 0;
+  LinkId linkOfA = kEveryLink;
+  BodyId b = kStillScene;
+  LinkId linkOfB = kEveryLink;
+};
+
+struct WorldDepth {
+  Depth depth;  ///< Of a, which `depth.wayOut` moves, in W; the bounds hold where they truly are.
+  /// The deepest pair, without witness points; of no pair, the bodies that were asked.
+  ContactSide a, b;
+  bool isAssumed = false;  ///< As WorldContact::isAssumed.
+};
 
 }  // namespace foretouch

@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "lss/hull.h"
 #include "lss/lss.h"
+#include "lss/separation.h"
 #include "middleware/depth/pair_depth.h"
 #include "middleware/scene/scene.h"
 #include "tessellation/aabb.h"

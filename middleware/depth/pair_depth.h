@@ -7,9 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "lss/hull.h"
 #include "lss/lss.h"
-#include "lss/triangle.h"
+#include "lss/separation.h"
 
 namespace foretouch {
 

@@ -1,5 +1,3 @@
-#include "middleware/depth/world_depth.h"
-
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -9,6 +7,7 @@
 #include "lss/index.h"
 #include "lss/rounding.h"
 #include "middleware/depth/body_places.h"
+#include "middleware/depth/depth.h"
 #include "middleware/world/world_parts.h"
 
 namespace foretouch {

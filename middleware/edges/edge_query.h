@@ -11,9 +11,9 @@
 
 #include "articulated/motion.h"
 #include "articulated/pair_rules.h"
-#include "articulated/pose.h"
 #include "articulated/result.h"
 #include "articulated/robot.h"
+#include "articulated/skeleton.h"
 #include "middleware/contact.h"
 #include "middleware/query/query.h"
 #include "middleware/query_options.h"

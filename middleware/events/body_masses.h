@@ -12,7 +12,6 @@
 
 #include "articulated/motion.h"
 #include "articulated/result.h"
-#include "middleware/mechanics/avatar_mass.h"
 #include "middleware/mechanics/mass.h"
 #include "middleware/world/world_contacts.h"
 #include "middleware/world/world_parts.h"

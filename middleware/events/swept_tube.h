@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 
 #include "lss/closest_features.h"
+#include "lss/lss.h"
 #include "lss/rounding.h"
-#include "lss/triangle.h"
 #include "tessellation/swept_lss.h"
 
 namespace foretouch::internal {

@@ -11,9 +11,8 @@
 #include <Eigen/Core>
 
 #include "middleware/contact.h"
-#include "middleware/scene/triangle_id.h"
+#include "middleware/scene/scene.h"
 #include "middleware/world/world_contacts.h"
-#include "middleware/world/world_time.h"
 
 namespace foretouch {
 

@@ -11,7 +11,6 @@
 
 #include "articulated/result.h"
 #include "middleware/events/world_event.h"
-#include "middleware/mechanics/avatar_mass.h"
 #include "middleware/mechanics/mass.h"
 #include "middleware/world/world.h"
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch {
 

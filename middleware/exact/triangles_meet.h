@@ -2,7 +2,7 @@
 // installed.
 #pragma once
 
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch {
 

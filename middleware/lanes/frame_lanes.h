@@ -7,7 +7,6 @@
 #include <cstddef>
 
 #include "lss/lss.h"
-#include "lss/triangle.h"
 #include "middleware/lanes/triangle_pairs.h"
 #include "tessellation/lss_polynomials.h"
 

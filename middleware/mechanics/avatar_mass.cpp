@@ -1,9 +1,8 @@
-#include "middleware/mechanics/avatar_mass.h"
-
 #include <utility>
 
 #include "articulated/try.h"
 #include "lss/index.h"
+#include "middleware/mechanics/mass.h"
 #include "middleware/mechanics/tree_inertia.h"
 
 namespace foretouch {

@@ -12,13 +12,12 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 #include "middleware/exact/feature.h"
 #include "middleware/query_counters.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/scene.h"
-#include "middleware/scene/triangle_id.h"
 #include "middleware/scratch.h"
 
 namespace foretouch {

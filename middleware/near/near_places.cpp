@@ -9,9 +9,9 @@
 
 #include "lss/clearance.h"
 #include "lss/closest_features.h"
-#include "lss/hull.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
+#include "lss/separation.h"
 
 namespace foretouch::internal {
 namespace {

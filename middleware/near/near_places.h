@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "lss/triangle.h"
+#include "lss/lss.h"
 #include "middleware/lanes/near_bins.h"
 #include "middleware/near/near_features.h"
 #include "middleware/scene/flat_edges.h"

@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include "lss/hull.h"
 #include "lss/lss.h"
 #include "lss/separation.h"
 #include "tessellation/swept_lss.h"

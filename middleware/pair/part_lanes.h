@@ -11,8 +11,8 @@
 #include <Eigen/Core>
 
 #include "lss/index.h"
+#include "lss/lss.h"
 #include "lss/rounding.h"
-#include "lss/triangle.h"
 #include "middleware/lanes/blend_lanes.h"
 #include "middleware/lanes/frame_lanes.h"
 #include "middleware/lanes/triangle_pairs.h"

@@ -8,7 +8,6 @@
 
 #include "middleware/query_counters.h"
 #include "middleware/query_options.h"
-#include "middleware/work_budget.h"
 
 namespace foretouch::internal {
 

@@ -8,8 +8,8 @@
 #include "middleware/pair/approach.h"
 #include "middleware/pair/query_plan.h"
 #include "middleware/pair/side.h"
-#include "middleware/query/contact_details.h"
 #include "middleware/query/manifold.h"
+#include "middleware/query/query.h"
 #include "middleware/scene/scene_parts.h"
 
 namespace foretouch {

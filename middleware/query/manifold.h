@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "lss/hull.h"
-#include "middleware/query/contact_details.h"
+#include "lss/separation.h"
+#include "middleware/query/query.h"
 
 namespace foretouch::internal {
 

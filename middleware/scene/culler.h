@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "lss/triangle.h"
-#include "middleware/scene/triangle_id.h"
+#include "lss/lss.h"
+#include "middleware/scene/scene.h"
 #include "tessellation/aabb.h"
 
 namespace foretouch::internal {

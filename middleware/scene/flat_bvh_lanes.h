@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "middleware/scene/triangle_id.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "lss/index.h"
-#include "lss/triangle.h"
-#include "middleware/scene/triangle_id.h"
+#include "lss/lss.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
 

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 
 #include "articulated/try.h"
-#include "lss/hull.h"
 #include "lss/index.h"
 #include "lss/separation.h"
 #include "middleware/near/near_places.h"

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "articulated/motion.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "middleware/pair/query_plan.h"
 #include "middleware/query/query.h"
 #include "middleware/solid/solid_options.h"

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "articulated/skeleton.h"
-#include "middleware/scene/triangle_id.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
 

@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "lss/hull.h"
 #include "lss/index.h"
 #include "lss/separation.h"
 #include "middleware/solid/certifier.h"

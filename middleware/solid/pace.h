@@ -7,7 +7,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "middleware/solid/solid_options.h"
 #include "middleware/solid/target_pose.h"
 #include "middleware/solid/visual_body.h"

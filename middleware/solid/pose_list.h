@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 
 namespace foretouch::internal {
 

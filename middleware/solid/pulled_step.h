@@ -10,7 +10,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "middleware/mechanics/tree_inertia.h"
 #include "middleware/solid/contact_row.h"
 #include "middleware/solid/least_push.h"

@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 #include "middleware/scene/scene.h"
 #include "middleware/solid/solid_options.h"
-#include "middleware/solid/solid_target.h"
 #include "middleware/solid/solid_tick.h"
 
 namespace foretouch {

@@ -1,5 +1,5 @@
-// middleware/solid/solid_options.h: how a solid avatar (solid_avatar.h) follows the tracked one.
-// Lengths in metres, times in seconds. Where each constant comes from: middleware/solid/solid.md.
+// middleware/solid/solid_options.h: what a solid avatar (solid_avatar.h) follows, and how. Lengths
+// in metres in W, times in seconds. Where each constant comes from: middleware/solid/solid.md.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "articulated/pair_rules.h"
+#include "articulated/skeleton.h"
 #include "middleware/query_options.h"
 
 namespace foretouch {
@@ -73,5 +74,15 @@ struct SolidOptions {
 [[nodiscard]] std::vector<bool> feetByName(const Avatar& avatar);
 /// Links with a name of a head: where the camera is.
 [[nodiscard]] std::vector<bool> headsByName(const Avatar& avatar);
+
+/// Where the tracker says that the avatar is.
+struct SolidTarget {
+  const Pose& pose;
+  double dtS;  ///< Seconds since the last target, > 0 and at most 10.
+  /// One per joint: 0 if its tracker lost it, so that its place in `pose` means nothing (but must
+  /// be finite). Null: all are tracked. A lost joint keeps its place on its parent; a lost root
+  /// stays where it is.
+  const std::vector<std::uint8_t>* isTracked = nullptr;
+};
 
 }  // namespace foretouch

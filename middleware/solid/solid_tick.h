@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "articulated/pose.h"
-#include "middleware/scene/triangle_id.h"
+#include "articulated/skeleton.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch {
 

@@ -10,7 +10,7 @@
 #include "articulated/result.h"
 #include "lss/index.h"
 #include "middleware/solid/joint_ranges.h"
-#include "middleware/solid/solid_target.h"
+#include "middleware/solid/solid_options.h"
 
 namespace foretouch::internal {
 

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include "articulated/motion.h"
-#include "articulated/pose.h"
 #include "articulated/skeleton.h"
 
 namespace foretouch::internal {

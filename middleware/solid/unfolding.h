@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "articulated/pose.h"
 #include "articulated/skeleton.h"
 #include "middleware/solid/certifier.h"
 

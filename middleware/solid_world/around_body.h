@@ -12,7 +12,6 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
-#include "articulated/pose.h"
 #include "articulated/skeleton.h"
 #include "lss/lss.h"
 #include "middleware/scene/scene.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "lss/hull.h"
 #include "lss/index.h"
 #include "lss/separation.h"
 

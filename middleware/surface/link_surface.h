@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "lss/index.h"
+#include "lss/lss.h"
 #include "lss/lss_hierarchy.h"
-#include "lss/triangle.h"
 #include "middleware/lanes/frame_lanes.h"
 #include "middleware/surface/wide_nodes.h"
 

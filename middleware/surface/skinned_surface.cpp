@@ -1,5 +1,3 @@
-#include "middleware/surface/skinned_surface.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>

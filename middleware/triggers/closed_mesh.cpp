@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "articulated/skeleton.h"
-#include "lss/hull.h"
 #include "lss/index.h"
 #include "lss/separation.h"
 #include "middleware/exact/ray_up.h"

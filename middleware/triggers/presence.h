@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "articulated/skeleton.h"
-#include "middleware/world/world_time.h"
+#include "middleware/world/world_contacts.h"
 
 namespace foretouch::internal {
 

@@ -1,11 +1,10 @@
-#include "middleware/triggers/trigger_volume.h"
-
 #include <string>
 #include <utility>
 
 #include "articulated/skeleton.h"
 #include "articulated/try.h"
 #include "middleware/scene/box_triangles.h"
+#include "middleware/triggers/triggers.h"
 #include "middleware/triggers/volume_parts.h"
 
 namespace foretouch {

@@ -9,15 +9,86 @@
 #include <memory>
 #include <vector>
 
-#include "articulated/pose.h"
+#include <Eigen/Core>
+
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 #include "articulated/track.h"
+#include "lss/lss.h"
 #include "middleware/events/world_event.h"
-#include "middleware/triggers/trigger_event.h"
-#include "middleware/triggers/trigger_volume.h"
+#include "middleware/scene/scene.h"
 #include "middleware/world/world.h"
 
 namespace foretouch {
+
+/// In the order in which they were added.
+using TriggerId = std::int32_t;
+
+/// Somebody is inside if a point of his volume is in the trigger's, as far as is known: see
+/// TriggerEvent.
+struct TriggerEvent {
+  EventKind kind = EventKind::Enter;
+  TriggerId trigger = 0;
+  BodyId body = 0;
+  /// Which link enters or leaves, also where the body counts as one; kEveryLink: none by itself.
+  LinkId link = kEveryLink;
+  /// Sound: nobody is inside, at any instant, who is not told to be, or to be unresolved: an Enter
+  /// is never later than it is, a Leave never earlier. Tight: who is told to be inside is, but for
+  /// twice the world's tolerance, and enters from within once of it.
+  WorldTime time;
+  WorldTime since;  ///< Of Leave and UnresolvedTo: when that began which ends here. Else `time`.
+  bool isAssumed = false;  ///< As WorldContact::isAssumed.
+};
+
+/// Who is inside, or may be.
+struct Occupant {
+  TriggerId trigger = 0;
+  BodyId body = 0;
+  LinkId link = kEveryLink;   ///< Of one that counts by link; else kEveryLink.
+  bool isUnresolved = false;  ///< Nothing is known of whether it is inside.
+  WorldTime since;
+};
+
+struct TriggerCounters {
+  std::uint64_t pairs = 0;    ///< Of a trigger and a link, that something was to be said of.
+  std::uint64_t decided = 0;  ///< Times that a link and a closed mesh were asked, at one instant,
+                              ///< whether it is inside.
+};
+
+struct TriggerEvents {
+  /// Earliest first; at one instant what ends before what begins, then by trigger, body and link.
+  std::vector<TriggerEvent> events;
+  TriggerCounters counters;
+};
+
+namespace internal {
+struct VolumeParts;
+}
+
+/// Immutable; cheap to copy (shared).
+class TriggerVolume {
+ public:
+  /// A box around the origin of its frame, along its axes. Errors: an extent that is not above 0
+  /// and below kMaxCoordinate.
+  static Result<TriggerVolume> box(const Eigen::Vector3d& halfExtents);
+  /// Around the origin. Errors: as above.
+  static Result<TriggerVolume> sphere(double radius);
+  /// Solid LSS, all of which are one volume. Errors: none, or as Avatar::build().
+  static Result<TriggerVolume> lss(std::vector<Lss> lss);
+  /// What is inside some object of the scene. The triangles may be turned any way, and in any
+  /// order, but each object must be closed: every edge, by its exact coordinates, belongs to two of
+  /// its triangles, or to another even number. Errors (Mismatch): an open edge; the message names
+  /// the object and the edge, Error::index is a triangle of it. O(n log n).
+  static Result<TriggerVolume> mesh(const Scene& closed);
+
+  /// For the triggers' own sources.
+  [[nodiscard]] const internal::VolumeParts& parts() const { return *parts_; }
+
+ private:
+  explicit TriggerVolume(std::shared_ptr<const internal::VolumeParts> parts)
+      : parts_(std::move(parts)) {}
+  std::shared_ptr<const internal::VolumeParts> parts_;
+};
 
 /// The group of triggers, unless they are given another: they meet everybody else.
 inline constexpr BodyGroup kTriggerGroup = kNumBodyGroups - 1;

@@ -1,8 +1,10 @@
 // middleware/world/world_contacts.h: what a world answers: which links of which bodies meet first,
-// when and where. Metres in W. The promise: docs/guarantees.md 15.
+// when (finer than the microseconds of poses) and where. Metres in W. The promise:
+// docs/guarantees.md 15.
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,10 +12,30 @@
 #include "articulated/skeleton.h"
 #include "articulated/track.h"
 #include "middleware/contact.h"
-#include "middleware/scene/triangle_id.h"
-#include "middleware/world/world_time.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch {
+
+/// `us` whole microseconds and a fraction in [0,1) of one more.
+struct WorldTime {
+  std::int64_t us = 0;
+  double fraction = 0.0;
+};
+[[nodiscard]] inline bool operator<(const WorldTime& x, const WorldTime& y) {
+  return std::tie(x.us, x.fraction) < std::tie(y.us, y.fraction);
+}
+[[nodiscard]] inline bool operator==(const WorldTime& x, const WorldTime& y) {
+  return x.us == y.us && x.fraction == y.fraction;
+}
+
+/// The instant at `t` in [0,1] of the span [beginUs, endUs], rounded down: never later than it is.
+[[nodiscard]] WorldTime worldTimeAt(std::int64_t beginUs, std::int64_t endUs, double t);
+/// The next instant that can be told.
+[[nodiscard]] WorldTime justAfter(const WorldTime& time);
+/// From `us` to the instant, in microseconds, rounded.
+[[nodiscard]] inline double microsecondsAfter(std::int64_t us, const WorldTime& time) {
+  return static_cast<double>(time.us - us) + time.fraction;
+}
 
 /// A body of a World, in the order in which they were added.
 using BodyId = std::int32_t;

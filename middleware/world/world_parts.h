@@ -11,7 +11,7 @@
 #include "articulated/track.h"
 #include "lss/index.h"
 #include "middleware/scene/scene.h"
-#include "middleware/world/world_options.h"
+#include "middleware/world/world.h"
 
 namespace foretouch::internal {
 

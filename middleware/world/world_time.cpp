@@ -1,6 +1,6 @@
-#include "middleware/world/world_time.h"
-
 #include <cmath>
+
+#include "middleware/world/world_contacts.h"
 
 namespace foretouch {
 

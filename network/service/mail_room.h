@@ -17,7 +17,7 @@
 #include <optional>
 #include <vector>
 
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "network/service/held_records.h"
 #include "network/stream/avatar_stream.h"
 #include "network/wire/codec.h"

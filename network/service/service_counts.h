@@ -8,7 +8,7 @@
 #include <string>
 
 #include "network/service/latency_histogram.h"
-#include "network/wire/reject.h"
+#include "network/wire/messages.h"
 #include "network/wire/wire.h"
 
 namespace foretouch {

@@ -5,11 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "articulated/pose.h"
 #include "articulated/skeleton.h"
 #include "assets/avatar/joint_match.h"
 #include "network/wire/messages.h"
-#include "network/wire/reject.h"
 
 namespace foretouch::internal {
 

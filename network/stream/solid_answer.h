@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 #include "middleware/scene/scene.h"
 #include "middleware/solid/solid_options.h"
 #include "middleware/solid/solid_tick.h"

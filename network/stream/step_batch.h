@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "network/stream/avatar_stream.h"
 #include "network/stream/step_observer.h"
 #include "network/wire/messages.h"

@@ -7,9 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "network/stream/stream_policy.h"
+#include "network/stream/avatar_stream.h"
 #include "network/wire/messages.h"
-#include "network/wire/reject.h"
 
 namespace foretouch::internal {
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "network/wire/messages.h"
-#include "network/wire/reject.h"
 
 namespace foretouch {
 

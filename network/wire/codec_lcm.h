@@ -10,8 +10,8 @@
 #include "lss/assert.h"
 #include "lss/index.h"
 #include "network/wire/codec.h"
+#include "network/wire/messages.h"
 #include "network/wire/payload_check.h"
-#include "network/wire/reject.h"
 
 namespace foretouch {
 

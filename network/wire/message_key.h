@@ -16,7 +16,7 @@
 
 #include "articulated/result.h"
 #include "network/wire/codec.h"
-#include "network/wire/reject.h"
+#include "network/wire/messages.h"
 
 namespace foretouch {
 

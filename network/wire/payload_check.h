@@ -7,7 +7,6 @@
 
 #include "network/wire/codec.h"
 #include "network/wire/messages.h"
-#include "network/wire/reject.h"
 
 namespace foretouch {
 

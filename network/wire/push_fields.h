@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "network/wire/codec_lcm.h"
-#include "network/wire/reject.h"
+#include "network/wire/messages.h"
 
 namespace foretouch {
 

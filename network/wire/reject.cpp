@@ -1,4 +1,4 @@
-#include "network/wire/reject.h"
+#include "network/wire/messages.h"
 
 namespace foretouch {
 

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "articulated/pose.h"
-#include "network/wire/reject.h"
+#include "articulated/skeleton.h"
+#include "network/wire/messages.h"
 
 namespace foretouch {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "middleware/events/world_event.h"
-#include "middleware/solid_world/solid_body_tick.h"
+#include "middleware/solid_world/solid_world.h"
 #include "network/wire/messages.h"
 
 namespace foretouch {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "network/wire/reject.h"
+#include "network/wire/messages.h"
 #include "network/world_stream/live_body.h"
 
 namespace foretouch::internal {

@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "articulated/pose.h"
-#include "network/wire/reject.h"
+#include "articulated/skeleton.h"
+#include "network/wire/messages.h"
 #include "network/wire/world_messages.h"
 #include "network/world_stream/world_setup.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "network/wire/reject.h"
+#include "network/wire/messages.h"
 #include "network/wire/world_messages.h"
 
 namespace foretouch {

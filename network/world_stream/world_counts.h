@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "network/wire/reject.h"
+#include "network/wire/messages.h"
 #include "network/wire/world_messages.h"
 #include "network/world_stream/refused_bodies.h"
 

@@ -21,7 +21,7 @@
 
 #include "articulated/result.h"
 #include "network/stream/avatar_stream.h"
-#include "network/wire/reject.h"
+#include "network/wire/messages.h"
 #include "network/wire/world_messages.h"
 #include "network/world_stream/shown_body.h"
 #include "network/world_stream/world_counts.h"

@@ -1,8 +1,8 @@
-#include "articulated/pose.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "articulated/skeleton.h"
 
 namespace foretouch {
 namespace {

@@ -1,7 +1,5 @@
 // An avatar from a clip's skeleton: roles from names, radii from roles, LSS that contain their
 // bones.
-#include "assets/bvh/bvh_avatar.h"
-
 #include <cmath>
 #include <string>
 #include <utility>

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "assets/import/model_import.h"
-#include "assets/model/model_clip.h"
+#include "assets/model/model_avatar.h"
 #include "tests/assets/gltf_writer.h"
 #include "tests/assets/model_files.h"
 #include "tests/support/random_geometry.h"

@@ -13,7 +13,6 @@
 #include "articulated/motion.h"
 #include "assets/import/model_import.h"
 #include "assets/model/model_avatar.h"
-#include "assets/model/model_clip.h"
 #include "tests/assets/gltf_writer.h"
 #include "tests/assets/import_files.h"
 #include "tests/assets/model_files.h"

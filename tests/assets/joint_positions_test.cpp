@@ -7,8 +7,6 @@
 
 #include "assets/model/edge_table.h"
 #include "assets/model/model_avatar.h"
-#include "assets/model/model_clip.h"
-#include "assets/model/model_robot.h"
 #include "tests/assets/model_samples.h"
 #include "tests/support/holds.h"
 

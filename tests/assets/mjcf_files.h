@@ -15,7 +15,7 @@
 
 #include <gtest/gtest.h>
 
-#include "assets/import/robot_import.h"
+#include "assets/import/model_import.h"
 #include "tests/assets/import_files.h"
 #include "tests/assets/model_files.h"
 #include "tests/support/temp_folder.h"

@@ -1,7 +1,5 @@
 // Clips from a model's animation: what the sampled joints carry is where an evaluation of the keys
 // with 4x4 matrices puts it.
-#include "assets/model/model_clip.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,3 @@
-#include "assets/avatar/pairs_file.h"
-
 #include <random>
 #include <string>
 #include <utility>

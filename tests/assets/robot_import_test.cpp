@@ -1,12 +1,11 @@
 // importRobot(): a URDF as a robot, and what it refuses by name. Kinematics are held against
 // numbers worked out by hand.
-#include "assets/import/robot_import.h"
-
 #include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "assets/import/model_import.h"
 #include "tests/assets/urdf_files.h"
 #include "tests/support/shared_data.h"
 

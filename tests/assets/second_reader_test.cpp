@@ -16,7 +16,6 @@
 #include "assets/avatar/joint_match.h"
 #include "assets/import/model_import.h"
 #include "assets/model/model_avatar.h"
-#include "assets/model/model_clip.h"
 #include "tests/assets/fbx_writer.h"
 #include "tests/assets/import_files.h"
 #include "tests/assets/model_files.h"

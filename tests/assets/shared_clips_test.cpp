@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include "assets/avatar/joint_match.h"
-#include "assets/bvh/bvh_avatar.h"
 #include "assets/bvh/bvh_reader.h"
 #include "lss/fit.h"
 #include "tests/support/shared_data.h"

@@ -7,7 +7,7 @@
 
 #include "bench/pool.h"
 #include "bench/timing.h"
-#include "middleware/counter_fields.h"
+#include "middleware/query_counters.h"
 #include "tests/bench/world.h"
 
 namespace foretouch::tools {

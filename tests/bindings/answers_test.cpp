@@ -3,8 +3,8 @@
 #include <cstring>
 #include <optional>
 
-#include "middleware/object_policies.h"
 #include "middleware/query/query.h"
+#include "middleware/query_options.h"
 #include "tests/bindings/c_world.h"
 #include "tests/bindings/same_answers.h"
 #include "tests/middleware/mesh_body.h"

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch::test {

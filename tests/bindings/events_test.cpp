@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lss/index.h"
-#include "middleware/depth/world_depth.h"
+#include "middleware/depth/depth.h"
 #include "middleware/events/world_follower.h"
 #include "middleware/mechanics/impulse.h"
 #include "middleware/mechanics/mass.h"

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "assets/avatar/pairs_file.h"
+#include "assets/avatar/avatar_file.h"
 #include "middleware/query/query.h"
 #include "tests/bindings/c_world.h"
 #include "tests/bindings/same_answers.h"

@@ -5,8 +5,6 @@
 #include <string_view>
 
 #include "assets/avatar/avatar_file.h"
-#include "assets/avatar/pairs_file.h"
-#include "assets/bvh/bvh_avatar.h"
 #include "assets/bvh/bvh_reader.h"
 #include "tests/fuzz/promise.h"
 

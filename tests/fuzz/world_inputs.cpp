@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "assets/clip/rigid_poses.h"
-#include "middleware/world/world_options.h"
+#include "middleware/world/world.h"
 #include "tests/fuzz/promise.h"
 #include "tools/world/world_file.h"
 

@@ -116,6 +116,25 @@ TEST(Documents, TheIndexLinksEveryOneOfThem) {
   }
 }
 
+TEST(Documents, TheReferenceHasEveryInstalledHeaderInItsOrderOnce) {
+  std::string text = contentOf(fs::path(FORETOUCH_SOURCE_DIR) / "docs" / "api.md");
+  text.erase(0, text.find("### The headers, in the order to read them"));
+  text.erase(text.find("\n\n", text.find("|---|")));
+  const fs::path build = fs::path(FORETOUCH_HOUSE_BUILD_DIR).parent_path().parent_path();
+  std::istringstream headers(contentOf(build / "public_headers.txt"));
+  std::string header;
+  int read = 0;
+  while (std::getline(headers, header)) {
+    if (header.rfind("planning/", 0) == 0 || header == "assets/foretouch.hpp") continue;
+    const std::size_t first = text.find("`" + header + "`");
+    EXPECT_NE(first, std::string::npos) << header << " is not in the order of docs/api.md";
+    EXPECT_EQ(text.find("`" + header + "`", first + 1), std::string::npos) << header;
+    ++read;
+  }
+  EXPECT_GT(read, 40);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '`'), 2 * read);
+}
+
 TEST(Documents, AnchorsAreMadeAsHostsMakeThem) {
   EXPECT_EQ(anchorOf("Pairs to ignore"), "pairs-to-ignore");
   EXPECT_EQ(anchorOf("Joint positions (CSV)"), "joint-positions-csv");

@@ -11,7 +11,7 @@
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
 #include "articulated/skin.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch::test {

@@ -1,11 +1,11 @@
 // Settings per link and object, resolved: what they come to, and what is refused.
-#include "middleware/object_policies.h"
-
 #include <limits>
 #include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
+
+#include "middleware/query_options.h"
 
 namespace foretouch {
 namespace {

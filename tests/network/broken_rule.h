@@ -7,7 +7,6 @@
 
 #include "network/stream/stream_solver.h"
 #include "network/wire/messages.h"
-#include "network/wire/reject.h"
 #include "tests/network/simulated_sender.h"
 #include "tests/network/stream/stream_simulation.h"
 

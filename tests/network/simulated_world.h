@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "judge/capsule_prover.h"
 #include "judge/motion.h"
 #include "judge/scene.h"

@@ -6,12 +6,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "assets/bvh/bvh_avatar.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/import/model_import.h"
 #include "assets/import/scene_import.h"
 #include "assets/model/model_avatar.h"
-#include "assets/model/model_clip.h"
 
 namespace foretouch::test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "articulated/robot.h"
 #include "judge/first_touch.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch::test {
 

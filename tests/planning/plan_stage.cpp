@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "assets/import/robot_import.h"
+#include "assets/import/model_import.h"
 #include "assets/import/scene_import.h"
 #include "tests/support/shared_data.h"
 

@@ -8,7 +8,7 @@
 
 #include "articulated/result.h"
 #include "articulated/robot.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 #include "middleware/edges/edge_query.h"
 
 namespace foretouch::test {

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "articulated/motion.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 #include "middleware/pair/provers.h"
 #include "tests/reference/rigid_query.h"
 

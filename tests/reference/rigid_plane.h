@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "lss/triangle.h"
+#include "lss/lss.h"
 #include "tests/reference/nlerp_motion.h"
 
 namespace foretouch::internal {

@@ -5,7 +5,7 @@
 // microsecond each.
 #pragma once
 
-#include "lss/triangle.h"
+#include "lss/lss.h"
 #include "tests/reference/nlerp_motion.h"
 
 namespace foretouch {

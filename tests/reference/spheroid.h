@@ -9,7 +9,6 @@
 #include "articulated/chain_nodes.h"
 #include "articulated/motion.h"
 #include "lss/lss.h"
-#include "lss/triangle.h"
 #include "tests/reference/rungs.h"
 
 namespace foretouch::internal {

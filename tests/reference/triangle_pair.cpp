@@ -1,7 +1,7 @@
 // Two moving triangles: every pair of features is a linear query of its own.
 #include <algorithm>
 
-#include "lss/triangle.h"
+#include "lss/lss.h"
 #include "tests/reference/linear_query.h"
 
 namespace foretouch {

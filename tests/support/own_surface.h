@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lss/lss.h"
-#include "lss/triangle.h"
 
 namespace foretouch::test {
 

@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "articulated/pose.h"
 #include "articulated/skeleton.h"
 #include "judge/plain_motion.h"
 #include "tests/support/judged.h"

@@ -9,7 +9,6 @@
 #include "assets/avatar/joint_match.h"
 #include "assets/import/model_import.h"
 #include "assets/model/model_avatar.h"
-#include "assets/model/model_clip.h"
 #include "lss/lss_cover.h"
 #include "tests/support/holds.h"
 #include "tests/support/shared_data.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lss/triangle.h"
+#include "lss/lss.h"
 #include "middleware/scene/scene.h"
 #include "tools/portable_random.h"
 

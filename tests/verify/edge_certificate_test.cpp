@@ -1,7 +1,5 @@
 // Certificates of a robot's edges: the verifier's kinematics against long double, random robots
 // whose clear edges are proven, and lies about them.
-#include "assets/certificate/edge_certificate.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "assets/certificate/certificate_writer.h"
 #include "lss/segment_triangle.h"
 #include "tests/support/holds.h"
 #include "tests/support/random_geometry.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "middleware/events/world_event.h"
-#include "middleware/triggers/trigger_event.h"
+#include "middleware/triggers/triggers.h"
 #include "tests/world_fuzz/fuzz_world.h"
 
 namespace foretouch::test {

@@ -4,7 +4,7 @@
 
 #include "articulated/avatar.h"
 #include "assets/avatar/joint_match.h"
-#include "assets/import/imported_scene.h"
+#include "assets/import/scene_import.h"
 #include "assets/json_writer.h"
 #include "middleware/scene/scene.h"
 #include "tools/audit/audits.h"

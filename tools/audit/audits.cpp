@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "articulated/quoted.h"
-#include "assets/bvh/stature.h"
+#include "assets/bvh/bvh_reader.h"
 #include "lss/index.h"
 #include "tools/inputs/first_pose.h"
 #include "tools/inputs/played_clip.h"

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "assets/file_frame.h"
 #include "middleware/scene/scene.h"
 

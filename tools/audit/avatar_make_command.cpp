@@ -9,7 +9,6 @@
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
-#include "assets/bvh/bvh_avatar.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/import/model_import.h"
 #include "assets/model/model_avatar.h"

@@ -14,8 +14,6 @@
 #include "articulated/pair_rules.h"
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
-#include "assets/avatar/pairs_file.h"
-#include "assets/bvh/bvh_avatar.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/json_writer.h"
 #include "assets/text_file.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "articulated/avatar.h"
-#include "lss/triangle.h"
+#include "lss/lss.h"
 
 namespace foretouch::tools {
 

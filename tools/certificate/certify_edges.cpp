@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
-#include "assets/avatar/pairs_file.h"
-#include "assets/certificate/edge_certificate.h"
+#include "assets/avatar/avatar_file.h"
+#include "assets/certificate/certificate_writer.h"
 #include "assets/clip/clip_file.h"
-#include "assets/import/robot_import.h"
+#include "assets/import/model_import.h"
 #include "assets/json_writer.h"
 #include "assets/model/edge_table.h"
 #include "assets/text_file.h"

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 #include "tools/glb/glb_content.h"
 
 namespace foretouch::tools {

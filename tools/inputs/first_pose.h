@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "assets/file_frame.h"
 
 namespace foretouch::tools {

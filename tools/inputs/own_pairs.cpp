@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
-#include "assets/avatar/pairs_file.h"
+#include "assets/avatar/avatar_file.h"
 #include "assets/clip/clip_file.h"
 #include "assets/near_names.h"
 #include "assets/text_file.h"

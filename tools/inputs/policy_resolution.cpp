@@ -6,7 +6,7 @@
 #include "assets/near_names.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
-#include "middleware/object_policies.h"
+#include "middleware/query_options.h"
 #include "tools/inputs/ignored_pairs.h"
 #include "tools/inputs/name_pattern.h"
 #include "tools/inputs/policy_rules.h"

@@ -14,7 +14,7 @@
 #include "assets/mesh/link_mesh.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
-#include "middleware/work_budget.h"
+#include "middleware/query_options.h"
 #include "tools/console.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/first_pose.h"

@@ -6,7 +6,7 @@
 #include "articulated/avatar.h"
 #include "articulated/result.h"
 #include "assets/import/scene_import.h"
-#include "middleware/surface/skinned_surface.h"
+#include "middleware/surface/avatar_surface.h"
 
 namespace foretouch::tools {
 

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "articulated/try.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/text_file.h"

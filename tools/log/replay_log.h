@@ -15,7 +15,6 @@
 #include "network/stream/avatar_stream.h"
 #include "network/stream/stream_solver.h"
 #include "network/wire/messages.h"
-#include "network/wire/reject.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/log/journal_check.h"
 #include "tools/log/replayed_world.h"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "lss/index.h"
-#include "network/wire/reject.h"
+#include "network/wire/messages.h"
 #include "tools/replay/summary.h"
 
 namespace foretouch::tools {

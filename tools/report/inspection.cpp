@@ -11,7 +11,7 @@
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
-#include "assets/bvh/bvh_avatar.h"
+#include "assets/bvh/bvh_reader.h"
 #include "assets/import/scene_import.h"
 #include "assets/mesh/link_mesh.h"
 #include "assets/text_file.h"

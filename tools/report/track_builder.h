@@ -11,7 +11,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "middleware/query/query.h"
 #include "middleware/scene/scene.h"
 #include "tools/report/view_document.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "middleware/fidelity.h"
+#include "middleware/query_options.h"
 
 namespace foretouch::tools {
 

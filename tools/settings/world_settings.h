@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/import/imported_scene.h"
+#include "assets/import/scene_import.h"
 #include "middleware/query_options.h"
 #include "tools/settings/ground_rule.h"
 #include "tools/settings/policy_rule.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "articulated/motion.h"
-#include "assets/bvh/stature.h"
+#include "assets/bvh/bvh_reader.h"
 #include "tools/inputs/first_pose.h"
 
 namespace foretouch::tools {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "articulated/clip.h"
-#include "assets/import/imported_scene.h"
+#include "assets/import/scene_import.h"
 #include "tools/setup/offer.h"
 
 namespace foretouch::tools {

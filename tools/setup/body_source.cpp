@@ -6,7 +6,7 @@
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
-#include "assets/bvh/bvh_avatar.h"
+#include "assets/bvh/bvh_reader.h"
 #include "assets/import/model_import.h"
 #include "assets/text_file.h"
 #include "tools/inputs/clip_pose.h"

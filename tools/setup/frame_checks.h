@@ -6,7 +6,7 @@
 
 #include "articulated/clip.h"
 #include "assets/file_frame.h"
-#include "middleware/scene/raw_scene.h"
+#include "middleware/scene/scene.h"
 #include "tools/setup/placement_check.h"
 
 namespace foretouch::tools {

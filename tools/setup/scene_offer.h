@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "assets/import/imported_scene.h"
-#include "middleware/scene/raw_scene.h"
+#include "assets/import/scene_import.h"
+#include "middleware/scene/scene.h"
 #include "tools/setup/offer.h"
 
 namespace foretouch::tools {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "assets/import/imported_scene.h"
+#include "assets/import/scene_import.h"
 #include "tools/settings/project_file.h"
 #include "tools/setup/body_source.h"
 #include "tools/setup/offer.h"

@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 
 #include "articulated/avatar.h"
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 #include "assets/avatar/joint_match.h"
 #include "middleware/query/query.h"
 #include "tools/setup/level.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/reported_contact.h"
 #include "tools/solid/solid_player.h"

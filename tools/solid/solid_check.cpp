@@ -7,7 +7,7 @@
 
 #include "articulated/quoted.h"
 #include "articulated/try.h"
-#include "assets/avatar/pairs_file.h"
+#include "assets/avatar/avatar_file.h"
 #include "lss/index.h"
 #include "tools/inputs/ignored_pairs.h"
 #include "tools/solid/solid_lines.h"

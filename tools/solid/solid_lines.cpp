@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "articulated/try.h"
-#include "assets/avatar/pairs_file.h"
+#include "assets/avatar/avatar_file.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
 #include "tools/contact_json.h"

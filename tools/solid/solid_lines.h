@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 #include "assets/json_writer.h"
 #include "middleware/solid/solid_options.h"
 #include "tools/inputs/replay_inputs.h"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 #include "assets/file_frame.h"
 #include "middleware/solid/solid_tick.h"
 

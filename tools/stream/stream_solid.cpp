@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "articulated/try.h"
-#include "middleware/work_budget.h"
+#include "middleware/query_options.h"
 
 namespace foretouch::tools {
 namespace {

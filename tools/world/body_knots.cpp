@@ -8,7 +8,7 @@
 
 #include "articulated/quoted.h"
 #include "articulated/try.h"
-#include "assets/avatar/pairs_file.h"
+#include "assets/avatar/avatar_file.h"
 #include "assets/clip/rigid_poses.h"
 #include "assets/near_names.h"
 #include "lss/index.h"

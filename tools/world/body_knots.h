@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "articulated/pair_rules.h"
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 #include "tools/inputs/motion_file.h"
 #include "tools/world/body_shapes.h"
 #include "tools/world/world_file.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "tools/settings/toml_section.h"
 #include "tools/world/file_shape.h"
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "articulated/track.h"
-#include "middleware/world/world_options.h"
+#include "middleware/world/world.h"
 
 namespace foretouch::tools {
 

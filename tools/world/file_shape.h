@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "assets/import/imported_scene.h"
+#include "assets/import/scene_import.h"
 #include "lss/lss.h"
 
 namespace foretouch::tools {

@@ -7,7 +7,7 @@
 
 #include "articulated/result.h"
 #include "middleware/events/world_event.h"
-#include "middleware/triggers/trigger_event.h"
+#include "middleware/triggers/triggers.h"
 #include "tools/world/loaded_world.h"
 
 namespace foretouch::tools {

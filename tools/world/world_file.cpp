@@ -7,7 +7,7 @@
 #include "articulated/quoted.h"
 #include "articulated/try.h"
 #include "assets/text_file.h"
-#include "middleware/world/world_options.h"
+#include "middleware/world/world.h"
 #include "tools/microseconds.h"
 #include "tools/settings/config_reading.h"
 #include "tools/settings/toml_section.h"

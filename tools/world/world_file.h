@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "articulated/pose.h"
 #include "articulated/result.h"
+#include "articulated/skeleton.h"
 #include "articulated/track.h"
-#include "middleware/fidelity.h"
+#include "middleware/query_options.h"
 #include "tools/settings/clip_settings.h"
 #include "tools/settings/world_settings.h"
 #include "tools/world/file_shape.h"

@@ -18,7 +18,6 @@
 #include "articulated/motion.h"
 #include "assets/import/model_import.h"
 #include "assets/model/model_avatar.h"
-#include "assets/model/model_clip.h"
 
 namespace foretouch {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "judge/depth_oracle.h"
 #include "lss/lss.h"
-#include "lss/triangle.h"
 
 namespace foretouch::test {
 

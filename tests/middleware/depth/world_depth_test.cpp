@@ -1,11 +1,10 @@
 // Depths of a world's bodies at an instant, held against the judge's own world.
-#include "middleware/depth/world_depth.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "lss/index.h"
+#include "middleware/depth/depth.h"
 #include "tests/middleware/depth/depth_pieces.h"
 #include "tests/middleware/world/both_worlds.h"
 #include "tests/support/random_geometry.h"

@@ -10,7 +10,7 @@
 #include "judge/plain_motion.h"
 #include "lss/simd.h"
 #include "middleware/pair/skin_lanes.h"
-#include "middleware/surface/skinned_surface.h"
+#include "middleware/surface/avatar_surface.h"
 #include "tests/support/name_of_simd.h"
 #include "tests/support/random_motion.h"
 

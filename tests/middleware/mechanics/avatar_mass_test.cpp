@@ -1,6 +1,4 @@
 // Articulated bodies against the same as dense matrices.
-#include "middleware/mechanics/avatar_mass.h"
-
 #include <algorithm>
 
 #include <Eigen/Dense>
@@ -8,6 +6,7 @@
 
 #include "lss/index.h"
 #include "middleware/mechanics/impulse.h"
+#include "middleware/mechanics/mass.h"
 #include "tests/support/random_motion.h"
 
 namespace foretouch {

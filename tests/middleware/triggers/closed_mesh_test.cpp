@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/triggers/trigger_volume.h"
+#include "middleware/triggers/triggers.h"
 #include "middleware/triggers/volume_parts.h"
 #include "tests/support/random_geometry.h"
 

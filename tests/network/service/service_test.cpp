@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/work_budget.h"
+#include "middleware/query_options.h"
 #include "network/wire/codec.h"
 #include "tests/network/service/service_stage.h"
 #include "tests/network/small_stream.h"

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "tests/network/small_stream.h"
 
 namespace foretouch {

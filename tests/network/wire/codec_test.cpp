@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "network/wire/reject.h"
+#include "network/wire/messages.h"
 #include "tests/network/random_messages.h"
 #include "tests/support/allocation_count.h"
 

@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "network/wire/reject.h"
-
 namespace foretouch {
 namespace {
 

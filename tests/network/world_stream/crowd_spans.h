@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "middleware/world/world_time.h"
+#include "middleware/world/world_contacts.h"
 #include "tests/network/world_stream/crowd.h"
 
 namespace foretouch::test {

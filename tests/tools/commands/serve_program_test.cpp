@@ -21,7 +21,7 @@
 
 #include <gtest/gtest.h>
 
-#include "articulated/pose.h"
+#include "articulated/skeleton.h"
 #include "assets/avatar/avatar_file.h"
 #include "bench/private_network.h"
 #include "network/log/event_log.h"

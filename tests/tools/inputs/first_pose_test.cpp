@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "assets/avatar/joint_match.h"
-#include "assets/bvh/bvh_avatar.h"
 #include "assets/bvh/bvh_reader.h"
 
 namespace foretouch::tools {

@@ -8,7 +8,7 @@
 
 #include "articulated/avatar.h"
 #include "articulated/clip.h"
-#include "middleware/scene/raw_scene.h"
+#include "middleware/scene/scene.h"
 #include "tools/setup/walker.h"
 
 namespace foretouch::test {
