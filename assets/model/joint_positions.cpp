@@ -1,4 +1,4 @@
-// A robot's joint positions as a clip: assets/model/model_clip.h.
+// A robot's joint positions as a clip: assets/model/model_avatar.h.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -26,7 +26,7 @@ namespace foretouch::tools {
 [[nodiscard]] Result<Done> readPolicies(WorldRequest& request);
 
 /// Finds the rules' names in one avatar and scene and applies them in order: applyObjectPolicies()
-/// (middleware/object_policies.h). Errors name the rule's file and line: names that match nothing
+/// (middleware/query_options.h). Errors name the rule's file and line: names that match nothing
 /// (with the nearest), a tolerance or fidelity while the options' fidelity is neither Link nor
 /// Exact, too many pairs.
 [[nodiscard]] Result<Done> applyPolicies(const std::vector<PolicyRule>& rules,
