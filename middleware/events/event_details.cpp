@@ -20,8 +20,8 @@ bool isNearer(const MovingPair& x, const SidesPair& ofX, const MovingPair& y,
               const SidesPair& ofY) {
   const auto key = [](const MovingPair& pair, const SidesPair& of) {
     const Vector3d &p = pair.axes.onOther, &n = pair.axes.nhat;
-    return std::make_tuple(pair.estimate(), p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), of.other,
-                           of.lss);
+    return std::make_tuple(pair.estimate(), p.x(), p.y(), p.z(), n.x(), n.y(), n.z(),
+                           of.other.triangle, of.other.lss, of.one.lss, of.one.triangle);
   };
   return key(x, ofX) < key(y, ofY);
 }
@@ -42,7 +42,7 @@ void turnAround(WorldEvent& event) {
 void EventDetails::fill(SpanSides& span, MovingSides& sides, double t, double within,
                         const BodyMasses& masses, WorldEvent& event) {
   if (!findNearest(sides, t, within, event.object)) return;
-  tellPlaces(sides, event);
+  tellPlaces(event);
   tellPoints(sides, t, within, event);
   toWorld(span, t, event);
   if (span.isTurned()) turnAround(event);
@@ -67,14 +67,16 @@ bool EventDetails::findNearest(MovingSides& sides, double t, double within, Obje
   return isFound;
 }
 
-void EventDetails::tellPlaces(const MovingSides& sides, WorldEvent& event) const {
+void EventDetails::tellPlaces(WorldEvent& event) const {
   const auto& [pair, at] = nearest_;
   event.separation = std::max(0.0, at.estimate());
   event.penetration = std::max(0.0, -at.estimate());
   event.nhat_BA_W = contactNormal(at.axes);
-  event.a.lss = pair.lss;
+  event.a.lss = pair.one.lss;
+  event.a.triangle = pair.one.triangle;
   event.a.p_W = at.axes.onOne - at.one.radius * event.nhat_BA_W;
-  (sides.isScene() ? event.b.triangle : event.b.lss) = pair.other;
+  event.b.lss = pair.other.lss;
+  event.b.triangle = pair.other.triangle;
   event.b.p_W = at.axes.onOther + at.other.radius * event.nhat_BA_W;
 }
 
@@ -82,8 +84,10 @@ void EventDetails::tellPoints(MovingSides& sides, double t, double within, World
   manifold_.begin(within, event.nhat_BA_W);
   for (const SidesPair& pair : near_) {
     const MovingPair now = sides.at(pair, t);
-    const ManifoldPart one{now.one.hull, now.one.radius, pair.lss, -1};
-    manifold_.offer(one, {now.other.hull, now.other.radius, -1, pair.other});
+    const auto& [one, other] = pair;
+    manifold_.offer({now.one.hull, now.one.radius, one.lss, one.triangle},
+                    {now.other.hull, now.other.radius, other.lss,
+                     other.triangle < 0 ? other.lss : other.triangle});
   }
   details_.numPoints = 0;
   manifold_.choose(details_);

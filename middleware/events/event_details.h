@@ -23,7 +23,7 @@ class EventDetails {
 
  private:
   [[nodiscard]] bool findNearest(MovingSides& sides, double t, double within, ObjectId object);
-  void tellPlaces(const MovingSides& sides, WorldEvent& event) const;
+  void tellPlaces(WorldEvent& event) const;
   void tellPoints(MovingSides& sides, double t, double within, WorldEvent& event);
   void toWorld(SpanSides& span, double t, WorldEvent& event) const;
   void tellSpeeds(SpanSides& span, double t, WorldEvent& event) const;

@@ -74,7 +74,7 @@ void IntervalTracer::traceParts(double from, TraceStart start, std::vector<StepP
 
 /// A pair that shows it is the one that is tried first from then on.
 bool IntervalTracer::isWithin(double t, double within) {
-  if (last_.lss >= 0 && sides_->at(last_, t).gapUpper <= within) return true;
+  if (!last_.isNone() && sides_->at(last_, t).gapUpper <= within) return true;
   sides_->collect(t, t, within, near_);
   const auto found = std::find_if(near_.begin(), near_.end(), [&](const SidesPair& pair) {
     return sides_->at(pair, t).gapUpper <= within;
@@ -91,7 +91,7 @@ bool IntervalTracer::tryHold(const SidesPair& pair, double t, double within, Hol
   const double rest = 1.0 - t;
   double step = staysWithin(now, tolerance_.limit, rest);
   if (step < rest) step = std::max(step, staysPierced(now, rest));
-  if (step > best.step || last_.lss < 0) {
+  if (step > best.step || last_.isNone()) {
     best.step = std::max(best.step, step);
     last_ = pair;
   }
@@ -102,7 +102,7 @@ bool IntervalTracer::tryHold(const SidesPair& pair, double t, double within, Hol
 IntervalTracer::Hold IntervalTracer::holdAt(double t, double within) {
   const double enough = kEnoughShare * (1.0 - t);
   Hold best;
-  if (last_.lss >= 0 && tryHold(last_, t, within, best) && best.step >= enough) return best;
+  if (!last_.isNone() && tryHold(last_, t, within, best) && best.step >= enough) return best;
   const SidesPair tried = last_;
   sides_->collect(t, t, within, near_);
   for (const SidesPair& pair : near_) {

@@ -1,6 +1,8 @@
 #include "middleware/events/moving_sides.h"
 
 #include <algorithm>
+#include <optional>
+#include <tuple>
 
 #include "lss/assert.h"
 #include "lss/index.h"
@@ -14,6 +16,33 @@ namespace {
 /// As measured, roughly: a distance, two boxes, and what a tree of triangles takes.
 constexpr std::uint64_t kLookWork = 40, kBoxWork = 4, kTreeWork = 50;
 
+Part partOf(const SidePiece& piece) {
+  return piece.triangle < 0 ? Part::whole() : Part::of(HierarchyChild::triangle(piece.triangle));
+}
+
+SidePiece pieceOf(std::int32_t lss, Part part) {
+  return {lss, part.isTriangle() ? part.index() : -1};
+}
+
+/// Of triangles without the LSS that holds them.
+std::tuple<std::int32_t, std::int32_t> surfaceOf(const SidePiece& piece) {
+  return {piece.triangle, piece.triangle < 0 ? piece.lss : -1};
+}
+bool areSameSurfaces(const SidesPair& x, const SidesPair& y) {
+  return surfaceOf(x.one) == surfaceOf(y.one) && surfaceOf(x.other) == surfaceOf(y.other);
+}
+bool isBefore(const SidesPair& x, const SidesPair& y) {
+  const auto key = [](const SidesPair& pair) {
+    return std::make_tuple(surfaceOf(pair.one), surfaceOf(pair.other), pair.one.lss,
+                           pair.other.lss);
+  };
+  return key(x) < key(y);
+}
+
+double extentOf(const Aabb& box) {
+  return (box.max - box.min).sum();
+}
+
 }  // namespace
 
 void MovingSides::begin(LinkId frame) {
@@ -23,25 +52,30 @@ void MovingSides::begin(LinkId frame) {
   states_.t = std::numeric_limits<double>::quiet_NaN();
 }
 
+MovingHull LinkSide::hullAt(const SidePiece& piece, const LinkState& state) const {
+  return side().hullAt(piece.lss, partOf(piece), state);
+}
+
 void MovingSides::setSide(LinkSide& side, MotionEvaluator& evaluator, LinkId link,
-                          const std::vector<Lss>& lss) {
+                          const LinkShape& shape) {
   side.evaluator = &evaluator;
   side.link = link;
-  side.lss = &lss;
+  side.lss = &shape.lss;
+  side.surface = shape.surface;
   side.first = 0;
   side.frame = frame_;
   side.inFrame = evaluator.motion().sumsIn(frame_, link).bounds();
   side.bounds.clear();
-  for (const Lss& one : lss) side.bounds.push_back(axisBounds(one, side.inFrame));
+  for (const Lss& one : shape.lss) side.bounds.push_back(axisBounds(one, side.inFrame));
   states_.t = std::numeric_limits<double>::quiet_NaN();
 }
 
-void MovingSides::setLink(MotionEvaluator& evaluator, LinkId link, const std::vector<Lss>& lss) {
-  setSide(one_, evaluator, link, lss);
+void MovingSides::setLink(MotionEvaluator& evaluator, LinkId link, const LinkShape& shape) {
+  setSide(one_, evaluator, link, shape);
 }
 
-void MovingSides::setOther(MotionEvaluator& evaluator, LinkId link, const std::vector<Lss>& lss) {
-  setSide(other_, evaluator, link, lss);
+void MovingSides::setOther(MotionEvaluator& evaluator, LinkId link, const LinkShape& shape) {
+  setSide(other_, evaluator, link, shape);
   scene_ = nullptr;
 }
 
@@ -70,13 +104,13 @@ MovingPair MovingSides::at(const SidesPair& pair, double t) {
   ++looks;
   work += kLookWork;
   const States& now = statesAt(t);
-  MovingHull one = one_.side().hullAt(pair.lss, Part::whole(), now.one);
+  MovingHull one = one_.hullAt(pair.one, now.one);
   if (scene_ != nullptr) {
-    return movingPair(one, MovingHull::still(scene_->triangle(pair.other)));
+    return movingPair(one, MovingHull::still(scene_->triangle(pair.other.triangle)));
   }
-  MovingHull other = other_.side().hullAt(pair.other, Part::whole(), now.other);
+  MovingHull other = other_.hullAt(pair.other, now.other);
   if (asked_ != nullptr) {
-    const std::int32_t i = one_.first + pair.lss, j = other_.first + pair.other;
+    const std::int32_t i = one_.first + pair.one.lss, j = other_.first + pair.other.lss;
     const double share = asked_->radiusShare(std::min(i, j), std::max(i, j));
     one.radius *= share;
     other.radius *= share;
@@ -89,50 +123,108 @@ void MovingSides::collect(double from, double to, double reach, std::vector<Side
   pairs.clear();
   const States end = statesAt(to);
   const States begin = statesAt(from);
-  if (scene_ != nullptr) {
-    collectScene(begin, end, reach, pairs);
+  Collecting in{begin, end, to - from, reach, pairs};
+  if (scene_ == nullptr) {
+    collectLinks(in);
   } else {
-    collectLinks(begin, end, reach, pairs);
+    for (std::size_t i = 0; i < one_.bounds.size(); ++i) {
+      collectScene(in, sweptOfOne(in, static_cast<std::int32_t>(i), Part::whole()));
+    }
   }
+  // A triangle may be in two LSS.
+  if (one_.surface == nullptr && (scene_ != nullptr || other_.surface == nullptr)) return;
+  std::sort(pairs.begin(), pairs.end(), isBefore);
+  pairs.erase(std::unique(pairs.begin(), pairs.end(), areSameSurfaces), pairs.end());
 }
 
-Aabb MovingSides::sweptBoxOf(const LinkSide& side, std::size_t i, const LinkState& begin,
-                             const LinkState& end, double span, double reach) {
-  const Lss& lss = (*side.lss)[i];
-  return sweptBox(lss, side.bounds[i], axisEnds(lss, begin), axisEnds(lss, end), span, reach);
+/// What a triangle sweeps: as sweptBox() of an LSS without a radius, for each of its corners.
+MovingSides::Swept MovingSides::sweptOf(const LinkSide& side, std::int32_t lss, Part part,
+                                        const LinkState& begin, const LinkState& end, double span,
+                                        double reach) {
+  if (!part.isTriangle()) {
+    const Lss& bound = side.side().lssOf(lss, part);
+    const AxisBounds bounds =
+        part.isWhole() ? side.bounds[slotOf(lss)] : axisBounds(bound, side.inFrame);
+    return {lss, part,
+            sweptBox(bound, bounds, axisEnds(bound, begin), axisEnds(bound, end), span, reach)};
+  }
+  Aabb box;
+  for (const Eigen::Vector3d& corner : side.surface->triangle(part.index()).vertices) {
+    const Lss point{corner, corner, 0.0};
+    box.add(sweptBox(point, axisBounds(point, side.inFrame), axisEnds(point, begin),
+                     axisEnds(point, end), span, reach));
+  }
+  return {lss, part, box};
 }
 
-void MovingSides::collectLinks(const States& begin, const States& end, double reach,
-                               std::vector<SidesPair>& pairs) {
-  const double span = end.t - begin.t;
+MovingSides::Swept MovingSides::sweptOfOne(const Collecting& in, std::int32_t lss,
+                                           Part part) const {
+  return sweptOf(one_, lss, part, in.begin.one, in.end.one, in.span, in.reach);
+}
+
+MovingSides::Swept MovingSides::sweptOfOther(const Collecting& in, std::int32_t lss,
+                                             Part part) const {
+  return sweptOf(other_, lss, part, in.begin.other, in.end.other, in.span, 0.0);
+}
+
+void MovingSides::collectLinks(Collecting& in) {
   work += kBoxWork * one_.bounds.size() * other_.bounds.size();
   for (std::size_t i = 0; i < one_.bounds.size(); ++i) {
-    const Aabb box = sweptBoxOf(one_, i, begin.one, end.one, span, reach);
+    const Swept one = sweptOfOne(in, static_cast<std::int32_t>(i), Part::whole());
     for (std::size_t j = 0; j < other_.bounds.size(); ++j) {
-      if (!box.overlaps(sweptBoxOf(other_, j, begin.other, end.other, span, 0.0))) continue;
-      pairs.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
+      collectParts(in, one, sweptOfOther(in, static_cast<std::int32_t>(j), Part::whole()));
     }
   }
 }
 
-void MovingSides::collectScene(const States& begin, const States& end, double reach,
-                               std::vector<SidesPair>& pairs) {
-  for (std::size_t i = 0; i < one_.bounds.size(); ++i) {
-    const double span = end.t - begin.t;
-    const Aabb box = sweptBoxOf(one_, i, begin.one, end.one, span, reach);
-    const Lss& lss = (*one_.lss)[i];
-    const SweptTube tube(lss, one_.bounds[i], axisEnds(lss, begin.one), axisEnds(lss, end.one),
-                         span, reach);
-    found_.clear();
-    std::uint64_t visited = 0;
-    scene_->parts().bvh.collect(box, found_, visited);
-    work += kTreeWork + kBoxWork * (visited + found_.size());
-    for (const TriangleId id : found_) {
-      if (object_ != kNoObject && scene_->object(id) != object_) continue;
-      const Triangle& triangle = scene_->triangle(id);
-      if (!tube.mayMeet(triangle) || !box.overlaps(boxOf(triangle))) continue;
-      pairs.push_back({static_cast<std::int32_t>(i), id});
+/// Goes down on the side whose box is larger.
+void MovingSides::collectParts(Collecting& in, const Swept& one, const Swept& other) {
+  if (!one.box.overlaps(other.box)) return;
+  const bool isOneDown = one_.side().isSurface(one.lss, one.part);
+  const bool isOtherDown = other_.side().isSurface(other.lss, other.part);
+  if (isOneDown && isOtherDown) {
+    in.pairs.push_back({pieceOf(one.lss, one.part), pieceOf(other.lss, other.part)});
+    return;
+  }
+  const bool goesDownOne = !isOneDown && (isOtherDown || extentOf(one.box) >= extentOf(other.box));
+  const LinkSide& side = goesDownOne ? one_ : other_;
+  const Swept& above = goesDownOne ? one : other;
+  const auto below = side.side().below(above.lss, above.part);
+  for (std::size_t i = 0; i < (below[0] == below[1] ? 1 : 2); ++i) {
+    work += kBoxWork;
+    if (goesDownOne) {
+      collectParts(in, sweptOfOne(in, one.lss, below[i]), other);
+    } else {
+      collectParts(in, one, sweptOfOther(in, other.lss, below[i]));
     }
+  }
+}
+
+void MovingSides::collectScene(Collecting& in, const Swept& one) {
+  found_.clear();
+  std::uint64_t visited = 0;
+  scene_->parts().bvh.collect(one.box, found_, visited);
+  work += kTreeWork + kBoxWork * (visited + found_.size());
+  if (found_.empty()) return;
+  if (one_.side().isSurface(one.lss, one.part)) return addTriangles(in, one);
+  const auto below = one_.side().below(one.lss, one.part);
+  collectScene(in, sweptOfOne(in, one.lss, below[0]));
+  if (!(below[0] == below[1])) collectScene(in, sweptOfOne(in, one.lss, below[1]));
+}
+
+/// Of those found.
+void MovingSides::addTriangles(Collecting& in, const Swept& one) {
+  std::optional<SweptTube> tube;
+  if (!one.part.isTriangle()) {
+    const Lss& lss = (*one_.lss)[slotOf(one.lss)];
+    tube.emplace(lss, one_.bounds[slotOf(one.lss)], axisEnds(lss, in.begin.one),
+                 axisEnds(lss, in.end.one), in.span, in.reach);
+  }
+  for (const TriangleId id : found_) {
+    if (object_ != kNoObject && scene_->object(id) != object_) continue;
+    const Triangle& triangle = scene_->triangle(id);
+    if ((tube && !tube->mayMeet(triangle)) || !one.box.overlaps(boxOf(triangle))) continue;
+    in.pairs.push_back({pieceOf(one.lss, one.part), {-1, id}});
   }
 }
 

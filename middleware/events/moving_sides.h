@@ -1,6 +1,6 @@
-// middleware/events/moving_sides.h: the two sides of one question in one step: the LSS of a link,
-// and those of another link or the triangles of an object, in the frame in which their motion is
-// bounded. Not installed.
+// middleware/events/moving_sides.h: the two sides of one question in one step: the surface of a
+// link (its LSS, or its triangles), and that of another link or the triangles of an object, in the
+// frame in which their motion is bounded. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,8 @@
 #include "middleware/pair/pairs_asked.h"
 #include "middleware/pair/side.h"
 #include "middleware/scene/scene.h"
+#include "middleware/surface/link_surface.h"
+#include "tessellation/aabb.h"
 #include "tessellation/swept_lss.h"
 
 namespace foretouch::internal {
@@ -19,12 +21,20 @@ namespace foretouch::internal {
 /// No object of a scene: the other side is a link.
 inline constexpr ObjectId kNoObject = -1;
 
-/// An LSS of the link, and one of the other link or a triangle.
+/// A piece of a side's surface: a triangle, of a link with the LSS that holds it; or an LSS.
+struct SidePiece {
+  std::int32_t lss = -1, triangle = -1;
+};
+[[nodiscard]] inline bool operator==(const SidePiece& x, const SidePiece& y) {
+  return x.lss == y.lss && x.triangle == y.triangle;
+}
+/// One of the link, and one of the other side.
 struct SidesPair {
-  std::int32_t lss = -1, other = -1;
+  SidePiece one, other;
+  [[nodiscard]] bool isNone() const { return one.lss < 0; }
 };
 [[nodiscard]] inline bool operator==(const SidesPair& x, const SidesPair& y) {
-  return x.lss == y.lss && x.other == y.other;
+  return x.one == y.one && x.other == y.other;
 }
 
 /// One side that moves with a link, and what it refers to.
@@ -32,14 +42,23 @@ struct LinkSide {
   MotionEvaluator* evaluator = nullptr;
   LinkId link = kNoParent;
   const std::vector<Lss>* lss = nullptr;
+  const LinkSurface* surface = nullptr;  // null: its LSS
   LinkId frame = kNoParent;
   MotionBounds inFrame;
   std::vector<AxisBounds> bounds;  // per LSS
   std::int32_t first = 0;          // of its LSS in the numbers of radius shares
 
   [[nodiscard]] Side side() const {
-    return {link, *lss, bounds, *evaluator, nullptr, nullptr, frame, &inFrame};
+    return {link, *lss, bounds, *evaluator, surface, nullptr, frame, &inFrame};
   }
+  /// As Side::hullAt().
+  [[nodiscard]] MovingHull hullAt(const SidePiece& piece, const LinkState& state) const;
+};
+
+/// What a link has: LSS, and the triangles that touch in their place, if it has any.
+struct LinkShape {
+  const std::vector<Lss>& lss;
+  const LinkSurface* surface = nullptr;
 };
 
 /// For one thread; keeps its memory. What it refers to outlives the last look.
@@ -48,8 +67,8 @@ class MovingSides {
   /// Both are seen from `frame`.
   void begin(LinkId frame);
   /// A link of the motion that the evaluator has.
-  void setLink(MotionEvaluator& evaluator, LinkId link, const std::vector<Lss>& lss);
-  void setOther(MotionEvaluator& evaluator, LinkId link, const std::vector<Lss>& lss);
+  void setLink(MotionEvaluator& evaluator, LinkId link, const LinkShape& shape);
+  void setOther(MotionEvaluator& evaluator, LinkId link, const LinkShape& shape);
   /// Whose shares of radii count, with the number of each link's first LSS.
   void setShares(const PairsAsked& asked, std::int32_t first, std::int32_t firstOfOther);
   /// The triangles of the object, instead of another link; of all objects if it is kNoObject.
@@ -65,7 +84,7 @@ class MovingSides {
   void collect(double from, double to, double reach, std::vector<SidesPair>& pairs);
   /// The object of a pair's triangle; kNoObject if the other side is a link.
   [[nodiscard]] ObjectId objectOf(const SidesPair& pair) const {
-    return scene_ != nullptr ? scene_->object(pair.other) : kNoObject;
+    return scene_ != nullptr ? scene_->object(pair.other.triangle) : kNoObject;
   }
 
   std::uint64_t looks = 0;  ///< Distances of two parts.
@@ -78,15 +97,29 @@ class MovingSides {
     double t = std::numeric_limits<double>::quiet_NaN();
     LinkState one, other;
   };
+  /// A part of a link, and what it sweeps.
+  struct Swept {
+    std::int32_t lss;
+    Part part;
+    Aabb box;
+  };
+  /// A time, and the pairs that are found in it.
+  struct Collecting {
+    States begin, end;
+    double span, reach;
+    std::vector<SidesPair>& pairs;
+  };
   [[nodiscard]] const States& statesAt(double t);
-  void setSide(LinkSide& side, MotionEvaluator& evaluator, LinkId link,
-               const std::vector<Lss>& lss);
-  [[nodiscard]] static Aabb sweptBoxOf(const LinkSide& side, std::size_t i, const LinkState& begin,
-                                       const LinkState& end, double span, double reach);
-  void collectLinks(const States& begin, const States& end, double reach,
-                    std::vector<SidesPair>& pairs);
-  void collectScene(const States& begin, const States& end, double reach,
-                    std::vector<SidesPair>& pairs);
+  void setSide(LinkSide& side, MotionEvaluator& evaluator, LinkId link, const LinkShape& shape);
+  [[nodiscard]] static Swept sweptOf(const LinkSide& side, std::int32_t lss, Part part,
+                                     const LinkState& begin, const LinkState& end, double span,
+                                     double reach);
+  [[nodiscard]] Swept sweptOfOne(const Collecting& in, std::int32_t lss, Part part) const;
+  [[nodiscard]] Swept sweptOfOther(const Collecting& in, std::int32_t lss, Part part) const;
+  void collectLinks(Collecting& in);
+  void collectParts(Collecting& in, const Swept& one, const Swept& other);
+  void collectScene(Collecting& in, const Swept& one);
+  void addTriangles(Collecting& in, const Swept& one);
 
   LinkId frame_ = kNoParent;
   LinkSide one_, other_;

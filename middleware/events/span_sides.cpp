@@ -1,7 +1,6 @@
 #include "middleware/events/span_sides.h"
 
 #include <algorithm>
-#include <string>
 
 #include "articulated/try.h"
 #include "lss/index.h"
@@ -25,15 +24,6 @@ Result<Done> checkedSides(const WorldParts& world) {
     return Error::in(
         "world", ErrorCode::Mismatch,
         "asks whether meshes meet; expected a world that does not, to follow contacts");
-  }
-  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-    if (!world.bodies[i].options.surface) continue;
-    Error error = Error::in("body", ErrorCode::Mismatch,
-                            "body " + std::to_string(i) +
-                                " touches by its triangles; expected one that touches by its LSS, "
-                                "to follow its contacts");
-    error.index = static_cast<std::int64_t>(i);
-    return error;
   }
   return Done{};
 }
@@ -77,18 +67,19 @@ LinkId SpanSides::inSystem(BodyId body, LinkId link) const {
   return plan_->first[slotOf(scratch_.spans.placeOf(body))] + link;
 }
 
-const std::vector<Lss>& SpanSides::lssOf(BodyId body, LinkId link) const {
-  return world_.kindOf(body).volumes[slotOf(link)];
+LinkShape SpanSides::shapeOf(BodyId body, LinkId link) const {
+  const BodyKind& kind = world_.kindOf(body);
+  return {kind.volumes[slotOf(link)], surfaceOf(kind, link)};
 }
 
 bool SpanSides::set(const LinkPair& links, MovingSides& sides) {
   const LinkId one = isTurned_ ? links.b : links.a, other = isTurned_ ? links.a : links.b;
-  if (lssOf(one_, one).empty()) return false;
+  if (shapeOf(one_, one).lss.empty()) return false;
   switch (question_) {
     case SystemQuestion::Still:
       frame_ = kNoParent;
       sides.begin(frame_);
-      sides.setLink(evaluator_, inSystem(one_, one), lssOf(one_, one));
+      sides.setLink(evaluator_, inSystem(one_, one), shapeOf(one_, one));
       sides.setScene(*world_.still, kNoObject);
       return true;
     case SystemQuestion::Mesh: return setMesh(one, sides);
@@ -99,7 +90,7 @@ bool SpanSides::set(const LinkPair& links, MovingSides& sides) {
 bool SpanSides::setPair(LinkId one, LinkId other, MovingSides& sides) {
   const BodyId ofOther = other_ == kStillScene ? one_ : other_;
   const LinkId a = inSystem(one_, one), b = inSystem(ofOther, other);
-  if (lssOf(ofOther, other).empty()) return false;
+  if (shapeOf(ofOther, other).lss.empty()) return false;
   const PairPlan plan = plan_->pair();
   const PairsAsked& asked = plan.asked;
   const bool isTurned = plan.isOfOwnLinks() ? b < a : query_.isTurned(one_, other_);
@@ -108,8 +99,8 @@ bool SpanSides::setPair(LinkId one, LinkId other, MovingSides& sides) {
   if (!asked.asked().has(i, j)) return false;
   frame_ = asked.frames()[slotOf(asked.frameOf(first, second))];
   sides.begin(frame_);
-  sides.setLink(inWorld(one_), a, lssOf(one_, one));
-  sides.setOther(inWorld(ofOther), b, lssOf(ofOther, other));
+  sides.setLink(inWorld(one_), a, shapeOf(one_, one));
+  sides.setOther(inWorld(ofOther), b, shapeOf(ofOther, other));
   sides.setShares(asked, isTurned ? j : i, isTurned ? i : j);
   return true;
 }
@@ -120,7 +111,7 @@ bool SpanSides::setMesh(LinkId link, MovingSides& sides) {
   if (plan_->query->avatar().lss(seen).empty()) return false;
   frame_ = kNoParent;
   sides.begin(frame_);
-  sides.setLink(evaluator_, seen, lssOf(one_, link));
+  sides.setLink(evaluator_, seen, shapeOf(one_, link));
   sides.setScene(*world_.kindOf(other_).mesh, kNoObject);
   return true;
 }

@@ -34,8 +34,7 @@ struct LinkPair {
 /// One of them is a mesh, or the scene: each of its objects is met by itself.
 [[nodiscard]] bool isOfObjects(const WorldParts& world, const BodyPair& bodies);
 
-/// Errors: a world whose contacts cannot be followed: contacts are followed between LSS, and
-/// between LSS and the triangles of a mesh or of the scene.
+/// Errors: a world whose contacts cannot be followed: one that asks whether meshes meet.
 [[nodiscard]] Result<Done> checkedSides(const WorldParts& world);
 
 /// One thread's memory for spans.
@@ -92,7 +91,7 @@ class SpanSides {
   [[nodiscard]] LinkId inSystem(BodyId body, LinkId link) const;
   [[nodiscard]] bool setPair(LinkId one, LinkId other, MovingSides& sides);
   [[nodiscard]] bool setMesh(LinkId link, MovingSides& sides);
-  [[nodiscard]] const std::vector<Lss>& lssOf(BodyId body, LinkId link) const;
+  [[nodiscard]] LinkShape shapeOf(BodyId body, LinkId link) const;
   [[nodiscard]] MotionEvaluator& inWorld(BodyId body) const;
 
   const WorldParts& world_;

@@ -53,8 +53,7 @@ class WorldFollower {
   /// (World::knownUntilUs() is a pose). Until then the world must keep what it knows
   /// (World::forgetBefore()). `answer` is filled anew; its memory is kept.
   /// Errors: as World::contacts(); more than kMostCuts cuts (OutOfRange); another world than in the
-  /// last call, one that asks whether meshes meet, or a body that touches by its triangles
-  /// (Mismatch). Then nothing has been followed.
+  /// last call, or one that asks whether meshes meet (Mismatch). Then nothing has been followed.
   Result<Done> follow(const World& world, std::int64_t untilUs, WorldEvents& answer);
 
   /// Until where it has followed.

@@ -1,7 +1,10 @@
 #include "middleware/surface/avatar_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -115,6 +118,31 @@ void LinkSurface::prepareWide() const {
       if (hierarchies_[i]) wideNodes_[i].emplace(*hierarchies_[i], laneTriangles_);
     }
   });
+}
+
+const std::vector<Eigen::Vector3d>& LinkSurface::cornerOfPieces() const {
+  std::call_once(builtCorners_, [this] {
+    // Triangles at a corner are joined with the first one that was there.
+    std::vector<std::size_t> joined(triangles_.size());
+    std::iota(joined.begin(), joined.end(), std::size_t{0});
+    const auto rootOf = [&](std::size_t i) {
+      while (joined[i] != i) i = joined[i] = joined[joined[i]];
+      return i;
+    };
+    std::map<std::array<double, 3>, std::size_t> at;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      for (const Eigen::Vector3d& v : triangles_[i].vertices) {
+        // -0 and 0 are one place.
+        const auto [first, isNew] =
+            at.emplace(std::array{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}, i);
+        if (!isNew) joined[rootOf(i)] = rootOf(first->second);
+      }
+    }
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      if (rootOf(i) == i) corners_.push_back(triangles_[i].vertices[0]);
+    }
+  });
+  return corners_;
 }
 
 void LinkSurface::prepareLanes() const {

@@ -50,7 +50,10 @@ class LinkSurface {
   /// Built once, by the first thread that uses it. Precondition: hasTriangles(lss).
   [[nodiscard]] const LssHierarchy& hierarchy(std::int32_t lss) const;
   void prepare() const;
-  /// Likewise, for wideNode() as well.
+  /// A corner of each connected piece: triangles are connected by corners at the same place. Built
+  /// likewise.
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& cornerOfPieces() const;
+  /// As prepare(), for wideNode() as well.
   void prepareWide() const;
   /// Of an LSS with triangles. Preconditions: prepareWide() was called; as WideNodes::at().
   [[nodiscard]] const WideNode& wideNode(std::int32_t lss, HierarchyChild node) const {
@@ -80,7 +83,8 @@ class LinkSurface {
   }
   std::vector<Triangle> triangles_;
   std::vector<std::vector<std::int32_t>> idsOfLss_;
-  mutable std::once_flag built_, builtWide_;
+  mutable std::once_flag built_, builtWide_, builtCorners_;
+  mutable std::vector<Eigen::Vector3d> corners_;
   mutable Hierarchies hierarchies_;
   mutable std::vector<LanePart> laneTriangles_;
   mutable std::vector<std::vector<LaneNode>> laneNodes_;  // per LSS

@@ -159,8 +159,9 @@ LinkPresence::Decided LinkPresence::decide(const TriggerPair& pair, LinkId link,
   if (isUnknown(trigger) || isUnknown(body)) return {Presence::Unresolved, false};
   Decided decided;
   decided.isAssumed = trigger == PlaceKnown::Assumed || body == PlaceKnown::Assumed;
-  for (const Lss& lss : world_->kindOf(pair.body).avatar->lss(link)) {
-    // Nothing of the LSS is at the surface: one point says where it is.
+  findPieces(pair.body, link);
+  for (const Lss& lss : pieces_) {
+    // Nothing of the piece is at the surface: one point says where it is.
     double rounding = 0.0;
     const Lss seen =
         seenFrom(ofTrigger_.front(), placed(lss, ofBody_[slotOf(link)], rounding), rounding);
@@ -172,6 +173,24 @@ LinkPresence::Decided LinkPresence::decide(const TriggerPair& pair, LinkId link,
     if (place == PointPlace::AtSurface) decided.presence = Presence::Unresolved;
   }
   return decided;
+}
+
+/// An LSS is one; so are triangles that hang together.
+void LinkPresence::findPieces(BodyId body, LinkId link) {
+  const BodyKind& kind = world_->kindOf(body);
+  const LinkSurface* const surface = surfaceOf(kind, link);
+  const std::vector<Lss>& volumes = kind.volumes[slotOf(link)];
+  if (surface == nullptr) {
+    pieces_ = volumes;
+    return;
+  }
+  pieces_.clear();
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    if (!surface->hasTriangles(static_cast<std::int32_t>(i))) pieces_.push_back(volumes[i]);
+  }
+  for (const Eigen::Vector3d& corner : surface->cornerOfPieces()) {
+    pieces_.push_back({corner, corner, 0.0});
+  }
 }
 
 /// A body and the link that carries it are not asked whether they meet (World::attach()).

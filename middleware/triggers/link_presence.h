@@ -69,6 +69,7 @@ class LinkPresence {
   [[nodiscard]] Decided presenceIn(const TriggerPair& pair, LinkId link, const Gap& gap);
   [[nodiscard]] Decided decide(const TriggerPair& pair, LinkId link, const WorldTime& time);
   [[nodiscard]] bool isCarriedBy(const TriggerPair& pair, LinkId link, std::int64_t us) const;
+  void findPieces(BodyId body, LinkId link);
   void keep(const Key& key, const std::vector<PresenceSpan>& spans, std::size_t first,
             bool isTouching);
 
@@ -80,6 +81,7 @@ class LinkPresence {
   std::vector<Gap> gaps_;
   BodyPlaces bodies_;
   std::vector<LinkPlace> ofTrigger_, ofBody_;
+  std::vector<Lss> pieces_;  // of the link's surface: their axes hold a point of each
   ClosedMesh::Memory memory_;
 };
 

@@ -51,6 +51,12 @@ std::vector<Episode>::const_iterator episodeAfter(const std::vector<Episode>& ep
 
 }  // namespace
 
+const LinkSurface* surfaceOf(const BodyKind& kind, LinkId link) {
+  if (!kind.surface) return nullptr;
+  const LinkSurface& own = *kind.surface->parts().links[slotOf(link)];
+  return own.triangles().empty() ? nullptr : &own;
+}
+
 BodyKind bodyKindOf(const Avatar& avatar, const std::optional<AvatarSurface>& surface) {
   BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, surface, {}, 0.0};
   for (LinkId link = 0; link < avatar.numLinks(); ++link) kind.volumes.push_back(avatar.lss(link));

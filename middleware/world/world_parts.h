@@ -11,6 +11,7 @@
 #include "articulated/track.h"
 #include "lss/index.h"
 #include "middleware/scene/scene.h"
+#include "middleware/surface/link_surface.h"
 #include "middleware/world/world.h"
 
 namespace foretouch::internal {
@@ -30,6 +31,9 @@ struct BodyKind {
 /// Larger meshes are frames that others are seen from, however they turn (world.md 1): their
 /// hierarchies take seconds to build.
 inline constexpr std::size_t kMostSpinningTriangles = 100'000;
+
+/// The triangles by which a link touches; null: by its LSS.
+[[nodiscard]] const LinkSurface* surfaceOf(const BodyKind& kind, LinkId link);
 
 /// Of an avatar, by its LSS or by its surface; and of a mesh.
 [[nodiscard]] BodyKind bodyKindOf(const Avatar& avatar,

@@ -79,6 +79,43 @@ TEST(EventOracle, SamplesMeshesThatFlyAndSpin) {
   expectAllSeen(sum);
 }
 
+/// Brings a surface mostly, and asks own links by half.
+BodyOptions exactOptions(const Avatar& avatar, Random& random) {
+  BodyOptions options;
+  if (random.chance(0.8)) options.surface = randomSurface(avatar, random);
+  if (random.chance(0.5)) {
+    if (const auto rules = PairRules::derive(avatar); rules.ok()) options.self = rules.value();
+  }
+  return options;
+}
+
+// Among each other, with those that touch by their LSS, and with a mesh.
+TEST(EventOracle, SamplesAvatarsThatTouchByTheirTriangles) {
+  EventTally sum;
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    Random random(static_cast<std::uint64_t>(4000 + i));
+    BothWorlds both(randomTolerance(random));
+    const Vector3d place =
+        random.chance(0.2) ? Vector3d(1e4 * random.direction()) : Vector3d::Zero();
+    const BodyId mesh = random.chance(0.5) ? both.add(randomMesh(random)) : kStillScene;
+    for (int k = 0; k < 3; ++k) {
+      Walker walker = randomWalker(random, place + random.inBox(0.3), 0.15);
+      const BodyId body = both.add(walker.avatar, exactOptions(walker.avatar, random));
+      walk(both, body, walker, randomPeriod(random), kUntilUs, random);
+    }
+    if (mesh != kStillScene) {
+      fly(both, mesh, place + random.inBox(0.4), randomPeriod(random), kUntilUs, random);
+    }
+    JudgedEvents judged(both, 0);
+    judged.follow(kUntilUs / 3);
+    judged.follow(kUntilUs);
+    judged.judge(kInstants);
+    add(judged.tally, sum);
+  }
+  expectAllSeen(sum);
+}
+
 // Nothing else holds the samples: a follower that enters late, leaves early or stays too long.
 TEST(EventOracle, NamesEveryLie) {
   const auto problemsWith = [](const std::function<void(std::vector<WorldPart>&)>& tamper) {

@@ -126,7 +126,12 @@ BothTriggers::Truth BothTriggers::truthOf(TriggerId trigger, BodyId body, LinkId
   }
   for (const OraclePart& part : both.oracle.partsAt(body, link, fromUs_, us)) {
     const auto axis = oracle::cornersOf<Real>(part.corners);
-    for (std::size_t i = 0; i < volume.size(); ++i) {
+    if (part.count == 3) {
+      truth.separation =
+          std::min(truth.separation,
+                   both.oracle.separationAt(body, part.link, this->body(trigger), 0, fromUs_, us));
+    }
+    for (std::size_t i = 0; part.count == 2 && i < volume.size(); ++i) {
       const Real distance = oracle::closestPoints<Real>(axis[0], axis[1], surface[i]).distance;
       truth.separation = std::min(truth.separation, distance - static_cast<Real>(part.radius) -
                                                         static_cast<Real>(volume[i].radius));

@@ -51,6 +51,14 @@ Scene randomMesh(Random& random) {
   return Scene::build(std::move(raw)).value();
 }
 
+AvatarSurface randomSurface(const Avatar& avatar, Random& random) {
+  auto meshes = meshWithin(avatar, random, 1 + random.below(8), 0.9);
+  for (auto& mesh : meshes) {
+    if (random.chance(0.15)) mesh.clear();
+  }
+  return AvatarSurface::build(avatar, std::move(meshes)).value();
+}
+
 void walk(BothWorlds& both, BodyId body, Walker& walker, std::int64_t periodUs,
           std::int64_t untilUs, Random& random) {
   for (std::int64_t us = 0; us < untilUs + periodUs; us += periodUs) {

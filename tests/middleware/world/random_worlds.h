@@ -9,6 +9,7 @@
 
 #include "articulated/avatar.h"
 #include "middleware/scene/scene.h"
+#include "middleware/surface/avatar_surface.h"
 #include "tests/middleware/world/both_worlds.h"
 #include "tests/support/random_geometry.h"
 
@@ -29,6 +30,8 @@ struct Walker {
 
 [[nodiscard]] Walker randomWalker(Random& random, const Eigen::Vector3d& place, double speed);
 [[nodiscard]] Scene randomMesh(Random& random);
+/// Triangles in most LSS; every now and then a link has none.
+[[nodiscard]] AvatarSurface randomSurface(const Avatar& avatar, Random& random);
 /// Poses at the body's own period until `untilUs`.
 void walk(BothWorlds& both, BodyId body, Walker& walker, std::int64_t periodUs,
           std::int64_t untilUs, Random& random);

@@ -18,15 +18,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Triangles in most LSS; every now and then a link has none.
-AvatarSurface randomSurface(const Avatar& avatar, Random& random) {
-  auto meshes = meshWithin(avatar, random, 1 + random.below(8), 0.9);
-  for (auto& mesh : meshes) {
-    if (random.chance(0.15)) mesh.clear();
-  }
-  return AvatarSurface::build(avatar, std::move(meshes)).value();
-}
-
 /// Asks own links by half, and brings a surface mostly.
 BodyOptions exactOptions(const Avatar& avatar, Random& random, double share) {
   BodyOptions options;
