@@ -15,9 +15,10 @@ namespace foretouch::internal {
 struct ContactRow {
   LinkId link = 0;
   std::int32_t lss = -1;
-  TriangleId triangle = -1;                     ///< Of the scene, which rests; or:
-  LinkId other = kNoParent;                     ///< an own link,
-  std::int32_t otherLss = -1;                   ///< and its LSS.
+  TriangleId triangle = -1;    ///< Of the scene, which rests; or:
+  LinkId other = kNoParent;    ///< an own link,
+  std::int32_t otherLss = -1;  ///< and its LSS.
+  std::int32_t end = -1;  ///< Of own links, where an axis ends: 0, 1 of `lss`, 2, 3 of `otherLss`.
   Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< On the link's surface, in W.
   Eigen::Vector3d y = Eigen::Vector3d::Zero();  ///< On the surface that is touched, in W.
   Eigen::Vector3d n = Eigen::Vector3d::Zero();  ///< Unit, from y to x.

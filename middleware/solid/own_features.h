@@ -23,11 +23,16 @@ struct LssInWorld {
 [[nodiscard]] bool findRow(const LssInWorld& one, const LssInWorld& other, double radii,
                            double within, ContactRow& row);
 
+/// The gap of a row that is not of a face or a joint's range, where the links are so; a lower
+/// bound.
+[[nodiscard]] double gapOf(const QueryPlan& plan, const ContactRow& row,
+                           const std::vector<LinkState>& states);
+
 class OwnFeatures {
  public:
   OwnFeatures() = default;
-  /// Of the pairs that the plan asks about; where it asks about none, of those that no rule leaves
-  /// out: they are kept apart as far as the target has them. O(links^2 + LSS^2).
+  /// Of the pairs that the plan asks about; where it asks about none, of all but neighbours: they
+  /// are kept apart as far as the target has them. O(links^2 + LSS^2).
   explicit OwnFeatures(const QueryPlan& plan);
 
   /// Where the links are, and where the target has them.

@@ -66,8 +66,33 @@ void PulledStep::aim(const Pose& target, const std::vector<Eigen::Vector3d>& wan
     pull_.forces[link] += points[k].weight * wrench(x, error);
     inertia_.addPoint(points[k].link, x, points[k].weight);
   }
-  inertia_.factor(body_.stiffness());
+  findStiffness(here, wanted);
+  inertia_.factor(stiffness_);
   inertia_.solve(pull_.forces, pull_.torques, free_.turns, free_.shifts, free_.twists);
+}
+
+/// A joint turns points on circles. What these bend away from a target that is beyond them the
+/// linear step does not see: it would turn too far, and back in the next tick (solid.md 2).
+void PulledStep::findStiffness(const BodyState& here, const std::vector<Eigen::Vector3d>& wanted) {
+  const std::vector<JointId>& parents = skeleton_.parents();
+  const auto& points = body_.points();
+  bends_.assign(parents.size(), {});
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    Bend& bend = bends_[slotOf(points[k].link)];
+    const Eigen::Vector3d error = points[k].weight * (wanted[k] - here.places[k]);
+    bend.force += error;
+    bend.moment += (here.places[k] - origin_).dot(error);
+  }
+  stiffness_ = body_.stiffness();
+  for (std::size_t j = parents.size(); j-- > 0;) {
+    const Bend& bend = bends_[j];
+    const double about = bend.moment - (here.states[j].p_WL - origin_).dot(bend.force);
+    stiffness_[j] += std::max(0.0, about);
+    if (parents[j] == kNoParent) continue;
+    Bend& above = bends_[slotOf(parents[j])];
+    above.force += bend.force;
+    above.moment += bend.moment;
+  }
 }
 
 void PulledStep::pullLess(double share) {

@@ -65,6 +65,14 @@ class PulledStep {
 
  private:
   [[nodiscard]] double sizeOf(const TreeStep& step, const BodyState& here) const;
+  void findStiffness(const BodyState& here, const std::vector<Eigen::Vector3d>& wanted);
+
+  /// Of all points on a joint's link and below: sums of weight times error, and of their products
+  /// with the places.
+  struct Bend {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    double moment = 0.0;
+  };
 
   Skeleton skeleton_;
   VisualBody body_;
@@ -72,6 +80,8 @@ class PulledStep {
   LeastPush push_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   TreePull pull_;
+  std::vector<Bend> bends_;
+  std::vector<double> stiffness_;  // per joint
   TreeStep free_, step_;
   PoseStep change_;
   std::vector<std::uint8_t> isSeen_;  // per joint: points are on its link or below

@@ -247,7 +247,7 @@ void StillController::moveRows(const QueryPlan& plan) {
       row.x = held - lss.radius * row.n;
       row.y = held - height * row.n;
     } else {
-      row.gap = pairGapAt(here_.states, plan, row);
+      row.gap = gapOf(plan, row, here_.states);
       row.x = to.pointAt(from.R_WL.transpose() * (row.x - from.p_WL));
     }
   }
@@ -392,8 +392,7 @@ bool StillController::tryShare(const FollowRequest& request, const Pose& shown, 
 /// way. Of the surface, not of the triangle alone, lest its neighbours are asked in vain.
 bool StillController::isTargetApart(const FollowRequest& request, Certifier& certifier) {
   const bool areApart = std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
-    return !(row.push > 0.0) || row.isSoft ||
-           pairGapAt(request.states, certifier.plan(), row) > 0.0;
+    return !(row.push > 0.0) || row.isSoft || gapOf(certifier.plan(), row, request.states) > 0.0;
   });
   if (!areApart) return false;
   touchReach_.assign(activeFor_.size(), -1.0);
@@ -409,7 +408,7 @@ bool StillController::isTargetApart(const FollowRequest& request, Certifier& cer
 /// Of a face: of the points on the axis that its plane holds, whichever triangles it is cut into.
 double StillController::gapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
                               const ContactRow& row) const {
-  if (!row.isFace) return pairGapAt(states, plan, row);
+  if (!row.isFace) return gapOf(plan, row, states);
   const Lss& lss = plan.avatar.lss(row.link)[slotOf(row.lss)];
   const LinkState& state = states[slotOf(row.link)];
   const auto isOfLss = [&](const ContactRow& other) {
@@ -425,13 +424,6 @@ double StillController::gapAt(const std::vector<LinkState>& states, const QueryP
     least = std::min(least, row.n.dot(held - row.y) - lss.radius);
   }
   return least;
-}
-
-double StillController::pairGapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
-                                  const ContactRow& row) {
-  const LinkId other = row.other == kNoParent ? row.link : row.other;
-  return gapOf(plan, {row.link, row.lss, row.triangle, row.other, row.otherLss},
-               states[slotOf(row.link)], states[slotOf(other)]);
 }
 
 bool StillController::keepsGaps(const FollowRequest& request, const QueryPlan& plan) const {

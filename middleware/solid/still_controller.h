@@ -94,8 +94,6 @@ class StillController {
   [[nodiscard]] bool isTargetApart(const FollowRequest& request, Certifier& certifier);
   [[nodiscard]] double gapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
                              const ContactRow& row) const;
-  [[nodiscard]] static double pairGapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
-                                        const ContactRow& row);
   void keepActive();
 
   SolidOptions options_;

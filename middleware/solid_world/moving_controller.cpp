@@ -192,10 +192,7 @@ double MovingController::gapThere(const Run& run, std::size_t i) const {
                             there_.states);
   }
   if (row.isTurn) return run.request.ranges.gapAt(there_.states, row);
-  const LinkId other = row.other == kNoParent ? row.link : row.other;
-  return gapOf(run.prover.certifier().plan(),
-               {row.link, row.lss, row.triangle, row.other, row.otherLss},
-               there_.states[slotOf(row.link)], there_.states[slotOf(other)]);
+  return gapOf(run.prover.certifier().plan(), row, there_.states);
 }
 
 /// Something comes, and the step goes out of its way: then it may lead away from the target.

@@ -95,7 +95,9 @@ MotionAudit::MotionAudit(const oracle::Scene& scene, const Avatar& avatar,
     for (std::size_t k = i + 1; k < linkOf_.size(); ++k) {
       if (linkOf_[i] == linkOf_[k]) continue;
       const auto one = static_cast<LinkId>(linkOf_[i]), other = static_cast<LinkId>(linkOf_[k]);
-      if (rules.value().reasonOf(one, other) == PairReason::Asked) pairs_.push_back({i, k});
+      const PairReason reason = rules.value().reasonOf(one, other);
+      const bool isKept = reason == PairReason::Asked || reason == PairReason::RestOverlap;
+      if (isKept) pairs_.push_back({i, k});
     }
   }
 }

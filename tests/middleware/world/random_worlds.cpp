@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/middleware/mesh_body.h"
 #include "tests/middleware/own_body.h"
 
 namespace foretouch::test {
