@@ -7,7 +7,7 @@ example=$(realpath "$(dirname "$program")/../share/foretouch/examples")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 python3 "$pictures/concepts.py"
-for picture in table_and_cup solid_tick; do
+for picture in table_and_cup solid_tick hand_that_stops touches proven_edges; do
   PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$(realpath "$(dirname "$program")/../lib/python3/dist-packages")" \
     /usr/bin/python3 "$pictures/$picture.py"  # numpy is that of Debian's own Python
 done
@@ -17,4 +17,5 @@ inputs=(--scene "$example/room.obj" --avatar "$example/dancer.avatar.json" --mot
 "$program" view "${inputs[@]}" --output look.html >/dev/null
 "$program" view "${inputs[@]}" --scene-scale 0.01 --output wrong.html >/dev/null
 PYTHONDONTWRITEBYTECODE=1 python3 "$pictures/report_pictures.py" demo.html look.html wrong.html "$pictures"
+PYTHONDONTWRITEBYTECODE=1 python3 "$pictures/page_moves.py" demo.html "$pictures"
 ls -l "$pictures"/*.png
