@@ -6,7 +6,7 @@ from browser import Page
 from smaller_png import shrink
 
 WIDTH, HEIGHT, MOST_BYTES = 1200, 820, 120_000
-# The 3D view of the report, for README's first screen.
+# The 3D view of the report, for concepts.md.
 VIEW = """(() => {
   const { left, top, right, bottom } = document.getElementById('view').getBoundingClientRect();
   return [left, top, right, bottom].map(Math.round);
