@@ -1,10 +1,14 @@
-// articulated/avatar.h: an articulated body: a skeleton whose links are bounded by LSS.
-// A link is the rigid body that moves with a joint; both share one index and one frame L.
+// articulated/avatar.h: an articulated body: a skeleton whose links are bounded by LSS; and a skin,
+// whose vertices follow a blend of several links. Metres. A link is the rigid body that moves with
+// a joint; both share one index and one frame L.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "articulated/skeleton.h"
 #include "lss/index.h"
@@ -50,6 +54,18 @@ class Avatar {
   std::uint64_t identity_ = 0;
   std::vector<std::vector<Lss>> lss_;
   std::vector<MeshReference> meshes_;
+};
+
+/// One link's share of a vertex, which is at the sum of weight * (link's pose applied to p_L), the
+/// weights summing to one.
+struct SkinInfluence {
+  LinkId link = 0;
+  double weight = 0.0;                            ///< > 0
+  Eigen::Vector3d p_L = Eigen::Vector3d::Zero();  ///< The vertex in the link's frame, at bind time.
+};
+struct Skin {
+  std::vector<std::vector<SkinInfluence>> vertices;  ///< Never empty lists; largest weight first.
+  std::vector<std::array<std::int32_t, 3>> triangles;
 };
 
 }  // namespace foretouch

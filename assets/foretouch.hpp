@@ -19,7 +19,6 @@
 #include "assets/model/model_avatar.h"
 #include "middleware/depth/depth.h"
 #include "middleware/edges/edge_query.h"
-#include "middleware/mechanics/impulse.h"
 #include "middleware/mechanics/mass.h"
 #include "middleware/near/near_features.h"
 #include "middleware/query/query.h"

@@ -4,9 +4,9 @@
 
 #include <Eigen/Core>
 
-#include "lss/separation.h"
-
 namespace foretouch {
+
+struct Hull;
 
 /// A lower bound on the distance, rounding included, for any `direction` from `other` towards
 /// `one`, of any length; zero, less rounding, where it proves no more. All coordinates finite,

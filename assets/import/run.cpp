@@ -17,7 +17,6 @@
 
 #include "articulated/try.h"
 #include "assets/import/process.h"
-#include "assets/import/scene_import.h"
 #include "assets/import/text.h"
 #include "assets/import/usable_memory.h"
 

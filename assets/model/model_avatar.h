@@ -17,7 +17,6 @@
 #include "articulated/clip.h"
 #include "articulated/result.h"
 #include "articulated/robot.h"
-#include "articulated/skin.h"
 #include "assets/model/model.h"
 #include "lss/lss.h"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "articulated/skin.h"
+#include "articulated/avatar.h"
 #include "assets/model/model.h"
 #include "assets/model/model_links.h"
 #include "assets/model/model_ownership.h"

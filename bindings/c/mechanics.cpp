@@ -6,7 +6,6 @@
 #include "articulated/skeleton.h"
 #include "articulated/try.h"
 #include "bindings/c/sized_struct.h"
-#include "middleware/mechanics/impulse.h"
 #include "middleware/mechanics/mass.h"
 
 namespace foretouch::c {

@@ -24,12 +24,30 @@ constexpr double kDeterminantRounding = 64.0 * kUnitRoundoff;
 /// A step is found to this share of what it could be.
 constexpr double kStepShare = 0.01;
 constexpr int kMostRounds = 24;
+/// A weighted point that is farther from the one that is meant is not taken, relative to the edges.
+constexpr double kMostOff = 1e-10;
 
 /// A point that moves with a part.
 struct HeldPoint {
   Vector3d place, velocity;
   double acceleration = 0.0, positionRounding = 0.0, velocityRounding = 0.0;
 };
+
+/// Of a triangle that is all but a segment, whose face says nothing.
+std::array<double, 2> weightsOnEdges(const Vector3d& u, const Vector3d& v, const Vector3d& q) {
+  const auto along = [](const Vector3d& edge, const Vector3d& from) {
+    const double length = edge.squaredNorm();
+    return length > 0.0 ? clamp01(from.dot(edge) / length) : 0.0;
+  };
+  const double ofThird = along(v - u, q - u);
+  const std::array<std::array<double, 2>, 3> all = {
+      {{along(u, q), 0.0}, {0.0, along(v, q)}, {1.0 - ofThird, ofThird}}};
+  const auto off = [&](const std::array<double, 2>& w) {
+    return (w[0] * u + w[1] * v - q).squaredNorm();
+  };
+  return *std::min_element(all.begin(), all.end(),
+                           [&](const auto& x, const auto& y) { return off(x) < off(y); });
+}
 
 /// The weights of a point of the hull near `p`: all at least 0, their sum at most 1 up to rounding;
 /// the first point has the rest.
@@ -49,7 +67,13 @@ std::array<double, 2> weightsAt(const Hull& hull, const Vector3d& p) {
     b = clamp01(q.dot(u) / u.squaredNorm());
   }
   const double sum = b + c;
-  return sum > 1.0 ? std::array<double, 2>{b / sum, c / sum} : std::array<double, 2>{b, c};
+  if (sum > 1.0) {
+    b /= sum;
+    c /= sum;
+  }
+  const double off = (b * u + c * v - q).squaredNorm();
+  const double most = kMostOff * (u.lpNorm<1>() + v.lpNorm<1>());
+  return off > most * most ? weightsOnEdges(u, v, q) : std::array<double, 2>{b, c};
 }
 
 HeldPoint heldPoint(const MovingHull& part, const Vector3d& p) {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lss/rounding.h"
-#include "middleware/mechanics/impulse.h"
+#include "middleware/mechanics/mass.h"
 #include "middleware/pair/approach.h"
 #include "middleware/pair/link_query.h"
 

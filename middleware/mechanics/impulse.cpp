@@ -1,10 +1,10 @@
-#include "middleware/mechanics/impulse.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <Eigen/Dense>
+
+#include "middleware/mechanics/mass.h"
 
 namespace foretouch {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "lss/index.h"
 #include "lss/lss.h"
-#include "middleware/scene/scene.h"
+#include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
 

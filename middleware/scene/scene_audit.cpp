@@ -10,7 +10,7 @@
 
 #include "lss/index.h"
 #include "lss/rounding.h"
-#include "middleware/scene/scene.h"
+#include "middleware/scene/raw_scene.h"
 
 namespace foretouch {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "middleware/scene/flat_bvh.h"
 #include "middleware/scene/flat_edges.h"
-#include "middleware/scene/scene.h"
+#include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
 

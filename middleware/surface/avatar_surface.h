@@ -15,7 +15,6 @@
 
 #include "articulated/avatar.h"
 #include "articulated/result.h"
-#include "articulated/skin.h"
 #include "lss/lss.h"
 
 namespace foretouch {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "articulated/skin.h"
+#include "articulated/avatar.h"
 #include "lss/index.h"
 #include "middleware/lanes/blend_lanes.h"
 

@@ -1,5 +1,3 @@
-#include "network/stream/solid_stream.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include "articulated/raw_skeleton.h"
 #include "articulated/try.h"
 #include "network/stream/solid_answer.h"
+#include "network/stream/stream_solver.h"
 
 namespace foretouch {
 namespace {

@@ -12,7 +12,6 @@
 #include "lss/index.h"
 #include "middleware/depth/depth.h"
 #include "middleware/events/world_follower.h"
-#include "middleware/mechanics/impulse.h"
 #include "middleware/mechanics/mass.h"
 #include "tests/bindings/moving_world.h"
 #include "tests/middleware/own_body.h"

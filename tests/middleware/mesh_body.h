@@ -10,7 +10,6 @@
 
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
-#include "articulated/skin.h"
 #include "lss/lss.h"
 #include "tests/support/random_geometry.h"
 

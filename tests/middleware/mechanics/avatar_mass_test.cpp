@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "lss/index.h"
-#include "middleware/mechanics/impulse.h"
 #include "middleware/mechanics/mass.h"
 #include "tests/support/random_motion.h"
 

@@ -1,6 +1,4 @@
 // Impulses: the textbook's cases, and the laws on a million draws.
-#include "middleware/mechanics/impulse.h"
-
 #include <cmath>
 #include <limits>
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -124,9 +125,10 @@ BothTriggers::Truth BothTriggers::truthOf(TriggerId trigger, BodyId body, LinkId
   for (const OraclePart& part : volume) {
     surface.push_back(oracle::cornersOf<Real>(part.corners));
   }
+  int judged = -1;  // the last link that has triangles
   for (const OraclePart& part : both.oracle.partsAt(body, link, fromUs_, us)) {
     const auto axis = oracle::cornersOf<Real>(part.corners);
-    if (part.count == 3) {
+    if (part.count == 3 && std::exchange(judged, part.link) != part.link) {
       truth.separation =
           std::min(truth.separation,
                    both.oracle.separationAt(body, part.link, this->body(trigger), 0, fromUs_, us));

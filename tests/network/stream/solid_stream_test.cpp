@@ -1,7 +1,5 @@
 // A stream's solid avatar: what it is asked, what its messages say, and that it passes through
 // nothing whatever the stream does.
-#include "network/stream/solid_stream.h"
-
 #include <cmath>
 #include <cstdint>
 #include <optional>
