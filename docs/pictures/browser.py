@@ -19,6 +19,13 @@ def program():
             return shutil.which(name)
     raise SystemExit("expected chromium in the path")
 
+# Of a report: presses the button that says so; where its 3D view is, in pixels.
+PRESS = "[...document.querySelectorAll('button')].find(b => b.textContent.trim() === '%s').click()"
+VIEW = """(() => {
+  const { left, top, right, bottom } = document.getElementById('view').getBoundingClientRect();
+  return [left, top, right, bottom].map(Math.round);
+})()"""
+
 
 class Page:
     """One page of a browser that lives as long as the `with` block."""

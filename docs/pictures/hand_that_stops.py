@@ -16,6 +16,12 @@ WORDS = {SolidState.EQUAL: ("free: shown is tracked, bit for bit", GREEN),
          SolidState.SLIDING: ("it slides along the desk", ORANGE), SolidState.HELD: ("the desk holds it", RED)}
 
 
+def capsules(avatar, motion, t):
+    """Per LSS of the avatar both ends in the world, and its radius."""
+    return [(place[:3, :3] @ one.a + place[:3, 3], place[:3, :3] @ one.b + place[:3, 3], one.radius)
+            for link, place in zip(avatar.lss, motion.transforms(t)) for one in link]
+
+
 class Story:
     """The clip, followed by a solid avatar tick by tick; some ticks are drawn."""
 
@@ -41,10 +47,7 @@ class Story:
         return [min(c) for c in zip(*points)], [max(c) for c in zip(*points)]
 
     def capsules(self, pose):
-        """Per LSS of the avatar both ends in the world, and its radius."""
-        places = foretouch.Motion(self.avatar, pose, pose).transforms(0)
-        return [(place[:3, :3] @ one.a + place[:3, 3], place[:3, :3] @ one.b + place[:3, 3], one.radius)
-                for link, place in zip(self.avatar.lss, places) for one in link]
+        return capsules(self.avatar, foretouch.Motion(self.avatar, pose, pose), 0)
 
 
 def draw_arm(p, view, poses, color, edge=None):

@@ -4,17 +4,11 @@ import os
 import sys
 import tempfile
 
-from browser import Page
+from browser import PRESS, VIEW, Page
 from moving_png import write_film
 
 WIDTH, HEIGHT, MOST_BYTES = 480, 560, 120_000
 FIRST, LAST, FRAMES = 5.20, 6.60, 20  # seconds of the dance: two turns beside the floor lamp
-# Without the poses around, and the hole through what hides the body.
-PRESS = "[...document.querySelectorAll('button')].find(b => b.textContent.trim() === '%s').click()"
-VIEW = """(() => {
-  const { left, top, right, bottom } = document.getElementById('view').getBoundingClientRect();
-  return [left, top, right, bottom].map(Math.round);
-})()"""
 # One that the camera then looks at.
 SELECT = """{
   const view = JSON.parse(document.getElementById('foretouch-view').textContent);
@@ -28,6 +22,7 @@ def main(report, folder):
     with tempfile.TemporaryDirectory() as work, Page(WIDTH, HEIGHT) as page:
         page.open(report)
         page.run(SELECT)
+        # Without the poses around, and the hole through what hides the body.
         for name in ("Ghosts", "Cut away"):
             page.run(PRESS % name)
         shots = [os.path.join(work, f"{i}.png") for i in range(FRAMES)]

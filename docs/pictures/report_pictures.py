@@ -2,16 +2,10 @@
 """Takes the pictures of reports: report_pictures.py DEMO.html LOOK.html WRONG.html FOLDER."""
 import sys
 
-from browser import Page
+from browser import PRESS, VIEW, Page
 from smaller_png import shrink
 
 WIDTH, HEIGHT, MOST_BYTES = 1200, 820, 120_000
-# The 3D view of the report, for concepts.md.
-VIEW = """(() => {
-  const { left, top, right, bottom } = document.getElementById('view').getBoundingClientRect();
-  return [left, top, right, bottom].map(Math.round);
-})()"""
-
 # The left hand through the railing's bars, which neither pose shows.
 SELECT = """{
   const view = JSON.parse(document.getElementById('foretouch-view').textContent);
@@ -20,7 +14,6 @@ SELECT = """{
   foretouch.selectContact(order.findIndex(c => c.missed_by_poses && c.object === 'railing_bars' &&
                                                avatar.links[c.link].name === 'LeftHand'));
 }"""
-PRESS = "[...document.querySelectorAll('button')].find(b => b.textContent.trim() === '%s').click()"
 
 
 def main(demo, look, wrong, folder):

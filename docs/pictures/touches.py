@@ -5,7 +5,7 @@ package `foretouch` in PYTHONPATH. Every pose, event and point is an answer of t
 import foretouch
 
 from concepts import BLUE, FAINT, INK, PAPER, RED, WOOD
-from hand_that_stops import draw_arm
+from hand_that_stops import capsules, draw_arm
 from moving import Film, View
 
 NAME = "touches.svg"
@@ -69,9 +69,7 @@ class Story:
     def capsules(self, seconds):
         at = seconds * RATE_HZ + 1e-9
         motion = foretouch.Motion(self.avatar, self.poses[int(at)], self.poses[int(at) + 1])
-        places = motion.transforms(max(0.0, at % 1 - 1e-9))
-        return [(place[:3, :3] @ one.a + place[:3, 3], place[:3, :3] @ one.b + place[:3, 3], one.radius)
-                for link, place in zip(self.avatar.lss, places) for one in link]
+        return capsules(self.avatar, motion, max(0.0, at % 1 - 1e-9))
 
 
 def draw_table(p, story, instants):
