@@ -1,9 +1,10 @@
 # What every target of the house has in common.
 
-# Everything above the kernel is compiled several sources at once: headers cost far more than what
-# includes them. Most of the kernel is not: there each source has its own constants of a proof, under
-# the names that its note gives them. It has its headers compiled once instead.
+# Several sources are compiled at once: headers cost far more than what includes them. In the kernel
+# these are of one room, where no two sources give one name to different things, and a source that is
+# compiled for every vector width is compiled alone.
 #   foretouch_unity(<target> [batch size])
+#   foretouch_unity_by_room(<target>)
 #   foretouch_precompile(<target> [more headers])
 #   foretouch_precompiled_as(<target> <other>): takes the other's, which costs seconds to make
 function(foretouch_unity target)
@@ -14,6 +15,24 @@ function(foretouch_unity target)
     # A class that holds what is local to its source is fine as long as it is local as well.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
+endfunction()
+function(foretouch_unity_by_room target)
+  if(NOT FORETOUCH_UNITY)
+    return()
+  endif()
+  foretouch_unity(${target})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "[.]cpp$")
+  foreach(source ${sources})
+    file(STRINGS ${source} wide REGEX "define HWY_TARGET_INCLUDE" LIMIT_COUNT 1)
+    if(NOT wide)
+      get_filename_component(room ${source} DIRECTORY)
+      math(EXPR count_${room} "0${count_${room}} + 1")
+      math(EXPR batch "(${count_${room}} - 1) / 6")
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${room}${batch}")
+    endif()
+  endforeach()
 endfunction()
 function(foretouch_precompile target)
   if(FORETOUCH_UNITY)
@@ -141,10 +160,13 @@ function(foretouch_library folder)
   foretouch_compile_options(${target})
   if(ARG_UNITY)
     foretouch_unity(${target})
-  elseif(TARGET foretouch_lss AND NOT target STREQUAL foretouch_lss)
-    foretouch_precompiled_as(${target} foretouch_lss)
   else()
-    foretouch_precompile(${target})
+    foretouch_unity_by_room(${target})
+    if(TARGET foretouch_lss AND NOT target STREQUAL foretouch_lss)
+      foretouch_precompiled_as(${target} foretouch_lss)
+    else()
+      foretouch_precompile(${target})
+    endif()
   endif()
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
-using Face = std::array<std::size_t, 3>;  // counter-clockwise from outside
+using HullFace = std::array<std::size_t, 3>;  // counter-clockwise from outside
 
 /// Of the cloud's size, cubed: a flatter one counts as flat, because rounding alone could make it
 /// so.
@@ -36,7 +36,7 @@ std::vector<Vector3d> spiralDirections() {
 }
 
 /// Six times the signed volume of a tetrahedron; positive if `p` sees the face from outside.
-double sixVolumes(const Points& points, const Face& face, const Vector3d& p) {
+double sixVolumes(const Points& points, const HullFace& face, const Vector3d& p) {
   const Vector3d& a = points[face[0]];
   return (points[face[1]] - a).cross(points[face[2]] - a).dot(p - a);
 }
@@ -55,7 +55,7 @@ std::size_t largestBy(const Points& points, const Measure& measure) {
 }
 
 /// The faces of a first tetrahedron, as large as a few sweeps find.
-std::vector<Face> firstFaces(const Points& points) {
+std::vector<HullFace> firstFaces(const Points& points) {
   const auto from = [&](std::size_t i) {
     return [&, i](const Vector3d& p) { return (p - points[i]).squaredNorm(); };
   };
@@ -64,7 +64,7 @@ std::vector<Face> firstFaces(const Points& points) {
   const Vector3d ab = points[b] - points[a];
   const std::size_t c =
       largestBy(points, [&](const Vector3d& p) { return ab.cross(p - points[a]).squaredNorm(); });
-  const Face base{a, b, c};
+  const HullFace base{a, b, c};
   const std::size_t d =
       largestBy(points, [&](const Vector3d& p) { return std::abs(sixVolumes(points, base, p)); });
   if (sixVolumes(points, base, points[d]) > 0.0)
@@ -73,11 +73,11 @@ std::vector<Face> firstFaces(const Points& points) {
 }
 
 /// Replaces the faces that `top` sees by a cone from it; returns six times the added volume.
-double addPoint(const Points& points, std::size_t top, double flat, std::vector<Face>& faces) {
+double addPoint(const Points& points, std::size_t top, double flat, std::vector<HullFace>& faces) {
   double added = 0.0;
   std::set<std::pair<std::size_t, std::size_t>> edges;
-  std::vector<Face> kept;
-  for (const Face& face : faces) {
+  std::vector<HullFace> kept;
+  for (const HullFace& face : faces) {
     const double volume = sixVolumes(points, face, points[top]);
     if (!(volume > flat)) {
       kept.push_back(face);
@@ -122,7 +122,7 @@ double hullVolume(const Points& all) {
   double size = 0.0;
   for (const Vector3d& p : points) size = std::max(size, (p - points[0]).norm());
   const double flat = kFlat * size * size * size;
-  std::vector<Face> faces = firstFaces(points);
+  std::vector<HullFace> faces = firstFaces(points);
   double six = -sixVolumes(points, faces[0], points[faces[1][2]]);
   if (!(six > flat)) return 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) six += addPoint(points, i, flat, faces);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "lss/assert.h"
@@ -12,8 +11,6 @@
 
 namespace foretouch::internal {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Later first, so that the standard heap's top is the earliest; the triangle makes the order
 /// total.

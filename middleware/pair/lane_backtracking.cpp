@@ -11,8 +11,6 @@
 namespace foretouch::internal {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 template <class Sides>
 class LaneBacktracker {
  public:

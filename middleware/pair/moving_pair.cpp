@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lss/index.h"
 #include "lss/rounding.h"
@@ -12,8 +11,6 @@ namespace foretouch::internal {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double worstOf(const MovingHull& part, const std::array<double, 3>& rounding) {
   const double worst = std::max(rounding[0], rounding[1]);

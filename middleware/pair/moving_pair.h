@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include <Eigen/Core>
 
@@ -13,6 +14,8 @@
 #include "tessellation/swept_lss.h"
 
 namespace foretouch::internal {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A part at one instant: the hull of two or three points, grown by `radius`. Metres; derivatives
 /// per unit of t. Both parts of a pair are in one frame, in which their motion is bounded.

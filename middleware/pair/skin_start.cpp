@@ -29,9 +29,9 @@ bool isBefore(const StartPair& x, const StartPair& y) {
 }
 
 /// The pairs at t = 0 of clusters' triangles that lanes do not refute.
-class StartSearch {
+class SkinStartSearch {
  public:
-  StartSearch(const LinkQuery& query, PartScratch& scratch, QueryCounters& counters)
+  SkinStartSearch(const LinkQuery& query, PartScratch& scratch, QueryCounters& counters)
       : query_(query),
         scratch_(scratch),
         counters_(counters),
@@ -190,7 +190,7 @@ void sortClusters(const LinkQuery& query, const std::vector<Candidate>& clusters
 std::optional<LinkContact> skinContactAtStart(const LinkQuery& query,
                                               const std::vector<Candidate>& clusters,
                                               PartScratch& scratch, QueryCounters& counters) {
-  StartSearch search(query, scratch, counters);
+  SkinStartSearch search(query, scratch, counters);
   StartLook look(query, counters);
   const LinkContact unseen = undecidedContact(query.one.link, 0.0, UndecidedReason::WorkBudget);
   scratch.nearPairs.clear();

@@ -12,9 +12,9 @@ namespace {
 
 /// Farther first, so that the heap's top is the nearest; by the triangles themselves where equal,
 /// so that the order does not depend on their numbers.
-class Farther {
+class FartherStart {
  public:
-  explicit Farther(const Scene& scene) : scene_(scene) {}
+  explicit FartherStart(const Scene& scene) : scene_(scene) {}
   bool operator()(const Candidate& x, const Candidate& y) const {
     if (x.nearest != y.nearest) return x.nearest > y.nearest;
     const auto &v = scene_.triangle(x.triangle).vertices, &w = scene_.triangle(y.triangle).vertices;
@@ -43,7 +43,7 @@ class StartSearch {
         isFar_(floatAbove(query.tolerance)) {}
 
   std::optional<LinkContact> run() {
-    const Farther farther(*query_.scene);
+    const FartherStart farther(*query_.scene);
     // pieces == 0 marks a candidate whose `nearest` is no longer a bound but the LSS's own
     // separation: popped a second time, nothing that is left is deeper.
     boundAll();

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kMostAtEdge = 16;
 
 /// Adding 0 turns -0 into 0.
-std::uint64_t hashOf(const Vector3d& point, std::uint64_t hash) {
+std::uint64_t hashOfPoint(const Vector3d& point, std::uint64_t hash) {
   for (int axis = 0; axis < 3; ++axis) {
     const double coordinate = point[axis] + 0.0;
     std::uint64_t bits = 0;
@@ -113,7 +113,8 @@ void FlatEdges::findEdges(const std::vector<Triangle>& triangles,
     for (const int k : {0, 1, 2}) {
       const int from = k == 2 ? 0 : k, to = k == 2 ? 2 : k + 1;  // the lesser vertex first
       const Triangle& triangle = triangles[slotOf(id)];
-      edges.push_back({hashOf(vertexOf(triangle, to), hashOf(vertexOf(triangle, from), 0)), id, k});
+      edges.push_back(
+          {hashOfPoint(vertexOf(triangle, to), hashOfPoint(vertexOf(triangle, from), 0)), id, k});
     }
   }
   std::sort(edges.begin(), edges.end(), byHash);
@@ -136,7 +137,7 @@ void FlatEdges::findVertices(const std::vector<Triangle>& triangles,
                              const std::vector<TriangleId>& ids) {
   std::vector<CornerEnd> ends;
   const auto hashAt = [&](TriangleId id, int k) {
-    return hashOf(vertexOf(triangles[slotOf(id)], k), 0);
+    return hashOfPoint(vertexOf(triangles[slotOf(id)], k), 0);
   };
   for (const TriangleId id : ids) {
     for (const int k : {0, 1, 2}) {

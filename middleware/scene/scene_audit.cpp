@@ -106,7 +106,7 @@ PointSet pointsOf(const Triangle& triangle) {
   return points;
 }
 
-std::uint64_t hashOf(const PointSet& points) {
+std::uint64_t hashOfPoints(const PointSet& points) {
   std::uint64_t hash = 0;
   for (const auto& point : points) {
     for (const double coordinate : point) {
@@ -133,7 +133,7 @@ std::size_t countDuplicates(const std::vector<Triangle>& triangles) {
   hashes.reserve(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (!isFinite(triangles[i])) continue;
-    hashes.emplace_back(hashOf(pointsOf(triangles[i])), static_cast<TriangleId>(i));
+    hashes.emplace_back(hashOfPoints(pointsOf(triangles[i])), static_cast<TriangleId>(i));
   }
   std::sort(hashes.begin(), hashes.end());
   std::size_t duplicates = 0;

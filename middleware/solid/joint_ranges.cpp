@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kRightAngle = 1.57079632679489662;
 /// A turn counts as what it moves that is so far from the joint (m).
-constexpr double kLever = 0.2;
+constexpr double kRangeLever = 0.2;
 /// No coordinate is as large: the range has no end there.
 constexpr double kNever = 2.0;
 
@@ -94,9 +94,9 @@ void JointRanges::append(const std::vector<LinkState>& states, double reach,
       row.isTurn = row.isSoft = true;
       const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
       const Eigen::Vector3d slope = turn.w() * axis + turn.vec().cross(axis);
-      row.n = (isHigh ? -kLever : kLever) *
+      row.n = (isHigh ? -kRangeLever : kRangeLever) *
               (states[slotOf(row.other)].R_WL * (range.first * slope)).eval();
-      row.gap = 2.0 * kLever * left;
+      row.gap = 2.0 * kRangeLever * left;
       rows.push_back(row);
     }
   }
@@ -106,7 +106,7 @@ double JointRanges::gapAt(const std::vector<LinkState>& states, const ContactRow
   const Range& range = ranges_[slotOf(row.link)];
   const int i = row.otherLss / 2;
   const double at = turnOf(slotOf(row.link), states).vec()[i];
-  return 2.0 * kLever * (row.otherLss % 2 == 1 ? range.highest[i] - at : at - range.lowest[i]);
+  return 2.0 * kRangeLever * (row.otherLss % 2 == 1 ? range.highest[i] - at : at - range.lowest[i]);
 }
 
 }  // namespace foretouch::internal

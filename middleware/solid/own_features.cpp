@@ -17,7 +17,7 @@ namespace {
 /// way from one to the other.
 constexpr double kMostOverlap = 0.75, kEndOn = 0.7;
 /// A cosine: normals of two rows of one pair that lies along each other; and where two are one (m).
-constexpr double kAlong = 0.9, kSamePlace = 5e-3;
+constexpr double kAlong = 0.9, kSameEnd = 5e-3;
 
 /// Apart by balls around the axes, which is most pairs.
 bool areFarApart(const LssInWorld& one, const LssInWorld& other, double within) {
@@ -52,7 +52,7 @@ void appendEnds(const LssInWorld& one, const LssInWorld& other, double radii, do
     end.x = p - share * one.radius * end.n;
     end.y = q + share * other.radius * end.n;
     end.gap = apart - radii;
-    const bool isThere = (end.x - row.x).norm() < kSamePlace;
+    const bool isThere = (end.x - row.x).norm() < kSameEnd;
     if (!isThere && end.n.dot(row.n) > kAlong) rows.push_back(end);
   };
   append(0, one.a, closestOn(other, one.a));

@@ -9,7 +9,7 @@ namespace {
 
 /// The grid (m), to the sides and up; and how far the asked pose may move before the search begins
 /// anew.
-constexpr double kAside = 0.1, kUp = 0.05, kSamePlace = 0.1;
+constexpr double kAside = 0.1, kUp = 0.05, kSameStart = 0.1;
 
 }  // namespace
 
@@ -57,7 +57,7 @@ bool Placing::search(const Pose& asked, Certifier& certifier, Pose& place, Place
     return certifier.isClear(place, place) && (judge == nullptr || judge->isFree(place));
   };
   const Eigen::Vector3d at = asked.translations[0];
-  if (next_ == 0 || (at - begunAt_).norm() > kSamePlace) {
+  if (next_ == 0 || (at - begunAt_).norm() > kSameStart) {
     next_ = 0;
     begunAt_ = at;
   }

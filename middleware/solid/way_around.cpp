@@ -17,7 +17,7 @@ constexpr double kStraight = 0.2;
 /// out.
 constexpr double kTurnOfFirst = 2.0, kTurnOfOthers = 1.2;
 /// How far the whole body moves aside (m), where it is the body that looks for a way.
-constexpr double kAside = 0.6;
+constexpr double kFarthestAside = 0.6;
 /// Joints of a limb whose turn is tried: of fingers and toes it changes little.
 constexpr int kMostJoints = 4;
 /// Of what is seen of the avatar: more belongs to the trunk.
@@ -127,7 +127,7 @@ void WayAround::sample(const Pose& shown, const Pose& target) {
       sampled_.rotations[j] = turned(base, {x, y, z});
       continue;
     }
-    sampled_.translations[j] += Eigen::Vector3d(x, y, z) * (kAside / most);
+    sampled_.translations[j] += Eigen::Vector3d(x, y, z) * (kFarthestAside / most);
   }
 }
 
