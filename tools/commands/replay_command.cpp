@@ -300,19 +300,24 @@ Result<Done> writeGlb(const ReplayGlb& glb, const ReplayTouches& touches, const 
   return Done{};
 }
 
+Result<Done> checkPages(const ReplayJob& job) {
+  const ReplayRequest& request = job.request;
+  for (const std::string& page : {job.report.path, job.glb.path}) {
+    FORETOUCH_CHECK(
+        checkOutputs(job.outputPath, page,
+                     {request.scenePath, request.avatarPath, request.motionPath, request.robotPath,
+                      request.mapPath, request.policyPath, request.skinPath, request.pairsPath,
+                      page == job.glb.path ? job.report.path : ""}));
+  }
+  return Done{};
+}
+
 }  // namespace
 
 Result<Done> runReplay(const ReplayJob& job,
                        const std::function<void(const ReplaySummary&)>& tell) {
   const ReplayRequest& request = job.request;
-  for (const std::string& page : {job.report.path, job.glb.path}) {
-    const auto checked =
-        checkOutputs(job.outputPath, page,
-                     {request.scenePath, request.avatarPath, request.motionPath, request.robotPath,
-                      request.mapPath, request.policyPath, request.skinPath, request.pairsPath,
-                      page == job.glb.path ? job.report.path : ""});
-    if (!checked.ok()) return checked.error();
-  }
+  FORETOUCH_CHECK(checkPages(job));
   FORETOUCH_TRY(const auto inputs, loadReplayInputs(request));
   for (const std::string& remark : remarksOn(inputs)) printNote(remark);
   const auto rate = remarkOnRate(inputs.steps, inputs.clip, request.rateHz);
@@ -320,7 +325,7 @@ Result<Done> runReplay(const ReplayJob& job,
 
   ReplaySummary summary(inputs);
   PlaceDoubts doubts(inputs.avatar.skeleton(), inputs.query.self.has_value());
-  ReplayTouches touches(inputs);
+  FORETOUCH_TRY(auto touches, ReplayTouches::start(inputs));
   std::optional<ReplayReport> report;
   if (!job.report.path.empty()) report.emplace(inputs, job.report);
   ReplayGlb glb(inputs, job.glb);
@@ -329,19 +334,23 @@ Result<Done> runReplay(const ReplayJob& job,
     FORETOUCH_TRY(auto file, PendingFile::create(job.outputPath));
     file.write(headerLine(inputs));
     ProgressBar progress("replay", inputs.steps.count);
+    Result<Done> followed = Done{};
     const auto done = replay(inputs, job.threads, [&](const ReplayedStep& step) {
       file.write(step.line);
       summary.add(step);
       doubts.add(step.answer);
       if (report) report->add(step);
-      const std::vector<TouchRow>& begun = touches.add(step.answer);
-      if (!job.glb.path.empty()) glb.add(step.answer, begun);
+      followed = touches.add(step.answer);
+      glb.add(step.answer);
+      glb.add(touches.begun());
       progress.advanceTo(step.answer.step + 1);
-      return !guard.requested();
+      return followed.ok() && !guard.requested();
     });
     if (!done.ok()) return done.error();
+    if (!followed.ok()) return followed.error();
     if (!guard.requested()) {
-      touches.finish();
+      FORETOUCH_CHECK(touches.finish());
+      glb.add(touches.begun());
       summary.add(touches);
       file.write(touches.lines());
       FORETOUCH_CHECK(file.commit());
@@ -349,7 +358,7 @@ Result<Done> runReplay(const ReplayJob& job,
     }
     if (report && !guard.requested()) {
       const auto reported = writeReport(job.report.path, guard, [&](const ReportProgress& watch) {
-        return report->document(summary, watch);
+        return report->document(summary, touches.listed(), watch);
       });
       if (!reported.ok()) return reported.error();
     }

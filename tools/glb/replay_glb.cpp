@@ -35,29 +35,32 @@ std::size_t addWorld(const Eigen::Vector3d& origin, json extras, GltfDocument& d
   return node;
 }
 
-void ReplayGlb::add(const StepAnswer& answer, const std::vector<TouchRow>& begun) {
+void ReplayGlb::add(const StepAnswer& answer) {
   for (const LinkContact& contact : answer.contacts) {
     undecided_ += contact.verdict == Verdict::Undecided ? 1 : 0;
   }
-  for (const TouchRow& row : begun) {
-    if (row.other >= 0) continue;  // own links have no place in the scene
+}
+
+void ReplayGlb::add(const std::vector<ReportedContact>& begun) {
+  for (const ReportedContact& first : begun) {
+    if (first.other >= 0) continue;  // own links have no place in the scene
     if (first_.size() == kMostTouches) {
       ++notShown_;
-      continue;
+    } else {
+      first_.push_back(first);
     }
-    first_.push_back({*row.contact, answer.step, row.timeS, std::string(row.object), row.isMissed});
   }
 }
 
 std::vector<ShownTouch> ReplayGlb::shownOf(const std::vector<Touch>& touches) const {
-  using Begin = std::tuple<std::int64_t, LinkId, std::string>;
+  using Begin = std::tuple<double, LinkId, std::string>;
   std::map<Begin, const Touch*> beginning;
   for (const Touch& touch : touches) {
-    if (touch.other < 0) beginning[{touch.firstStep, touch.link, touch.object}] = &touch;
+    if (touch.other < 0) beginning[{touch.beginS, touch.link, touch.object}] = &touch;
   }
   std::vector<ShownTouch> shown;
   for (const ReportedContact& first : first_) {
-    const auto found = beginning.find({first.step, first.contact.link, first.object});
+    const auto found = beginning.find({first.timeS, first.contact.link, first.object});
     // Those with the ground are not listed where they are ignored.
     if (found != beginning.end()) shown.push_back({first, *found->second, {}, {}});
   }

@@ -12,7 +12,6 @@
 #include "tools/glb/shown_touch.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/replay/results_writer.h"
-#include "tools/touches/touch_tracker.h"
 
 namespace foretouch::tools {
 
@@ -28,8 +27,10 @@ class ReplayGlb {
   ReplayGlb(const ReplayInputs& inputs, GlbRequest request)
       : inputs_(inputs), request_(std::move(request)) {}
 
-  /// Steps in order; `begun`: the contacts of this step that begin touches.
-  void add(const StepAnswer& answer, const std::vector<TouchRow>& begun);
+  /// Steps in order.
+  void add(const StepAnswer& answer);
+  /// Contacts that begin touches, in order.
+  void add(const std::vector<ReportedContact>& begun);
 
   /// `touches`: of all steps. Writes the file; returns what it leaves out, one sentence each.
   /// Errors: an unwritable file, times that floats do not tell apart, more than a GLB can hold.

@@ -51,7 +51,7 @@ void LogTouches::keep(std::vector<StreamTouch>& ended) {
 std::string LogTouches::lines() const {
   std::string text;
   for (const StreamTouch& told : listed_) text += endedTouchLine(told);
-  return text + touchSummaryLine(counts_, answers_, false);
+  return text + touchSummaryLine(counts_, answers_, {});
 }
 
 }  // namespace foretouch::tools

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "articulated/try.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
-#include "tools/reported_contact.h"
 #include "tools/touches/touch_json.h"
 
 namespace foretouch::tools {
@@ -17,10 +17,42 @@ TouchScope scopeOf(const QueryOptions& query) {
 
 }  // namespace
 
+Result<ReplayTouches> ReplayTouches::start(const ReplayInputs& inputs) {
+  ReplayTouches touches(inputs);
+  if (!StepFollower::canFollow(inputs)) return touches;
+  FORETOUCH_TRY(auto follower, StepFollower::start(inputs));
+  touches.followed_.emplace(inputs, std::move(follower));
+  return touches;
+}
+
 ReplayTouches::ReplayTouches(const ReplayInputs& inputs)
     : inputs_(inputs), tracker_(scopeOf(inputs.query)) {}
 
-const std::vector<TouchRow>& ReplayTouches::add(const StepAnswer& answer) {
+Result<Done> ReplayTouches::add(const StepAnswer& answer) {
+  ++steps_;
+  begun_.clear();
+  if (followed_) {
+    FORETOUCH_CHECK(followed_->add(answer, begun_, ended_));
+  } else {
+    track(answer);
+  }
+  list();
+  return Done{};
+}
+
+Result<Done> ReplayTouches::finish() {
+  begun_.clear();
+  if (followed_) {
+    FORETOUCH_CHECK(followed_->finish(begun_, ended_));
+  } else {
+    tracker_.breakOff(ended_);
+  }
+  list();
+  std::sort(listed_.begin(), listed_.end(), isListedBefore);
+  return Done{};
+}
+
+void ReplayTouches::track(const StepAnswer& answer) {
   const bool isByObject = inputs_.query.scope == Scope::EveryObject;
   const std::vector<LinkContact>& contacts = isByObject ? answer.objects : answer.contacts;
   step_.step = answer.step;
@@ -29,19 +61,13 @@ const std::vector<TouchRow>& ReplayTouches::add(const StepAnswer& answer) {
     addRow(contacts[i], answer, i < answer.onGround.size() && answer.onGround[i]);
   }
   for (const PairContact& contact : answer.pairs) addRow(contact, answer);
-  begun_.clear();
-  tracker_.addStep(step_, ended_, begun_);
-  ++steps_;
-  list();
   begunRows_.clear();
-  for (const std::size_t i : begun_) begunRows_.push_back(step_.rows[i]);
-  return begunRows_;
-}
-
-void ReplayTouches::finish() {
-  tracker_.breakOff(ended_);
-  list();
-  std::sort(listed_.begin(), listed_.end(), isListedBefore);
+  tracker_.addStep(step_, ended_, begunRows_);
+  for (const std::size_t i : begunRows_) {
+    const TouchRow& row = step_.rows[i];
+    begun_.push_back(
+        {*row.contact, answer.step, row.timeS, std::string(row.object), row.isMissed, row.other});
+  }
 }
 
 void ReplayTouches::addRow(const LinkContact& contact, const StepAnswer& answer, bool isGround) {
@@ -92,7 +118,7 @@ std::string ReplayTouches::lines() const {
     out.endObject();
     text += "\n";
   }
-  return text + touchSummaryLine(counts_, steps_, inputs_.query.self.has_value());
+  return text + touchSummaryLine(counts_, steps_, {inputs_.query.self.has_value(), areFollowed()});
 }
 
 }  // namespace foretouch::tools

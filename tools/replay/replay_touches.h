@@ -1,11 +1,16 @@
-// tools/replay/replay_touches.h: the answers of a replay's steps as touches.
+// tools/replay/replay_touches.h: the answers of a replay's steps as touches: followed from enter to
+// leave where a world can ask what the replay asks, else made of the answers alone.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "articulated/result.h"
 #include "tools/inputs/replay_inputs.h"
+#include "tools/replay/followed_touches.h"
 #include "tools/replay/results_writer.h"
+#include "tools/reported_contact.h"
 #include "tools/touches/touch_tracker.h"
 
 namespace foretouch::tools {
@@ -13,14 +18,19 @@ namespace foretouch::tools {
 /// Collects the touches of a replay. Keeps each: about 150 bytes.
 class ReplayTouches {
  public:
-  /// `inputs` must outlive it.
-  explicit ReplayTouches(const ReplayInputs& inputs);
+  /// `inputs` must outlive it. Errors: as World::add() of its body.
+  [[nodiscard]] static Result<ReplayTouches> start(const ReplayInputs& inputs);
 
-  /// Steps in order. Returns the contacts that begin touches; valid until the next call.
-  const std::vector<TouchRow>& add(const StepAnswer& answer);
+  /// Steps in order. Errors: as WorldFollower::follow().
+  [[nodiscard]] Result<Done> add(const StepAnswer& answer);
   /// After the last step.
-  void finish();
+  [[nodiscard]] Result<Done> finish();
 
+  /// The contacts that begin touches and that the last call has found: of this step, or of some
+  /// before it.
+  [[nodiscard]] const std::vector<ReportedContact>& begun() const { return begun_; }
+  /// Begin and end of each touch are proven, and no object hides another.
+  [[nodiscard]] bool areFollowed() const { return followed_.has_value(); }
   /// After finish(), in the order of isListedBefore(); without those of the ground if they are
   /// ignored.
   [[nodiscard]] const std::vector<Touch>& listed() const { return listed_; }
@@ -29,20 +39,23 @@ class ReplayTouches {
   [[nodiscard]] std::string lines() const;
 
  private:
+  explicit ReplayTouches(const ReplayInputs& inputs);
+  void track(const StepAnswer& answer);
   void addRow(const LinkContact& contact, const StepAnswer& answer, bool isGround);
   void addRow(const PairContact& contact, const StepAnswer& answer);
   void list();
 
   const ReplayInputs& inputs_;
-  TouchTracker tracker_;
+  std::optional<FollowedTouches> followed_;
+  TouchTracker tracker_;  // where they are not followed
   TouchCounts counts_;
   std::int64_t steps_ = 0;
   std::vector<Touch> listed_;
+  std::vector<ReportedContact> begun_;
   // Of the step that is being added.
   TouchStep step_;
   std::vector<Touch> ended_;
-  std::vector<std::size_t> begun_;
-  std::vector<TouchRow> begunRows_;
+  std::vector<std::size_t> begunRows_;
 };
 
 }  // namespace foretouch::tools

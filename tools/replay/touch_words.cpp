@@ -7,6 +7,7 @@
 
 #include "articulated/quoted.h"
 #include "lss/index.h"
+#include "tools/replay/step_follower.h"
 
 namespace foretouch::tools {
 namespace {
@@ -43,7 +44,8 @@ std::string ofPoses(const TouchCounts& counts) {
 std::string onHiddenObjects(const ReplayInputs& inputs, const TouchCounts& counts) {
   const Fidelity fidelity = inputs.query.fidelity;
   const bool mayAsk = fidelity == Fidelity::Link || fidelity == Fidelity::Exact;
-  if (counts.ground == 0 || inputs.query.scope != Scope::EveryLink || !mayAsk) return "";
+  const bool isHidden = inputs.query.scope == Scope::EveryLink && !StepFollower::canFollow(inputs);
+  if (counts.ground == 0 || !isHidden || !mayAsk) return "";
   return "What a link touches while it is on the ground is told by --scope objects only.\n";
 }
 

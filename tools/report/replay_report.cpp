@@ -14,8 +14,7 @@ ReplayReport::ReplayReport(const ReplayInputs& inputs, const ReportOptions& opti
     : inputs_(inputs),
       options_(options),
       track_(inputs.avatar, touchQuestion(inputs.avatar, inputs.scene, inputs.query)),
-      mostSteps_(static_cast<std::int64_t>(track_.capacity(options.maxRotations)) - 1),
-      touches_(inputs) {}
+      mostSteps_(static_cast<std::int64_t>(track_.capacity(options.maxRotations)) - 1) {}
 
 void ReplayReport::add(const ReplayedStep& step) {
   const StepAnswer& answer = step.answer;
@@ -23,7 +22,6 @@ void ReplayReport::add(const ReplayedStep& step) {
             contacts_.size() + shownOf(answer).size() + answer.pairs.size() > options_.maxContacts;
   if (isFull_) return;
   latenciesUs_.push_back(answer.latencyUs);
-  touches_.add(answer);
   for (const LinkContact& contact : shownOf(answer)) {
     ReportedContact view = contactView(contact, inputs_.scene, answer.step, answer.t0S, answer.t1S);
     view.missedByPoses =
@@ -103,7 +101,23 @@ std::vector<ViewRow> ReplayReport::rowsOf(const ReplaySummary& summary) {
   return rows;
 }
 
+/// Of the kept steps. Nothing is known there of what follows them.
+std::vector<Touch> ReplayReport::keptOf(const std::vector<Touch>& touches) const {
+  const auto steps = static_cast<std::int64_t>(latenciesUs_.size());
+  std::vector<Touch> kept;
+  for (const Touch& touch : touches) {
+    if (touch.firstStep >= steps) continue;
+    kept.push_back(touch);
+    if (touch.lastStep < steps) continue;
+    kept.back().isOpen = true;
+    kept.back().lastStep = steps - 1;
+    kept.back().endS = inputs_.timeOfStep(steps);
+  }
+  return kept;
+}
+
 Result<ViewDocument> ReplayReport::document(const ReplaySummary& summary,
+                                            const std::vector<Touch>& touches,
                                             const ReportProgress& progress) {
   FORETOUCH_CHECK(addTrack(progress));
   const ReplayRequest& request = inputs_.request;
@@ -130,8 +144,12 @@ Result<ViewDocument> ReplayReport::document(const ReplaySummary& summary,
   avatar.track = track_.finish();
   avatar.contacts = std::move(contacts_);
   document.avatars.push_back(std::move(avatar));
-  touches_.finish();
-  addTouches(touches_.listed(), 0, document);
+  addTouches(keptOf(touches), 0, document);
+  if (isFull_) {
+    for (ViewTouch& shown : *document.touches) {
+      shown.touch.contacts = static_cast<std::int64_t>(shown.rows.size());
+    }
+  }
   addScene(inputs_.scene, request.scenePath, options_.maxTriangles, action, document);
   addSwept({}, document, progress);
   return document;

@@ -26,8 +26,10 @@ class ReplayReport {
   /// Call in order. Once there is no room, only counts steps.
   void add(const ReplayedStep& step);
 
-  /// Call once. `progress` may end it early: the document is then unusable.
+  /// Call once, with the touches of all steps. `progress` may end it early: the document is then
+  /// unusable.
   [[nodiscard]] Result<ViewDocument> document(const ReplaySummary& summary,
+                                              const std::vector<Touch>& touches,
                                               const ReportProgress& progress);
 
  private:
@@ -35,6 +37,7 @@ class ReplayReport {
   [[nodiscard]] static std::vector<ViewRow> rowsOf(const ReplaySummary& summary);
   /// Of every link with every object, if they are asked one by one.
   [[nodiscard]] const std::vector<LinkContact>& shownOf(const StepAnswer& answer) const;
+  [[nodiscard]] std::vector<Touch> keptOf(const std::vector<Touch>& touches) const;
   [[nodiscard]] Result<Done> addTrack(const ReportProgress& progress);
 
   const ReplayInputs& inputs_;
@@ -44,7 +47,6 @@ class ReplayReport {
   bool isFull_ = false;
   std::vector<double> latenciesUs_;  // one per kept step
   std::vector<ReportedContact> contacts_;
-  ReplayTouches touches_;  // of the kept steps
 };
 
 }  // namespace foretouch::tools

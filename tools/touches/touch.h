@@ -25,7 +25,8 @@ struct Touch : TouchPair {
   bool isOpen = false;
   bool isMissed = false;  ///< A check of the poses alone sees nothing of it.
   bool isGround = false;  ///< Each of its contacts is one with the ground.
-  /// Seconds on the clock of the steps: the first and the last instant at which contact is known.
+  /// Seconds on the clock of the steps: the first and the last instant at which contact is known;
+  /// of those that were followed, from enter to leave.
   double beginS = 0.0, endS = 0.0;
   std::int64_t beginUs = 0, endUs = 0;       ///< Of streams: the same, microseconds since 1970.
   std::int64_t firstStep = 0, lastStep = 0;  ///< Of streams: sequences of the later poses.

@@ -42,7 +42,8 @@ void writeTouch(const Touch& touch, const TouchWords& words, JsonWriter& out) {
   writeNature(touch, out);
 }
 
-std::string touchSummaryLine(const TouchCounts& counts, std::int64_t steps, bool isOwnAsked) {
+std::string touchSummaryLine(const TouchCounts& counts, std::int64_t steps,
+                             const TouchesAsked& asked) {
   std::string text;
   JsonWriter out(text);
   out.beginObject();
@@ -52,7 +53,8 @@ std::string touchSummaryLine(const TouchCounts& counts, std::int64_t steps, bool
   out.field("touches", counts.touches);
   out.field("touches_missed", counts.missed);
   out.field("touches_ground", counts.ground);
-  if (isOwnAsked) out.field("touches_own", counts.own);
+  if (asked.ofOwnLinks) out.field("touches_own", counts.own);
+  if (asked.areFollowed) out.field("followed", true);
   out.endObject();
   out.endObject();
   return text + "\n";

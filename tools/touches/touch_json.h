@@ -26,9 +26,16 @@ void writeTouch(const Touch& touch, const TouchWords& words, JsonWriter& out);
 /// them. `steps`: the name of theirs.
 void writeTouchCourse(const Touch& touch, std::string_view steps, JsonWriter& out);
 
+/// How the touches of results were found.
+struct TouchesAsked {
+  bool ofOwnLinks = false;
+  bool areFollowed = false;  ///< From enter to leave: both are proven.
+};
+
 /// The last line of results: {"summary":...} with "steps", "touches", "touches_missed",
-/// "touches_ground" and, if own links were asked, "touches_own"; and a line break.
+/// "touches_ground" and, if own links were asked, "touches_own"; "followed" if they are; and a line
+/// break.
 [[nodiscard]] std::string touchSummaryLine(const TouchCounts& counts, std::int64_t steps,
-                                           bool isOwnAsked);
+                                           const TouchesAsked& asked);
 
 }  // namespace foretouch::tools

@@ -22,13 +22,13 @@ TEST(Percentile, IsTheValueAtTheNearestRank) {
 }
 
 std::string summaryOf(const ReplayInputs& inputs, ReplaySummary& summary) {
-  ReplayTouches touches(inputs);
+  ReplayTouches touches = std::move(ReplayTouches::start(inputs)).value();
   EXPECT_TRUE(replay(inputs, 1, [&](const ReplayedStep& step) {
                 summary.add(step);
-                touches.add(step.answer);
+                EXPECT_TRUE(touches.add(step.answer).ok());
                 return true;
               }).ok());
-  touches.finish();
+  EXPECT_TRUE(touches.finish().ok());
   summary.add(touches);
   return summary.text(1);
 }

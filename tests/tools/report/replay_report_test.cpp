@@ -24,17 +24,18 @@ Reported report(const ReplayInputs& inputs, const ReportOptions& options = {}) {
   Reported reported;
   ReplayReport report(inputs, options);
   ReplaySummary summary(inputs);
-  ReplayTouches touches(inputs);
+  ReplayTouches touches = std::move(ReplayTouches::start(inputs)).value();
   EXPECT_TRUE(replay(inputs, 1, [&](const ReplayedStep& step) {
                 reported.lines.push_back(json::parse(step.line));
                 summary.add(step);
-                touches.add(step.answer);
+                EXPECT_TRUE(touches.add(step.answer).ok());
                 report.add(step);
                 return true;
               }).ok());
-  touches.finish();
+  EXPECT_TRUE(touches.finish().ok());
   summary.add(touches);
-  const auto document = report.document(summary, [](std::int64_t, std::int64_t) { return true; });
+  const auto document =
+      report.document(summary, touches.listed(), [](std::int64_t, std::int64_t) { return true; });
   EXPECT_TRUE(document.ok());
   reported.text = test::textOf(document.value());
   reported.document = json::parse(reported.text);

@@ -47,6 +47,8 @@ TEST_F(Headline, QuotesNamesThatAreNoWords) {
 TEST_F(Headline, CountsTheGroundApartAndSaysWhatItHides) {
   const std::string hidden = "told by --scope objects only";
   EXPECT_TRUE(holds(of(3, 1, 12), "The ground is counted apart: 12 times.\n"));
+  EXPECT_FALSE(holds(of(3, 1, 12), hidden)) << "followed from enter to leave";
+  inputs_.query.passSeparating = true;
   EXPECT_TRUE(holds(of(3, 1, 12), hidden));
   EXPECT_TRUE(holds(of(0, 0, 1), "The man touches nothing but the ground of the wall.\n"));
   EXPECT_FALSE(holds(of(3, 1), hidden));
