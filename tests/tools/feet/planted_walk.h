@@ -29,6 +29,7 @@ inline constexpr char kWalkerAvatar[] =
 
 struct Place {
   double x = 0.0, y = 0.0, z = 0.0;
+  double pitchDeg = 0.0;  ///< By so much the foot is turned about its toe joint, heel up.
 };
 
 /// One stance of a foot, as it is planted: it comes down at `from`, moves on a straight line, and
@@ -49,6 +50,7 @@ inline double eased(double share) {
 /// A foot that stands, and steps from stance to stance in an arc 0.12 m high.
 struct PlantedFoot {
   std::vector<PlantedStance> stances;
+  double heelOffDeg = 0.0;  ///< At each stance's end it has rolled so far over its toes.
 
   [[nodiscard]] Place soleAt(double timeS) const {
     std::size_t i = 0;
@@ -57,13 +59,17 @@ struct PlantedFoot {
     if (timeS <= now.endS || i + 1 == stances.size()) {
       // Slides in the middle half of the stance.
       const double length = now.endS - now.beginS;
-      return between(now.from, now.to, eased((timeS - now.beginS) / length * 2.0 - 0.5));
+      Place place = between(now.from, now.to, eased((timeS - now.beginS) / length * 2.0 - 0.5));
+      const bool isLast = i + 1 == stances.size();
+      if (!isLast) place.pitchDeg = heelOffDeg * eased((timeS - now.endS + 0.2) / 0.2);
+      return place;
     }
     const PlantedStance& next = stances[i + 1];
     const double share = (timeS - now.endS) / (next.beginS - now.endS);
     Place place = between(now.to, next.from, eased(share));
     const double arc = std::sin(3.14159265358979323846 * share);
     place.y += 0.12 * arc * arc;
+    place.pitchDeg = heelOffDeg * (1.0 - eased(2.0 * share));
     return place;
   }
 
@@ -72,15 +78,27 @@ struct PlantedFoot {
   }
 };
 
-/// Root and feet as text: the hips' position and rotation, and each ankle's position in their
-/// frame.
+/// The row of a foot: its ankle, in the hips' frame, and how far it and its toes are turned.
+inline std::string footRow(const Place& sole) {
+  // The toe joint stays where it is; the ankle turns about it.
+  constexpr double kToeY = 0.06, kToeZ = 0.15;
+  const double turn = sole.pitchDeg * 3.14159265358979323846 / 180.0;
+  const double y = kToeY * std::cos(turn) + kToeZ * std::sin(turn);
+  const double z = kToeY * std::sin(turn) - kToeZ * std::cos(turn);
+  char row[256];
+  std::snprintf(row, sizeof row, " %.9f %.9f %.9f 0 %.9f 0 0 %.9f 0", sole.x,
+                sole.y + kSole - kToeY + y, sole.z + kToeZ + z, sole.pitchDeg, -sole.pitchDeg);
+  return row;
+}
+
+/// Root and feet as text: the hips' position and rotation, and each foot's.
 inline std::string walkBvh(const std::vector<Place>& left, const std::vector<Place>& right,
-                           double frameTimeS, const std::string& root = "0 0 0 0 0 0") {
+                           double frameTimeS) {
   const auto foot = [](const char* side) {
     const std::string name = side;
     return "  JOINT " + name +
-           "Foot\n  {\n    OFFSET 0 0 0\n    CHANNELS 3 Xposition Yposition Zposition\n"
-           "    JOINT " +
+           "Foot\n  {\n    OFFSET 0 0 0\n    CHANNELS 6 Xposition Yposition Zposition Zrotation "
+           "Xrotation Yrotation\n    JOINT " +
            name +
            "ToeBase\n    {\n      OFFSET 0 -0.06 0.15\n      CHANNELS 3 Zrotation Xrotation "
            "Yrotation\n      End Site\n      {\n        OFFSET 0 0 0.07\n      }\n    }\n  }\n";
@@ -89,13 +107,11 @@ inline std::string walkBvh(const std::vector<Place>& left, const std::vector<Pla
       "HIERARCHY\nROOT Hips\n{\n  OFFSET 0 0 0\n"
       "  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n" +
       foot("Left") + foot("Right") + "}\nMOTION\nFrames: " + std::to_string(left.size()) + "\n";
-  char line[256];
+  char line[64];
   std::snprintf(line, sizeof line, "Frame Time: %.9f\n", frameTimeS);
   text += line;
   for (std::size_t i = 0; i < left.size(); ++i) {
-    std::snprintf(line, sizeof line, " %.9f %.9f %.9f 0 0 0 %.9f %.9f %.9f 0 0 0\n", left[i].x,
-                  left[i].y + kSole, left[i].z, right[i].x, right[i].y + kSole, right[i].z);
-    text += root + line;
+    text += "0 0 0 0 0 0" + footRow(left[i]) + footRow(right[i]) + "\n";
   }
   return text;
 }

@@ -145,6 +145,25 @@ TEST(Stances, InventNothingOnACleanWalk) {
   }
 }
 
+/// Each foot rolls over its toes before it leaves: what turns in place slides not.
+TEST(Stances, TakeNoRollForASlide) {
+  for (const double heelOffDeg : {15.0, 40.0}) {
+    Walk walk = walkOf(6, [](PlantedStance&) {});
+    walk.left.heelOffDeg = walk.right.heelOffDeg = heelOffDeg;
+    const FeetInputs inputs = inputsOf(walk);
+    double toes = 0.0, soles = 0.0;
+    for (const FootStance& stance : answerOf(inputs).stances) {
+      const bool isToe = inputs.body.parts[stance.part].part == PartOfLimb::Toe;
+      double& worst = isToe ? toes : soles;
+      worst = std::max(worst, stance.slide);
+    }
+    std::printf("rolls by %g degrees: slides of toes %.2f mm, of heel and ball %.2f mm\n",
+                heelOffDeg, 1e3 * toes, 1e3 * soles);
+    EXPECT_LT(toes, 0.001);
+    EXPECT_LT(soles, kSlides);
+  }
+}
+
 /// Of touches: proven free before, and there at the tolerance.
 TEST(Stances, BeginAndEndWhereTheFootPassesTheTolerance) {
   const Walk walk = walkOf(4, [](PlantedStance&) {});
