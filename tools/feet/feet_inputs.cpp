@@ -92,17 +92,30 @@ std::optional<double> heightAboveGround(const FeetInputs& inputs, const FloorFit
   return *middle;
 }
 
+/// Rests are looked for this often (Hz): more poses say no more.
+constexpr double kRestHz = 60.0;
+
+std::int64_t restStride(const FeetInputs& inputs) {
+  return std::max<std::int64_t>(1, std::llround(1.0 / (kRestHz * inputs.stepS())));
+}
+
+RestingPoses restPoses(const FeetInputs& inputs) {
+  return [&inputs, stride = restStride(inputs)](std::int64_t rest) {
+    return inputs.poseAt(rest * stride);
+  };
+}
+
 Result<std::vector<FootRest>> restsOf(const FeetInputs& inputs) {
-  return footRestsOf(inputs.body, inputs.steps(), inputs.stepS(),
-                     [&](std::int64_t step) { return inputs.poseAt(step); });
+  const std::int64_t stride = restStride(inputs);
+  return footRestsOf(inputs.body, inputs.steps() / stride,
+                     static_cast<double>(stride) * inputs.stepS(), restPoses(inputs));
 }
 
 /// A body that is made of the clip's bones gets heels.
 Result<Done> addHeels(FeetInputs& inputs) {
   FORETOUCH_TRY(const auto rests, restsOf(inputs));
   const RestingBody body = inputs.body;
-  const auto poseAt = [&](std::int64_t step) { return inputs.poseAt(step); };
-  FORETOUCH_TRY(inputs.body, withHeelsDown(body, rests, poseAt, &inputs.heelsMade));
+  FORETOUCH_TRY(inputs.body, withHeelsDown(body, rests, restPoses(inputs), &inputs.heelsMade));
   return Done{};
 }
 
