@@ -95,10 +95,12 @@ const std::map<std::string, Rooms> kRooms = {
        {"world", "solid", "setup", "log", "audit", "replay", "touches", "inputs", "settings", ""}},
       {"view", {"report", "stream", "settings", ""}},
       {"batch", {"settings", ""}},
+      {"floor", {"inputs", "settings", ""}},
+      {"feet", {"floor", "setup", "inputs", "settings", ""}},
       {"certificate", {"inputs", "settings", ""}},
       {"commands",
-       {"batch", "certificate", "view", "report", "log", "sweep", "glb", "world", "solid", "stream",
-        "replay", "setup", "touches", "audit", "inputs", "settings", ""}}}},
+       {"batch", "certificate", "feet", "floor", "view", "report", "log", "sweep", "glb", "world",
+        "solid", "stream", "replay", "setup", "touches", "audit", "inputs", "settings", ""}}}},
 };
 
 /// Libraries that only these folders may include, by the include's first word.

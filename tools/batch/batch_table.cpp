@@ -10,6 +10,7 @@
 
 #include "assets/json_writer.h"
 #include "tools/batch/job_name.h"
+#include "tools/csv_cell.h"
 
 namespace foretouch::tools {
 namespace {
@@ -34,22 +35,6 @@ std::string joinedTexts(const JobOption& option) {
   std::string all;
   for (const std::string& text : option.texts) all += (all.empty() ? "" : " ") + text;
   return option.texts.empty() ? "true" : all;
-}
-
-/// To spreadsheets a cell that begins so is a formula, but for a number.
-bool isFormula(std::string_view text) {
-  if (text.empty() || std::string_view("=+-@\t\r").find(text.front()) == text.npos) return false;
-  double number = 0.0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return problem != std::errc() || end != text.data() + text.size();
-}
-
-std::string csvCell(std::string_view given) {
-  const std::string text = (isFormula(given) ? "'" : "") + std::string(given);
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string cell = "\"";
-  for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
-  return cell + '"';
 }
 
 /// The names of all options or values, in the order in which rows first have them.

@@ -14,6 +14,7 @@
 #include "tools/commands/replay_command.h"
 #include "tools/commands/serve_command.h"
 #include "tools/commands/world_command.h"
+#include "tools/feet/feet_command.h"
 #include "tools/help_page.h"
 #include "tools/log/log_command.h"
 #include "tools/report/view_command.h"
@@ -45,6 +46,7 @@ std::vector<Command> allCommands() {
   add("Start here", setupCommand());
   add("Start here", viewCommand());
   add("Ask", replayCommand());
+  add("Ask", feetCommand());
   add("Ask", batchCommand(replayCommand));
   add("Ask", worldCommand());
   add("Ask", sweepCommand());

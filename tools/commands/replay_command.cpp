@@ -95,8 +95,9 @@ void addGoneSettings(Settings& settings) {
 void addClipOnlySettings(Settings& settings, AskedReplay& asked) {
   addRateSetting(settings, asked.job.request).ofClips();
   addClipSettings(settings, asked.job.request);
-  for (const char* const option :
-       {"--clip-scale", "--clip-up", "--place", "--map", "--animation", "--robot", "--package"}) {
+  addCutSettings(settings, asked.job.request);
+  for (const char* const option : {"--clip-scale", "--clip-up", "--place", "--map", "--animation",
+                                   "--robot", "--package", "--from", "--to", "--skip-t-pose"}) {
     settings.of(option).ofClips();
   }
 }

@@ -57,7 +57,7 @@ Result<Stage> stageOf(const ReplayInputs& inputs) {
   std::vector<Pose> poses;
   std::vector<double> timesS;
   for (std::int64_t step = 0; step <= inputs.steps.count; ++step) {
-    FORETOUCH_TRY(auto pose, poseAtFrame(inputs, step * inputs.steps.stride));
+    FORETOUCH_TRY(auto pose, poseAtFrame(inputs, inputs.steps.frameOf(step)));
     poses.push_back(std::move(pose));
     timesS.push_back(inputs.timeOfStep(step));
   }

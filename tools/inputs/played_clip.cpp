@@ -8,20 +8,55 @@
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
+#include "assets/bvh/bvh_reader.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
 #include "tools/console.h"
+#include "tools/inputs/clip_cut.h"
 #include "tools/inputs/joint_map.h"
 
 namespace foretouch::tools {
+namespace {
+
+/// Of the part of the clip that the request cuts out.
+Result<StepSelection> stepsOf(const ClipRequest& request, const Clip& clip, bool isUpright) {
+  FORETOUCH_TRY(const auto cut, framesOf(request, clip, isUpright));
+  if (cut.tPose > 0) {
+    printNote(fmt::format("{}: --skip-t-pose: left out a T-pose, the first {} ({:.4g} s)",
+                          request.motionPath,
+                          cut.tPose == 1 ? "frame" : fmt::format("{} frames", cut.tPose),
+                          static_cast<double>(cut.tPose) * clip.frameTimeS));
+  } else if (request.cut.skipsTPose) {
+    printNote(request.motionPath + ": --skip-t-pose: it begins with none, so nothing is left out");
+  }
+  FORETOUCH_TRY(auto steps,
+                inFile(selectSteps(cut.count(), clip.frameTimeS, request.rateHz, mostStride(clip)),
+                       request.motionPath));
+  steps.first = cut.first;
+  return steps;
+}
+
+}  // namespace
+
 Result<PlayedClip> loadPlayedClip(const ClipRequest& request) {
   FORETOUCH_TRY(auto avatar, readAvatarFile(request.avatarPath));
   FORETOUCH_TRY(auto read, readMotion(motionRequestOf(request)));
   Clip& clip = read.clip;
   auto match = matchWithMap(avatar.skeleton(), clip.skeleton, request.mapPath, request.motionPath);
   if (!match.ok()) return match.error();
-  FORETOUCH_TRY(const auto steps, inFile(selectSteps(clip, request.rateHz), request.motionPath));
+  FORETOUCH_TRY(const auto steps, stepsOf(request, clip, read.isUpright));
   return PlayedClip{std::move(avatar), std::move(clip), std::move(match).value(), steps,
+                    read.isUpright,    read.frame};
+}
+
+Result<PlayedClip> loadClipAlone(const ClipRequest& request) {
+  FORETOUCH_TRY(auto read, readMotion(motionRequestOf(request)));
+  Clip& clip = read.clip;
+  FORETOUCH_TRY(auto avatar, inFile(avatarFromClip(clip), request.motionPath));
+  FORETOUCH_TRY(auto match,
+                inFile(matchJoints(avatar.skeleton(), clip.skeleton), request.motionPath));
+  FORETOUCH_TRY(const auto steps, stepsOf(request, clip, read.isUpright));
+  return PlayedClip{std::move(avatar), std::move(clip), std::move(match), steps,
                     read.isUpright,    read.frame};
 }
 

@@ -33,11 +33,11 @@ struct ReplayInputs {
   FileFrame sceneFrame{}, clipFrame{};
 
   [[nodiscard]] double timeOfStep(std::int64_t step) const {
-    return static_cast<double>(step * steps.stride) * clip.frameTimeS;
+    return static_cast<double>(steps.frameOf(step)) * clip.frameTimeS;
   }
   /// Of a table of joint positions, from 0: the one that the step begins at, or comes from.
   [[nodiscard]] std::int64_t rowOfStep(std::int64_t step) const {
-    return step * steps.stride / clip.framesPerRow;
+    return steps.frameOf(step) / clip.framesPerRow;
   }
 };
 

@@ -12,10 +12,13 @@
 
 namespace foretouch::tools {
 
-/// Step n goes from frame n*stride to frame (n+1)*stride.
+/// Step n goes from frameOf(n) to frameOf(n + 1).
 struct StepSelection {
   std::int64_t stride = 1;
   std::int64_t count = 0;  ///< Steps, at least 1.
+  std::int64_t first = 0;  ///< The frame that step 0 begins at.
+
+  [[nodiscard]] std::int64_t frameOf(std::int64_t step) const { return first + step * stride; }
 };
 
 /// A rate may exceed the clip's own by this share: people say 30 for 29.97, and a frame time

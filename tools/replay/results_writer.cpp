@@ -52,6 +52,7 @@ std::string headerLine(const ReplayInputs& inputs) {
   addMotionSetting(settings, request, "", "");
   addRateSetting(settings, request);
   addClipSettings(settings, request);
+  addCutSettings(settings, request);
   addSceneSettings(settings, request);
   addQuerySettings(settings, request);
   addReplayQuerySettings(settings, request);
@@ -63,16 +64,17 @@ std::string headerLine(const ReplayInputs& inputs) {
   writeFileName("avatar", request.avatarPath, out);
   writeHeaderFields(settings, {"motion", "rate"}, out);
   out.field("k", inputs.steps.stride);
+  if (inputs.steps.first > 0) out.field("first_frame", inputs.steps.first);
   out.field("frame_time", inputs.clip.frameTimeS);
   if (inputs.clip.framesPerRow > 1) out.field("frames_per_row", inputs.clip.framesPerRow);
   out.field("steps", inputs.steps.count);
-  writeHeaderFields(
-      settings,
-      {"tolerance", "fidelity",     "scale",        "motion_up",       "place",     "scene_scale",
-       "up",        "ignore",       "scope",        "pass_separating", "budget_us", "policy",
-       "leaves",    "skin",         "skin_scale",   "skin_up",         "animation", "robot",
-       "ground",    "ground_angle", "ground_height"},
-      out);
+  writeHeaderFields(settings,
+                    {"tolerance",     "fidelity",  "scale",  "motion_up",  "place",
+                     "scene_scale",   "up",        "ignore", "scope",      "pass_separating",
+                     "budget_us",     "policy",    "leaves", "skin",       "skin_scale",
+                     "skin_up",       "animation", "robot",  "ground",     "ground_angle",
+                     "ground_height", "from",      "to",     "skip_t_pose"},
+                    out);
   if (inputs.query.self) {
     writeSelf(*inputs.query.self, inputs.avatar.skeleton(), request.pairsPath, out);
   }

@@ -48,7 +48,7 @@ StepFollower::StepFollower(const ReplayInputs& inputs, World world, WorldFollowe
     : inputs_(inputs), world_(std::move(world)), follower_(std::move(follower)) {}
 
 Result<Done> StepFollower::push(std::int64_t pose) {
-  FORETOUCH_TRY(auto read, poseAtFrame(inputs_, pose * inputs_.steps.stride));
+  FORETOUCH_TRY(auto read, poseAtFrame(inputs_, inputs_.steps.frameOf(pose)));
   FORETOUCH_CHECK(world_.push(kBody, pose * kStepUs, read));
   poses_.push_back(std::move(read));
   return Done{};

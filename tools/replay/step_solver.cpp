@@ -21,8 +21,8 @@ double microsecondsSince(Clock::time_point start) {
 }  // namespace
 
 Result<ReplayedStep> StepSolver::solve(std::int64_t step) {
-  FORETOUCH_TRY(const auto from, poseAt(step * inputs_.steps.stride));
-  FORETOUCH_TRY(const auto to, poseAt((step + 1) * inputs_.steps.stride));
+  FORETOUCH_TRY(const auto from, poseAt(inputs_.steps.frameOf(step)));
+  FORETOUCH_TRY(const auto to, poseAt(inputs_.steps.frameOf(step + 1)));
 
   const Clock::time_point start = Clock::now();
   const ChainMotion motion(inputs_.avatar.skeleton(), from, to);

@@ -54,8 +54,9 @@ std::vector<ViewRow> clipSettings(ClipRequest request) {
   Settings settings;
   addMotionSetting(settings, request, "", "");
   addClipSettings(settings, request);
+  addCutSettings(settings, request);
   return rowsOf(settings, {"motion", "motion's unit", "motion's up axis", "placed at", "animation",
-                           "robot", "joint map"});
+                           "robot", "joint map", "from", "to", "T-pose left out"});
 }
 
 std::vector<std::vector<Triangle>> trianglesOf(const AvatarSurface& surface) {

@@ -47,17 +47,6 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-Result<PlayedClip> loadClipAlone(const ClipRequest& request) {
-  FORETOUCH_TRY(auto read, readMotion(motionRequestOf(request)));
-  Clip& clip = read.clip;
-  FORETOUCH_TRY(auto avatar, inFile(avatarFromClip(clip), request.motionPath));
-  FORETOUCH_TRY(auto match,
-                inFile(matchJoints(avatar.skeleton(), clip.skeleton), request.motionPath));
-  FORETOUCH_TRY(const auto steps, inFile(selectSteps(clip, request.rateHz), request.motionPath));
-  return PlayedClip{std::move(avatar), std::move(clip), std::move(match), steps,
-                    read.isUpright,    read.frame};
-}
-
 Result<Done> loadBody(Inspected& inspected) {
   const ReplayRequest& request = inspected.request;
   if (!request.motionPath.empty()) {
@@ -98,7 +87,7 @@ Result<Pose> poseAt(const Inspected& inspected, std::int64_t index, bool isPlace
     const PlayedClip& played = *inspected.played;
     return poseAtFrame(
         {played.avatar, played.clip, played.match, placement, played.isUpright, request.motionPath},
-        index * played.steps.stride);
+        played.steps.frameOf(index));
   }
   const Skeleton& skeleton = inspected.avatar->skeleton();
   auto pose = validatedPose(skeleton, placed(skeleton, restPose(skeleton), placement));
@@ -156,7 +145,7 @@ Result<Done> addTrack(const Inspected& inspected, const ReportOptions& options, 
   for (std::int64_t i = 0; i < poses && progress(i, poses); ++i) {
     FORETOUCH_TRY(const auto pose, poseAt(inspected, i));
     const double timeS = inspected.played
-                             ? static_cast<double>(i * inspected.played->steps.stride) *
+                             ? static_cast<double>(inspected.played->steps.frameOf(i)) *
                                    inspected.played->clip.frameTimeS
                              : 0.0;
     track.addPose(timeS, pose);

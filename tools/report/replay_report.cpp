@@ -42,7 +42,7 @@ Result<Done> ReplayReport::addTrack(const ReportProgress& progress) {
   const auto steps = static_cast<std::int64_t>(latenciesUs_.size());
   for (std::int64_t pose = 0; pose <= steps; ++pose) {
     if (!progress(pose, steps)) return Done{};
-    FORETOUCH_TRY(const auto read, poseAtFrame(inputs_, pose * inputs_.steps.stride));
+    FORETOUCH_TRY(const auto read, poseAtFrame(inputs_, inputs_.steps.frameOf(pose)));
     track_.addPose(inputs_.timeOfStep(pose), read);
   }
   for (std::int64_t step = 0; step < steps; ++step) {

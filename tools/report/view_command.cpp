@@ -115,6 +115,7 @@ Command viewCommand() {
   addRateSetting(settings, job->request,
                  "Poses per second to show of the clip; animations: 30 if all");
   addClipSettings(settings, job->request);
+  addCutSettings(settings, job->request);
   addFilesSetting(
       settings, job->files,
       "Scene, avatar (json) and clip, any of them; their names or contents tell which is which");

@@ -53,7 +53,40 @@ Setting& addPlaceSetting(Settings& settings, Placement& place, const char* help)
   return setting;
 }
 
+Result<ClipInstant> clipInstantFrom(const std::string& text) {
+  const auto isLegal = [](double number) { return number >= 0.0 && number <= 1e12; };
+  std::int64_t frame = 0;
+  if (!text.empty() && text.back() == 'f' && readNumber(text.substr(0, text.size() - 1), frame) &&
+      isLegal(static_cast<double>(frame))) {
+    return ClipInstant{static_cast<double>(frame), true};
+  }
+  double seconds = 0.0;
+  if (readNumber(text, seconds) && isLegal(seconds)) return ClipInstant{seconds, false};
+  return Error::of(
+      ErrorCode::OutOfRange,
+      "expected seconds of the clip, or a frame from 0 as 300f, found " + inQuotes(text));
+}
+
 namespace {
+
+std::string textOf(const std::optional<ClipInstant>& instant) {
+  if (!instant) return "";
+  return tidyNumber(instant->number) + (instant->isFrame ? "f" : "");
+}
+
+void addInstant(Settings& settings, const char* option, const char* key,
+                std::optional<ClipInstant>& place, const char* help) {
+  Setting& setting = settings.parsed(
+      option, "S|Nf",
+      [&place](const std::string& text) -> Result<Done> {
+        FORETOUCH_TRY(place, clipInstantFrom(text));
+        return Done{};
+      },
+      [&place] { return textOf(place); }, help);
+  setting.in(kInputGroup).inConfig("clip", key).inHeader(key).inReport(key).namedIf([&place] {
+    return place.has_value();
+  });
+}
 
 void addSourceSettings(Settings& settings, ClipRequest& request) {
   settings
@@ -134,6 +167,21 @@ void addClipReadingSettings(Settings& settings, ClipRequest& request) {
     return Done{};
   };
   addSourceSettings(settings, request);
+}
+
+void addCutSettings(Settings& settings, ClipRequest& request) {
+  addInstant(settings, "--from", "from", request.cut.from,
+             "Where to begin in the clip: seconds, or a frame from 0 (300f)");
+  addInstant(settings, "--to", "to", request.cut.to,
+             "Where to end in the clip: seconds, or a frame from 0 (300f)");
+  settings
+      .flag("--skip-t-pose", request.cut.skipsTPose,
+            "Leave out the T-pose that the clip begins with")
+      .in(kInputGroup)
+      .inConfig("clip", "skip_t_pose")
+      .inHeader("skip_t_pose")
+      .inReport("T-pose left out")
+      .namedIf([&request] { return request.cut.skipsTPose; });
 }
 
 void addClipSettings(Settings& settings, ClipRequest& request) {

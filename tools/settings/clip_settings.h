@@ -12,6 +12,18 @@
 
 namespace foretouch::tools {
 
+/// An instant of a clip: seconds, or a frame counted from 0.
+struct ClipInstant {
+  double number = 0.0;  ///< Finite, at least 0; whole if it is a frame.
+  bool isFrame = false;
+};
+
+/// Which part of a clip is played.
+struct ClipCut {
+  std::optional<ClipInstant> from, to;  ///< Empty: its begin, its end.
+  bool skipsTPose = false;              ///< Leaves out the T-pose that it begins with.
+};
+
 /// Each setting is legal by itself. Paths are ready to open.
 struct ClipRequest {
   std::string avatarPath, motionPath;
@@ -23,6 +35,7 @@ struct ClipRequest {
   std::string robotPath;                  ///< For a motion that is a table of joint positions.
   std::vector<std::string> packagePaths;  ///< Folders of that robot's packages.
   Placement placement;                    ///< The option sets its motionUpZ too, for BVH.
+  ClipCut cut;                            ///< Of commands that have addCutSettings().
 };
 
 /// What readMotion() reads, for a shell that completes files.
@@ -53,5 +66,10 @@ Setting& addRateSetting(
 void addClipReadingSettings(Settings& settings, ClipRequest& request);
 /// The same, and its placement: --place.
 void addClipSettings(Settings& settings, ClipRequest& request);
+
+/// "2.5" seconds, or "300f": a frame. Errors name no option.
+[[nodiscard]] Result<ClipInstant> clipInstantFrom(const std::string& text);
+/// Which part of the clip: --from, --to, --skip-t-pose.
+void addCutSettings(Settings& settings, ClipRequest& request);
 
 }  // namespace foretouch::tools

@@ -36,6 +36,7 @@ struct AllSettings {
     addMotionSetting(played, clip, "--motion", "CLIP");
     addRateSetting(played, clip);
     addClipSettings(played, clip);
+    addCutSettings(played, clip);
     addServeSettings(served, serve);
   }
 };

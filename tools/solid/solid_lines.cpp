@@ -132,6 +132,7 @@ Result<std::string> SolidLines::header() {
   Settings settings;
   addRateSetting(settings, request);
   addClipSettings(settings, request);
+  addCutSettings(settings, request);
   addSceneSettings(settings, request);
   addQuerySettings(settings, request);
   std::string text;
@@ -145,11 +146,13 @@ Result<std::string> SolidLines::header() {
   FORETOUCH_CHECK(writeFile("motion", request.motionPath, out));
   writeHeaderFields(settings, {"rate"}, out);
   out.field("k", inputs_.steps.stride);
+  if (inputs_.steps.first > 0) out.field("first_frame", inputs_.steps.first);
   out.field("frame_time", inputs_.clip.frameTimeS);
   out.field("ticks", ticksOf(inputs_));
-  writeHeaderFields(
-      settings,
-      {"scale", "motion_up", "place", "scene_scale", "up", "ignore", "animation", "robot"}, out);
+  writeHeaderFields(settings,
+                    {"scale", "motion_up", "place", "scene_scale", "up", "ignore", "animation",
+                     "robot", "from", "to", "skip_t_pose"},
+                    out);
   writeOptions(options_, inputs_.avatar, out);
   if (options_.self) {
     out.rawField("self", nlohmann::json::parse(formatPairs(*options_.self, inputs_.avatar)).dump());

@@ -71,7 +71,7 @@ Result<Done> playSolid(const ReplayInputs& inputs, const SolidOptions& options,
   for (std::int64_t tick = 0; tick < ticksOf(inputs); ++tick) {
     played.tick = tick;
     played.timeS = inputs.timeOfStep(tick);
-    FORETOUCH_TRY(played.tracked, poseAtFrame(inputs, tick * inputs.steps.stride));
+    FORETOUCH_TRY(played.tracked, poseAtFrame(inputs, inputs.steps.frameOf(tick)));
     const Clock::time_point start = Clock::now();
     const auto followed = solid.follow({played.tracked, tickS(inputs)}, played.answer);
     if (!followed.ok()) return withOptionNames(followed.error());

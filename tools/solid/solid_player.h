@@ -56,7 +56,7 @@ using TickSink = std::function<bool(const PlayedTick&)>;
 }
 /// Seconds from one to the next.
 [[nodiscard]] inline double tickS(const ReplayInputs& inputs) {
-  return inputs.timeOfStep(1);
+  return static_cast<double>(inputs.steps.stride) * inputs.clip.frameTimeS;
 }
 
 /// Plays every pose that the inputs select. Errors: options that a solid avatar refuses, by the

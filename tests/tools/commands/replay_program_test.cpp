@@ -109,6 +109,26 @@ TEST(ReplayProgram, TakesFilesWithoutTheirOptionsInAnyOrder) {
   refused({folder / "none.dat", body, dance}, "none.dat: cannot be opened");
 }
 
+/// The same step as of the whole clip, at the same time.
+TEST(ReplayProgram, PlaysAPartOfAClipAtTheClipsOwnTime) {
+  const SmallWorld world;
+  const std::string out = world.folder / "out.jsonl", all = world.folder / "all.jsonl";
+  ASSERT_EQ(runForetouch(world.replay({"--output", all})).exitCode, 0);
+  ASSERT_EQ(runForetouch(world.replay({"--from", "1f", "--to", "0.2", "--output", out})).exitCode,
+            0);
+  const std::vector<std::string> lines = linesOf(contentOf(out)), whole = linesOf(contentOf(all));
+  const json header = json::parse(lines[0]);
+  EXPECT_EQ(header["first_frame"], 1);
+  EXPECT_EQ(header["from"], "1f");
+  EXPECT_EQ(header["to"], "0.2");
+  EXPECT_EQ(header["steps"], 1);
+  const json step = json::parse(lines[1]), same = json::parse(whole[2]);
+  EXPECT_EQ(step["t0"], same["t0"]);
+  EXPECT_EQ(step["contacts"], same["contacts"]);
+  EXPECT_EQ(step["contacts"].size(), 2u);
+  EXPECT_FALSE(json::parse(whole[0]).contains("first_frame"));
+}
+
 TEST(ReplayProgram, ReportsHowDeepAStepStarts) {
   const SmallWorld world;
   world.folder.write("inside.bvh", clipAlongX({0.04, 0.5}));

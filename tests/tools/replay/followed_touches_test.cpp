@@ -96,7 +96,7 @@ class Judged {
 
   oracle::Motion motionOf(std::int64_t step) const {
     const auto pose = [&](std::int64_t at) {
-      return tools::poseAtFrame(inputs_, at * inputs_.steps.stride).value();
+      return tools::poseAtFrame(inputs_, inputs_.steps.frameOf(at)).value();
     };
     return oracle::Motion(plainJoints(inputs_.avatar.skeleton(), pose(step), pose(step + 1)));
   }

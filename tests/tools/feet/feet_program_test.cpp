@@ -1,0 +1,142 @@
+// `foretouch feet` as a user types it, on a walk that the test plants.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/tools/feet/planted_walk.h"
+#include "tests/tools/program_run.h"
+
+namespace foretouch::test {
+namespace {
+
+constexpr double kFrameS = 0.01;
+
+/// A floor at y = 0.4, as the top of a box that a scene has.
+constexpr char kStageObj[] =
+    "o stage\nv -5 0.4 -5\nv 5 0.4 -5\nv 5 0.4 5\nv -5 0.4 5\nf 1 2 3\nf 1 3 4\n"
+    "o floor\nv -9 0 -9\nv 9 0 -9\nv 9 0 9\nv -9 0 9\nf 5 6 7\nf 5 7 8\n";
+
+/// The left foot stands, slides by 20 mm along z, and stands; the right one steps to x = 0.5.
+class PlantedFiles {
+ public:
+  PlantedFiles() {
+    PlantedFoot left, right;
+    left.stances = {{{0, 0, 0}, {0, 0, 0.02}, 0.0, 1.6}};
+    right.stances = {{{0, 0, 0.2}, {0, 0, 0.2}, 0.0, 0.6},
+                     {{0.5, 0, 0.2}, {0.5, 0, 0.2}, 1.0, 1.6}};
+    std::vector<Place> leftSoles, rightSoles;
+    for (int frame = 0; frame <= 160; ++frame) {
+      leftSoles.push_back(left.soleAt(frame * kFrameS));
+      rightSoles.push_back(right.soleAt(frame * kFrameS));
+    }
+    folder.write("walker.json", kWalkerAvatar);
+    folder.write("walk.bvh", walkBvh(leftSoles, rightSoles, kFrameS));
+    folder.write("stage.obj", kStageObj);
+  }
+
+  [[nodiscard]] Ended feet(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments{"feet", folder / "walk.bvh", folder / "walker.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runForetouch(arguments);
+  }
+
+  TempFolder folder;
+};
+
+std::vector<std::vector<std::string>> rowsOf(const std::string& path) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream text(contentOf(path));
+  for (std::string line; std::getline(text, line);) {
+    std::vector<std::string> cells{""};
+    for (const char c : line) {
+      if (c == ',') {
+        cells.emplace_back();
+      } else {
+        cells.back() += c;
+      }
+    }
+    rows.push_back(cells);
+  }
+  return rows;
+}
+
+std::size_t linesOf(const std::string& path) {
+  const std::string text = contentOf(path);
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST(FeetProgram, WritesStancesLabelsAndAPlot) {
+  const PlantedFiles files;
+  const TempFolder& folder = files.folder;
+  const Ended ended = files.feet({"--output", folder / "feet.csv", "--labels", folder / "l.csv",
+                                  "--plot", folder / "feet.html"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.out.find("LeftFoot: 3 touches; 3 slide 2 mm or more, the worst 2"),
+            std::string::npos)
+      << ended.out;
+  const auto rows = rowsOf(folder / "feet.csv");
+  ASSERT_EQ(rows.size(), 1u + 3u + 6u);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].size(), 16u);
+    const double truth = rows[i][0] == "LeftFoot" ? 20.0 : 0.0;
+    EXPECT_NEAR(std::stod(rows[i][10]), truth, 1.0) << rows[i][0] << " " << rows[i][1];
+  }
+  EXPECT_EQ(linesOf(folder / "l.csv"), 1u + 161u * 6u);
+  EXPECT_NE(contentOf(folder / "feet.html").find("<polyline class=\"trace\""), std::string::npos);
+  for (const char* const name : {"l.jsonl", "l.npz"}) {
+    const Ended again = files.feet({"--labels", folder / name, "--from", "10f", "--to", "0.5"});
+    ASSERT_EQ(again.exitCode, 0) << again.err;
+    EXPECT_NE(again.out.find("frames 10 to 50"), std::string::npos) << again.out;
+  }
+  EXPECT_EQ(linesOf(folder / "l.jsonl"), 1u + 41u);
+  EXPECT_EQ(contentOf(folder / "l.npz").substr(0, 2), "PK");
+}
+
+/// From 15 cm above the stage, and 40 cm above the floor below it.
+TEST(FeetProgram, LaysTheClipOnTheSceneBelowItsFeet) {
+  const PlantedFiles files;
+  const std::vector<std::string> scene{files.folder / "stage.obj", "--place", "0,0.55,0",
+                                       "--output", files.folder / "feet.csv"};
+  const Ended above = files.feet(scene);
+  ASSERT_EQ(above.exitCode, 0) << above.err;
+  EXPECT_NE(above.out.find("LeftFoot: touches nothing"), std::string::npos) << above.out;
+  std::vector<std::string> fitted = scene;
+  fitted.insert(fitted.end(), {"--ground", "fit"});
+  const Ended on = files.feet(fitted);
+  ASSERT_EQ(on.exitCode, 0) << on.err;
+  EXPECT_NE(on.out.find("lowered by 150.0 mm"), std::string::npos) << on.out;
+  const auto rows = rowsOf(files.folder / "feet.csv");
+  ASSERT_EQ(rows.size(), 1u + 3u + 6u);
+  EXPECT_EQ(rows[1][3], "stage");
+  EXPECT_NEAR(std::stod(rows[1][12]), 0.0, 0.1) << "depth";
+}
+
+TEST(FeetProgram, NamesWhatIsWrong) {
+  const PlantedFiles files;
+  const std::string clip = files.folder / "walk.bvh";
+  struct Case {
+    std::vector<std::string> more;
+    const char* said;
+  };
+  for (const Case& one : std::vector<Case>{
+           {{"--labels", files.folder / "l.txt"},
+            "--labels: expected a file that ends in .csv, .jsonl"},
+           {{"--from", "9"},
+            "--from: expected an instant of the clip, which ends at 1.6 s (frame 160)"},
+           {{"--from", "-1"}, "--from: expected seconds of the clip, or a frame from 0 as 300f"},
+           {{"--output", clip}, "walk.bvh"},
+           {{"--ground", "fit", "--from", "0.66", "--to", "0.7", "--rate", "100"},
+            "--ground fit: "},
+       }) {
+    const Ended ended = files.feet(one.more);
+    EXPECT_EQ(ended.exitCode, 2) << one.said;
+    EXPECT_NE(ended.err.find(one.said), std::string::npos) << ended.err;
+  }
+}
+
+}  // namespace
+}  // namespace foretouch::test

@@ -1,0 +1,234 @@
+#include "tools/feet/feet_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "articulated/quoted.h"
+#include "articulated/try.h"
+#include "assets/bvh/bvh_reader.h"
+#include "assets/clip/clip_file.h"
+#include "assets/import/scene_import.h"
+#include "lss/index.h"
+#include "tools/console.h"
+#include "tools/floor/heels.h"
+#include "tools/inputs/clip_pose.h"
+#include "tools/inputs/first_pose.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A foot looks for its ground from this far above it: over the steps of stairs, below seats.
+constexpr double kLookFrom = 0.25;
+/// A body farther than this above everything (m) stands on nothing.
+constexpr double kLookDown = 3.0;
+/// A plain floor goes on this far beyond the body (m).
+constexpr double kFloorMargin = 20.0;
+
+Vector3d normalOf(const Triangle& triangle) {
+  const auto& [a, b, c] = triangle.vertices;
+  const Vector3d normal = (b - a).cross(c - a);
+  const double length = normal.norm();
+  if (!(length > 0.0)) return Vector3d::Zero();
+  return normal.y() < 0.0 ? Vector3d(-normal / length) : Vector3d(normal / length);
+}
+
+Result<PlayedClip> loadPlayed(const FeetRequest& request) {
+  if (!request.avatarPath.empty()) return loadPlayedClip(request);
+  if (clipFormatOf(request.motionPath) == ClipFormat::Bvh) return loadClipAlone(request);
+  return Error::in("--avatar", ErrorCode::Empty,
+                   "expected the body's avatar file beside " + inQuotes(request.motionPath) +
+                       ": only of a BVH clip a body is made (foretouch avatar make)");
+}
+
+Result<Level> sceneOf(const FeetRequest& request) {
+  FORETOUCH_TRY(auto imported, importScene(request.scenePath, request.sceneImport));
+  printNotes(request.scenePath, imported.report.notes);
+  return inFile(Level::build(std::move(imported.scene)), request.scenePath);
+}
+
+/// A square at y = 0 around these places.
+Result<Level> plainFloor(const Eigen::AlignedBox3d& around) {
+  const Vector3d low = around.min().array() - kFloorMargin;
+  const Vector3d high = around.max().array() + kFloorMargin;
+  const Vector3d a(low.x(), 0, low.z()), b(low.x(), 0, high.z()), c(high.x(), 0, high.z()),
+      d(high.x(), 0, low.z());
+  return Level::build({{Triangle{{a, b, c}}, Triangle{{a, c, d}}}, {0, 0}, {"floor"}});
+}
+
+/// Around the clip's roots, wherever its placement and a fit turn them.
+Eigen::AlignedBox3d boxOf(const FeetInputs& inputs) {
+  const Clip& clip = inputs.played.clip;
+  double reach = 0.0;
+  for (const Pose& pose : clip.frames) {
+    for (JointId joint = 0; joint < clip.skeleton.numJoints(); ++joint) {
+      if (clip.skeleton.parent(joint) != kNoParent) continue;
+      reach = std::max(reach, pose.translations[slotOf(joint)].norm());
+    }
+  }
+  const Vector3d origin = inputs.request.placement.origin;
+  return {origin - Vector3d::Constant(reach), origin + Vector3d::Constant(reach)};
+}
+
+/// How far the clip's own floor, once level, is above what is below its rests: the median. Nothing
+/// if most of them are above a void.
+std::optional<double> heightAboveGround(const FeetInputs& inputs, const FloorFit& fit,
+                                        const std::vector<FootRest>& rests) {
+  const Eigen::Isometry3d level = fit.levelledTo(fit.height);
+  std::vector<double> above;
+  for (const FootRest& rest : rests) {
+    if (std::abs(fit.heightOf(rest.p_W)) > kOnFloor) continue;
+    const Vector3d p_W = level * rest.p_W;
+    const auto ground = inputs.groundBelow(p_W);
+    if (ground) above.push_back(fit.height - ground->p_W.y());
+  }
+  if (2 * above.size() < fit.onFloor || above.empty()) return std::nullopt;
+  const auto middle = above.begin() + static_cast<std::ptrdiff_t>(above.size() / 2);
+  std::nth_element(above.begin(), middle, above.end());
+  return *middle;
+}
+
+/// Rests are looked for this often (Hz): more poses say no more.
+constexpr double kRestHz = 60.0;
+
+std::int64_t restStride(const FeetInputs& inputs) {
+  return std::max<std::int64_t>(1, std::llround(1.0 / (kRestHz * inputs.stepS())));
+}
+
+RestingPoses restPoses(const FeetInputs& inputs) {
+  return [&inputs, stride = restStride(inputs)](std::int64_t rest) {
+    return inputs.poseAt(rest * stride);
+  };
+}
+
+Result<std::vector<FootRest>> restsOf(const FeetInputs& inputs) {
+  const std::int64_t stride = restStride(inputs);
+  return footRestsOf(inputs.body, inputs.steps() / stride,
+                     static_cast<double>(stride) * inputs.stepS(), restPoses(inputs));
+}
+
+/// A body that is made of the clip's bones gets heels.
+Result<Done> addHeels(FeetInputs& inputs) {
+  FORETOUCH_TRY(const auto rests, restsOf(inputs));
+  const RestingBody body = inputs.body;
+  FORETOUCH_TRY(inputs.body, withHeelsDown(body, rests, restPoses(inputs), &inputs.heelsMade));
+  return Done{};
+}
+
+/// Moves the clip until its own floor lies on the ground.
+Result<Done> fitGround(FeetInputs& inputs) {
+  const std::string& clip = inputs.request.motionPath;
+  FORETOUCH_TRY(const auto rests, restsOf(inputs));
+  const auto named = [&](Error error) {
+    error.file = "--ground fit";
+    error.message = clip + ": " + error.message;
+    return error;
+  };
+  FORETOUCH_TRY_OR(named, const FloorFit fit, fitFloor(rests));
+  const auto above =
+      inputs.isPlain ? std::optional<double>(fit.height) : heightAboveGround(inputs, fit, rests);
+  if (!above) {
+    return Error::in("--ground fit", ErrorCode::Empty,
+                     fmt::format("{}: its feet rest at {:.3f} m, and below most of these places "
+                                 "the scene has nothing within {:g} m: --place puts it elsewhere",
+                                 clip, fit.height, kLookDown));
+  }
+  inputs.fitShift = -*above;
+  inputs.correction = fit.levelledTo(fit.height - *above);
+  inputs.fit = fit;
+  return Done{};
+}
+
+/// People of this height (m) are believed.
+constexpr double kShortest = 0.5, kTallest = 3.0;
+
+std::optional<std::string> remarkOnStature(const FeetInputs& inputs) {
+  const auto stature = statureOf(inputs.played.avatar.skeleton());
+  if (!stature || (*stature >= kShortest && *stature <= kTallest)) return std::nullopt;
+  return fmt::format(
+      "{}: the body is {:.3g} m tall, by the length of its legs, and all thresholds are for "
+      "people: "
+      "is the unit (--clip-scale) right?",
+      inputs.request.motionPath, *stature);
+}
+
+}  // namespace
+
+Result<Pose> FeetInputs::poseAt(std::int64_t step) const {
+  FORETOUCH_TRY(auto pose, poseAtFrame({played.avatar, played.clip, played.match, request.placement,
+                                        played.isUpright, request.motionPath},
+                                       played.steps.frameOf(step)));
+  pose = body.poseOf(std::move(pose));
+  const Skeleton& skeleton = body.avatar.skeleton();
+  const Eigen::Quaterniond turn(correction.linear());
+  for (JointId joint = 0; joint < body.jointsBefore; ++joint) {
+    if (skeleton.parent(joint) != kNoParent) continue;
+    Quaternion& rotation = pose.rotations[slotOf(joint)];
+    rotation = Quaternion(turn * Eigen::Quaterniond(rotation)).normalized();
+    Vector3d& translation = pose.translations[slotOf(joint)];
+    translation = correction * translation;
+  }
+  return inFile(validatedPose(skeleton, std::move(pose)), request.motionPath);
+}
+
+std::optional<GroundSurface> FeetInputs::groundBelow(const Vector3d& p_W) const {
+  if (isPlain) return GroundSurface{Vector3d(p_W.x(), 0.0, p_W.z()), Vector3d::UnitY()};
+  const Vector3d from = p_W + Vector3d(0, kLookFrom, 0), to = p_W - Vector3d(0, kLookDown, 0);
+  const auto hit = level.cast(from, to);
+  if (!hit) return std::nullopt;
+  const Triangle& triangle = level.scene().triangle(hit->triangle);
+  const Vector3d normal = normalOf(triangle);
+  if (normal.y() < kWalkableUp) return std::nullopt;
+  // The cast ends within its tolerance: the triangle's plane says where it is.
+  const double down = normal.dot(from - triangle.vertices[0]) / normal.y();
+  return GroundSurface{from - Vector3d(0, down, 0), normal};
+}
+
+Result<FeetInputs> loadFeetInputs(const FeetRequest& request) {
+  FORETOUCH_TRY(auto played, loadPlayed(request));
+  FORETOUCH_TRY(auto body,
+                inFile(restingBodyOf(played.avatar),
+                       request.avatarPath.empty() ? request.motionPath : request.avatarPath));
+  const bool isPlain = request.scenePath.empty();
+  FORETOUCH_TRY(auto level,
+                isPlain ? plainFloor(Eigen::AlignedBox3d(Vector3d(0, 0, 0))) : sceneOf(request));
+  FeetInputs inputs{request, std::move(played), std::move(body), std::move(level), isPlain, 0, {},
+                    0.0};
+  if (request.avatarPath.empty()) FORETOUCH_CHECK(addHeels(inputs));
+  if (request.ground == GroundFrom::Fit) FORETOUCH_CHECK(fitGround(inputs));
+  if (!isPlain) return inputs;
+  FORETOUCH_TRY(inputs.level, plainFloor(boxOf(inputs)));
+  return inputs;
+}
+
+std::vector<std::string> remarksOn(const FeetInputs& inputs) {
+  const FeetRequest& request = inputs.request;
+  const bool isMade = request.avatarPath.empty();
+  const PlayedClip& played = inputs.played;
+  std::vector<std::string> remarks =
+      remarksOnClip(played.avatar, played.clip, played.match,
+                    isMade ? request.motionPath : request.avatarPath, request.motionPath);
+  if (const auto remark = remarkOnStature(inputs)) remarks.push_back(*remark);
+  const auto first = inputs.poseAt(0);
+  if (first.ok()) {
+    const auto lying =
+        remarkOnFirstPose(inputs.body.avatar, first.value(), played.frame, request.motionPath);
+    if (lying) remarks.push_back(*lying);
+  }
+  const auto rate = remarkOnRate(played.steps, played.clip, request.rateHz);
+  if (rate) remarks.push_back(*rate);
+  if (isMade) {
+    remarks.push_back(
+        request.motionPath +
+        ": without --avatar, the body is made of the clip's bones: how thick its "
+        "soles are is an estimate, which --ground fit takes out" +
+        (inputs.heelsMade > 0 ? "; its heels are let down to the level of its balls" : ""));
+  }
+  return remarks;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,74 @@
+// tools/feet/feet_inputs.h: a clip, its body and what it stands on, ready to be asked how feet
+// rest. World W: metres, +Y up.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "articulated/result.h"
+#include "tools/floor/floor_fit.h"
+#include "tools/floor/resting_body.h"
+#include "tools/inputs/played_clip.h"
+#include "tools/settings/world_settings.h"
+#include "tools/setup/level.h"
+
+namespace foretouch::tools {
+
+/// Cosine of the steepest ground, 45 degrees: what character controllers take as walkable.
+inline constexpr double kWalkableUp = 0.7;
+
+/// Where the ground is.
+enum class GroundFrom : std::uint8_t {
+  Given,  ///< Where the clip, its placement and the scene have it.
+  Fit,    ///< Where the feet rest: the clip is moved until its own floor lies on the ground.
+};
+
+struct FeetRequest : ClipRequest, WorldRequest {
+  GroundFrom ground = GroundFrom::Given;
+  /// A part touches within this distance (m): hovering begins beyond it.
+  double tolerance = 0.005;
+};
+
+/// A surface to stand on, flat around the point that asked.
+struct GroundSurface {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal_W = Eigen::Vector3d::UnitY();  ///< Unit, up.
+
+  [[nodiscard]] double heightOf(const Eigen::Vector3d& p) const { return normal_W.dot(p - p_W); }
+};
+
+struct FeetInputs {
+  FeetRequest request;
+  PlayedClip played;
+  RestingBody body;
+  Level level;  ///< The scene; without one, a floor at y = 0.
+  bool isPlain = false;
+  std::size_t heelsMade = 0;    ///< Of a body that is made of bones (tools/floor/heels.h).
+  std::optional<FloorFit> fit;  ///< Of GroundFrom::Fit.
+  double fitShift = 0.0;        ///< What the fit raised the clip by, at the fit's middle (m).
+  Eigen::Isometry3d correction = Eigen::Isometry3d::Identity();  ///< The fit's, of W.
+
+  [[nodiscard]] std::int64_t steps() const { return played.steps.count; }
+  [[nodiscard]] double stepS() const {
+    return static_cast<double>(played.steps.stride) * played.clip.frameTimeS;
+  }
+  [[nodiscard]] double timeOf(std::int64_t step) const {
+    return static_cast<double>(played.steps.frameOf(step)) * played.clip.frameTimeS;
+  }
+  /// Of body.avatar, where the fit has it.
+  [[nodiscard]] Result<Pose> poseAt(std::int64_t step) const;
+  /// What `p_W` stands on, or sank through by at most a quarter of a metre; nothing: a void.
+  [[nodiscard]] std::optional<GroundSurface> groundBelow(const Eigen::Vector3d& p_W) const;
+};
+
+/// Errors name the file or the option; of GroundFrom::Fit also as fitFloor().
+[[nodiscard]] Result<FeetInputs> loadFeetInputs(const FeetRequest& request);
+
+/// As remarksOnClip(), and what the body is.
+[[nodiscard]] std::vector<std::string> remarksOn(const FeetInputs& inputs);
+
+}  // namespace foretouch::tools

@@ -1,0 +1,22 @@
+// tools/feet/feet_text.h: how feet rest, as a table for people, as CSV and as a line of JSON.
+#pragma once
+
+#include <string>
+
+#include "tools/feet/feet_answer.h"
+#include "tools/feet/feet_inputs.h"
+
+namespace foretouch::tools {
+
+[[nodiscard]] std::string feetText(const FeetInputs& inputs, const FeetAnswer& answer);
+
+/// One line per stance, in time's order of each part: docs/formats.md, "How feet rest".
+[[nodiscard]] std::string feetCsv(const FeetInputs& inputs, const FeetAnswer& answer);
+
+/// --json.
+[[nodiscard]] std::string feetJson(const FeetInputs& inputs, const FeetAnswer& answer);
+
+/// What the fit found, in one sentence; empty without one.
+[[nodiscard]] std::string fitText(const FeetInputs& inputs);
+
+}  // namespace foretouch::tools
