@@ -12,6 +12,7 @@
 
 #include "network/service/service.h"
 #include "tests/support/holds.h"
+#include "tests/tools/feet/planted_walk.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_world.h"
 #include "tools/console.h"
@@ -318,12 +319,15 @@ TEST(Quiet, MeansTheSameToEveryCommand) {
       folder.write("b.batch",
                    "foretouch-batch 1\njob --scene wall.obj --avatar man.json --motion "
                    "clip.bvh\n");
+  const std::string walker = folder.write("walker.json", kWalkerAvatar);
+  const std::string walk = folder.write("walk.bvh", walkBvh({{}, {}}, {{}, {}}, 0.1));
   ASSERT_EQ(runForetouch({"publish", clip, man, "-o", log}).exitCode, 0);
   ASSERT_EQ(runForetouch(world.replay({"-o", shown, "--solid"})).exitCode, 0);
   const std::vector<std::vector<std::string>> lines{
       {"setup", wall, clip},
       {"view", wall, man, clip, "--clip-scale", "0.01", "-o", out + "html"},
       {"replay", wall, man, clip, "--clip-scale", "0.01", "-o", out + "jsonl"},
+      {"feet", walk, walker, "--skip-t-pose"},
       {"batch", fleet, "-o", folder / "fleet"},
       {"world", "check", stage},
       {"world", "replay", stage, "-o", out + "jsonl"},

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/shared_data.h"
 #include "tests/tools/feet/planted_walk.h"
 #include "tests/tools/program_run.h"
 
@@ -113,6 +114,23 @@ TEST(FeetProgram, LaysTheClipOnTheSceneBelowItsFeet) {
   ASSERT_EQ(rows.size(), 1u + 3u + 6u);
   EXPECT_EQ(rows[1][3], "stage");
   EXPECT_NEAR(std::stod(rows[1][12]), 0.0, 0.1) << "depth";
+}
+
+/// Real clips: one that begins in a T-pose, and a sprint of 0.6 s whose feet never rest.
+TEST(FeetProgram, FitsAWalkAndRefusesASprint) {
+  FORETOUCH_REQUIRE_SHARED(walk, "mocap/cmu_cgspeed_walk_crlf.bvh");
+  FORETOUCH_REQUIRE_SHARED(dash, "mocap/bandai1_dash_normal_001.bvh");
+  const Ended walks =
+      runForetouch({"feet", *walk, "--clip-scale", "0.0564", "--skip-t-pose", "--ground", "fit"});
+  EXPECT_EQ(walks.exitCode, 0) << walks.err;
+  EXPECT_NE(walks.err.find("--skip-t-pose: left out a T-pose, the first frame (0.008333 s)"),
+            std::string::npos)
+      << walks.err;
+  EXPECT_NE(walks.out.find("rests of feet show"), std::string::npos) << walks.out;
+  EXPECT_EQ(walks.out.find("below the ground"), std::string::npos) << walks.out;
+  const Ended sprints = runForetouch({"feet", *dash, "--clip-scale", "0.01", "--ground", "fit"});
+  EXPECT_EQ(sprints.exitCode, 2);
+  EXPECT_NE(sprints.err.find("no foot rests"), std::string::npos) << sprints.err;
 }
 
 TEST(FeetProgram, NamesWhatIsWrong) {
