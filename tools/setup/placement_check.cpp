@@ -62,18 +62,20 @@ PlacementCheck startCheck(const Walker& walker, const Standing& standing) {
           ""};
 }
 
-PlacementCheck floorCheck(const Standing& standing) {
+/// `knowsFloor`: the scene has one.
+PlacementCheck floorCheck(const Standing& standing, bool knowsFloor) {
   if (standing.floorAbove) {
     return {"floor", *standing.floorAbove > kStandsWithin ? CheckState::Bad : CheckState::Doubt,
             fmt::format("its lowest point is {:.3g} m below the floor", *standing.floorAbove), ""};
   }
   if (!standing.floorBelow) {
-    return {"floor", CheckState::Bad, "no floor is below it: straight down there is nothing", ""};
+    return {"floor", knowsFloor ? CheckState::Bad : CheckState::Doubt,
+            "no floor is below it: straight down there is nothing", ""};
   }
   const double gap = *standing.floorBelow;
-  const CheckState state = gap <= kStandsWithin ? CheckState::Good
-                           : gap <= kStepHigh   ? CheckState::Doubt
-                                                : CheckState::Bad;
+  const CheckState state = gap <= kStandsWithin              ? CheckState::Good
+                           : gap <= kStepHigh || !knowsFloor ? CheckState::Doubt
+                                                             : CheckState::Bad;
   return {"floor", state, fmt::format("its lowest point is {:.3g} m above the floor", gap), ""};
 }
 
@@ -96,7 +98,14 @@ std::string whyNoFloor(const Walker& walker) {
     text += fmt::format(" within {:.3g} m of the place; --place X,Y,Z,YAW looks elsewhere",
                         *floor->lookedWithin());
   }
+  if (floor->hasAny()) text += ", but a roof or a thing (setup --on OBJECT stands on it)";
   return text;
+}
+
+/// Nothing that one walks on is known: what is below the body says little.
+bool isWithoutFloor(const Walker& walker) {
+  const WalkableFloor* const floor = walker.floor();
+  return floor == nullptr || (!floor->hasMain() && !floor->lowHeadroom());
 }
 
 PlacementCheck onMainFloor(const Walker& walker) {
@@ -106,10 +115,13 @@ PlacementCheck onMainFloor(const Walker& walker) {
             "it stands on surfaces that show it their backs: turned over, or the outside of a room",
             ""};
   }
-  if (floor.isOnTop()) {
-    return {"level", CheckState::Doubt,
-            "nothing of the scene is above what it stands on, and much is below: is it a roof?",
-            "--place " + textOf(originPlace(walker))};
+  if (floor.isOnTop() || floor.hangs()) {
+    return {
+        "level", CheckState::Doubt,
+        floor.hangs()
+            ? "what it stands on hangs high above the scene's lowest point: is it a roof?"
+            : "nothing of the scene is above what it stands on, and much is below: is it a roof?",
+        "--place " + textOf(originPlace(walker))};
   }
   if (floor.isSmall()) {
     return {"level", CheckState::Doubt,
@@ -126,12 +138,12 @@ PlacementCheck onMainFloor(const Walker& walker) {
 
 /// Whether the body is where a person would stand.
 PlacementCheck levelCheck(const Walker& walker, const Standing& standing) {
-  if (standing.isOutside) {
+  const std::string why = whyNoFloor(walker);
+  if (standing.isOutside && !isWithoutFloor(walker)) {
     return {"level", CheckState::Bad, "it stands outside the scene", ""};
   }
-  if (const std::string why = whyNoFloor(walker); !why.empty()) {
-    const bool isTooTall = walker.floor() != nullptr && walker.floor()->lowHeadroom();
-    return {"level", isTooTall ? CheckState::Bad : CheckState::Doubt, why, ""};
+  if (!why.empty() && !standing.isOnAsked) {
+    return {"level", isWithoutFloor(walker) ? CheckState::Doubt : CheckState::Bad, why, ""};
   }
   if (standing.isOnAsked && standing.floor != FloorKind::Main) {
     return {"level", CheckState::Doubt,
@@ -171,7 +183,7 @@ std::string pathInWords(const Standing& standing) {
 
 /// `knowsFloor`: there is one that could be left.
 PlacementCheck pathCheck(Standing standing, bool knowsFloor) {
-  if (!knowsFloor) standing.offFloor = 0;
+  if (!knowsFloor) standing.offFloor = standing.overVoid = 0;
   if (std::string text = pathInWords(standing); !text.empty()) {
     const std::size_t most = std::max({standing.trunkInside, standing.overVoid, standing.offFloor});
     return {"path", 2 * most > standing.poses ? CheckState::Bad : CheckState::Doubt,
@@ -214,9 +226,10 @@ std::string textOf(const Placement& place) {
 
 std::vector<PlacementCheck> checksOf(const Walker& walker, const Standing& standing,
                                      const Standing* better) {
-  std::vector<PlacementCheck> checks = {startCheck(walker, standing), floorCheck(standing),
-                                        levelCheck(walker, standing),
-                                        pathCheck(standing, whyNoFloor(walker).empty())};
+  const bool knowsFloor = !isWithoutFloor(walker);
+  std::vector<PlacementCheck> checks = {
+      startCheck(walker, standing), floorCheck(standing, knowsFloor), levelCheck(walker, standing),
+      pathCheck(standing, knowsFloor)};
   if (better == nullptr) return checks;
   // Once: all of them are about the same place.
   const auto first = std::find_if(checks.begin(), checks.end(), [](const PlacementCheck& check) {

@@ -48,7 +48,8 @@ constexpr double kManyAreLow = 0.3;
 
 /// How Recast knows surfaces, which takes the larger number where two meet.
 enum Surface : unsigned char { kObstacle = 0, kBackUp = 1, kFrontUp = 2, kAsked = 3 };
-constexpr unsigned char kOver = 4;  // added
+// Added: it lies over other floor; high in the air, with nothing below that stands on the ground.
+constexpr unsigned char kOver = 4, kHangs = 8;
 
 /// The part of a level that is looked at.
 struct Part {
@@ -128,7 +129,8 @@ void forEachColumn(const rcHeightfield& field, Function&& function) {
 
 /// Marks what lies over other floor with room between them. From a surface's front down one goes
 /// through a solid until a back is met; that is no floor.
-void markOver(const std::vector<rcSpan*>& column, int crawl) {
+void markOver(const std::vector<rcSpan*>& column, int crawl, int high) {
+  const bool hangs = static_cast<int>(column.front()->smin) > high;
   bool isOver = false;           // of what is above the last surface
   const rcSpan* last = nullptr;  // surface, below
   const rcSpan* below = nullptr;
@@ -147,6 +149,9 @@ void markOver(const std::vector<rcSpan*>& column, int crawl) {
     below = span;
   }
   for (rcSpan* const span : over) span->area = (span->area + kOver) & RC_WALKABLE_AREA;
+  for (rcSpan* const span : column) {
+    if (hangs && span->area != kObstacle) span->area = (span->area + kHangs) & RC_WALKABLE_AREA;
+  }
 }
 
 }  // namespace
@@ -171,7 +176,7 @@ class FloorBuilder {
     FORETOUCH_CHECK(drawTriangles());
     readHeadroom();
     forEachColumn(*field_, [&](const std::vector<rcSpan*>& column) {
-      markOver(column, levels(kCrawl * floor_.room_.height));
+      markOver(column, levels(kCrawl * floor_.room_.height), levels(kOnTop * floor_.room_.height));
     });
     FORETOUCH_CHECK(findRoom());
     takeSpans();
@@ -310,7 +315,8 @@ class FloorBuilder {
       const unsigned char area = open_->areas[i];
       // Rounded up to a level by Recast; the surface is half a level lower, give or take as much.
       span.y = floor_.corner_.y() + (open_->spans[i].y - 0.5) * step;
-      span.isOver = area > kOver;
+      span.isOver = (area & kOver) != 0;
+      span.hangs = (area & kHangs) != 0;
       const int surface = area % kOver;
       span.facesUp = surface >= kFrontUp;
       span.isAsked = surface == kAsked;
@@ -395,6 +401,7 @@ class FloorBuilder {
       WalkableFloor::Area& area = floor_.areas_[static_cast<std::size_t>(span.area)];
       ++area.cells;
       area.facingUp += span.facesUp ? 1 : 0;
+      area.hanging += span.hangs ? 1 : 0;
       area.lowest = std::min(area.lowest, span.y);
       area.highest = std::max(area.highest, span.y);
     }
@@ -410,6 +417,8 @@ class FloorBuilder {
                          [](const auto& a, const auto& b) { return a.score() < b.score(); });
     if (best == floor_.areas_.end() || best->isOver()) return;
     floor_.main_ = static_cast<std::int32_t>(best - floor_.areas_.begin());
+    best->isRoof = floor_.isOnTop() && floor_.hangs();
+    if (best->isRoof) floor_.main_ = -1;
   }
 
   const Level& level_;
@@ -513,6 +522,12 @@ bool WalkableFloor::showsBack() const {
   if (main_ < 0) return false;
   const Area& area = areas_[static_cast<std::size_t>(main_)];
   return 2 * area.facingUp < area.cells;
+}
+
+bool WalkableFloor::hangs() const {
+  if (main_ < 0) return false;
+  const Area& area = areas_[static_cast<std::size_t>(main_)];
+  return area.lowest - levelLowest_ > kOnTop * room_.height && 2 * area.hanging > area.cells;
 }
 
 bool WalkableFloor::isSmall() const {

@@ -57,6 +57,10 @@ class WalkableFloor {
   [[nodiscard]] bool showsBack() const;
   /// The main floor lies high above the level's lowest point, and nothing is above it.
   [[nodiscard]] bool isOnTop() const;
+  /// The main floor is high above the level's lowest point, with only air under it.
+  [[nodiscard]] bool hangs() const;
+  /// Somewhere a body could walk, be it on a roof.
+  [[nodiscard]] bool hasAny() const { return !areas_.empty(); }
   /// The main floor is that of a thing: a crate, a step.
   [[nodiscard]] bool isSmall() const;
   /// The usual headroom of floors that are too low for this body; nothing if they are few.
@@ -73,15 +77,17 @@ class WalkableFloor {
     double y = 0.0;
     std::int32_t area = -1;  ///< Index into areas_; none: too narrow for a body.
     bool isCore = false;     ///< A body's middle may be here.
-    bool facesUp = false, isOver = false, isAsked = false;
+    bool facesUp = false, isOver = false, hangs = false, isAsked = false;
   };
   /// Spans that are reached from one another.
   struct Area {
-    std::size_t cells = 0, facingUp = 0;
+    std::size_t cells = 0, facingUp = 0, hanging = 0;
     double lowest = 0.0, highest = 0.0;
     std::size_t low = 0, lowOver = 0;  ///< Of its lowest part: cells, and those over other floor.
 
-    [[nodiscard]] bool isOver() const { return 2 * lowOver > low; }
+    bool isRoof = false;
+
+    [[nodiscard]] bool isOver() const { return isRoof || 2 * lowOver > low; }
     [[nodiscard]] double score() const;
   };
 

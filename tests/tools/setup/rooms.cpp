@@ -216,6 +216,11 @@ Room roomOfKind(std::size_t kind, unsigned seed) {
       b.sheets(true);
       room.mayAsk = true;
       break;
+    case 14:
+      room.name = "walls and a roof over no floor";
+      b.walls(), b.roofSlab(0.3);
+      room.walkable.clear();
+      break;
     default: break;
   }
   room.scene = std::move(b.scene);

@@ -27,7 +27,7 @@ struct Room {
   bool mayAsk = false;
 };
 
-inline constexpr std::size_t kRoomKinds = 14;
+inline constexpr std::size_t kRoomKinds = 15;
 
 /// `seed`: sizes, and where things are.
 [[nodiscard]] Room roomOfKind(std::size_t kind, unsigned seed);
