@@ -142,19 +142,25 @@ class Search {
 
   std::optional<Standing> best() {
     const Standing own = standingAt(walker_, wish_);
-    if (own.standsFree() && own.isOnFloor() && faultsOf(own) == 0.0) return own;
+    if (isWhereWanted(own) && faultsOf(own) == 0.0) return own;
     if (walker_.floor() == nullptr) return std::nullopt;
     for (const Candidate& candidate : candidates()) {
       if (best_ && candidate.cost >= bestCost_) break;
       const auto place = letDown(walker_, candidate.spot, candidate.yawDeg);
       if (!place) continue;
       const Standing standing = standingAt(walker_, *place);
-      if (standing.standsFree() && standing.isOnFloor()) take(standing, candidate);
+      if (isWhereWanted(standing)) take(standing, candidate);
     }
     return best_;
   }
 
  private:
+  /// Free on the main floor, or on what was asked and nowhere else.
+  [[nodiscard]] bool isWhereWanted(const Standing& standing) const {
+    return standing.standsFree() &&
+           (walker_.on().empty() ? standing.floor == FloorKind::Main : standing.isOnAsked);
+  }
+
   struct Candidate {
     Vector3d spot;
     double yawDeg = 0.0, cost = 0.0;

@@ -118,6 +118,16 @@ TEST(Rooms, OnlyWhoAsksForATableStandsOnOne) {
   EXPECT_NE(textNamed(answer, "level").find("as you said"), std::string::npos);
 }
 
+TEST(Rooms, WhoAsksForATableDoesNotStayOnTheFloorAtTheOrigin) {
+  RawScene scene;
+  test::addRectangle(scene, {-5, 0, -5}, {0, 0, 10}, {10, 0, 0}, "floor");
+  test::addRectangle(scene, {1, 0.8, -2}, {0, 0, 4}, {3, 0, 0}, "stage");
+  const Room room{"a stage", scene, {}, {{0, 0.005, 0}}, false};
+  const Answer answer = answerOf(room, "stage");
+  ASSERT_TRUE(answer.found) << describe(answer.checks);
+  EXPECT_NEAR(answer.found->place.origin.y(), 0.8, 0.01);
+}
+
 TEST(Rooms, AnObjectThatIsNotThereIsNamed) {
   const Room room = test::roomOfKind(0, 0);
   const Level level = Level::build(room.scene).value();

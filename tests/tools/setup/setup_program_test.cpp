@@ -94,7 +94,7 @@ TEST(SetupProgram, AnAnimationWithoutABodyMakesNoCapsulesOfItsCameras) {
 TEST(SetupProgram, TakesABodyAndASceneInAnyOrder) {
   const SmallWorld world;
   const std::string wall = world.folder / "wall.obj", clip = world.folder / "clip.bvh";
-  const json answer = setupIn(world.folder, clip, wall, 1);  // as it stands behind the wall
+  const json answer = setupIn(world.folder, clip, wall);
   EXPECT_EQ(answer["scene"]["file"], wall);
   EXPECT_EQ(answer["body"]["file"], clip);
 }
@@ -130,7 +130,7 @@ TEST(SetupProgram, ABodyThatNeverMovesAndASceneWithoutAFloorAreSaid) {
   const TempFolder folder;
   folder.write("wall.obj", "o wall\nv 0 -2 -2\nv 0 2 -2\nv 0 2 2\nf 1 2 3\n");
   folder.write("still.bvh", clipAlongX({0.5, 0.5, 0.5}));
-  const json answer = setupIn(folder, folder / "wall.obj", folder / "still.bvh", 1);
+  const json answer = setupIn(folder, folder / "wall.obj", folder / "still.bvh");
   const std::string notes = answer["notes"].dump();
   EXPECT_NE(notes.find("never moves"), std::string::npos) << notes;
   EXPECT_NE(answer["checks"].dump().find("no floor"), std::string::npos) << answer["checks"];
