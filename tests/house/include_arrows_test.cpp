@@ -125,6 +125,7 @@ const std::map<std::string, std::set<std::string>> kLibraries = {
     {"httplib.h", {"network"}},
     {"CLI", {"tools", "bench"}},
     {"meshoptimizer.h", {"assets", "tools"}},
+    {"recastnavigation", {"tools"}},
     {"draco", {"assets"}},
     {"pybind11", {"bindings"}},
     {"ompl", {"planning", "examples"}},

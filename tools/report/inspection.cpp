@@ -78,10 +78,8 @@ void loadMeshes(Inspected& inspected) {
   }
 }
 
-/// `isPlaced`: where the placement has it, or around the clip's origin.
-Result<Pose> poseAt(const Inspected& inspected, std::int64_t index, bool isPlaced = true) {
-  Placement placement = inspected.request.placement;
-  if (!isPlaced) placement = Placement{placement.motionUpZ, Eigen::Vector3d::Zero(), 0.0};
+Result<Pose> poseAt(const Inspected& inspected, std::int64_t index) {
+  const Placement& placement = inspected.request.placement;
   const ReplayRequest& request = inspected.request;
   if (inspected.played) {
     const PlayedClip& played = *inspected.played;
@@ -108,22 +106,26 @@ Result<Done> loadLevel(Inspected& inspected) {
   return Done{};
 }
 
+Result<WalkingBody> walkingBodyOf(const Inspected& inspected) {
+  if (!inspected.played) {
+    return WalkingBody{*inspected.avatar, {restPose(inspected.avatar->skeleton())}};
+  }
+  const PlayedClip& played = *inspected.played;
+  Placement upright;
+  upright.motionUpZ = inspected.request.placement.motionUpZ;
+  return walkingBody({played.avatar, played.clip, played.match, upright, played.isUpright,
+                      inspected.request.motionPath});
+}
+
 /// Where the body stands, by the engine; where it stands wrong, also where it could.
 Result<std::vector<PlacementCheck>> checksOf(const Inspected& inspected) {
   std::vector<PlacementCheck> checks = inspected.frameChecks;
   const Avatar* const avatar = inspected.body();
   if (!inspected.level || avatar == nullptr) return checks;
-  constexpr std::int64_t kPosesLookedAt = 24;
-  const std::int64_t poses = inspected.played ? inspected.played->steps.count + 1 : 1;
-  const std::int64_t stride = std::max<std::int64_t>(1, poses / kPosesLookedAt);
-  WalkingBody body{*avatar, {}};
-  for (std::int64_t i = 0; i < poses; i += stride) {
-    FORETOUCH_TRY(auto pose, poseAt(inspected, i, false));
-    body.poses.push_back(std::move(pose));
-  }
-  FORETOUCH_TRY(const auto walker, Walker::build(body, *inspected.level));
+  FORETOUCH_TRY(const auto body, walkingBodyOf(inspected));
   Placement place = inspected.request.placement;
   place.motionUpZ = false;  // the poses are upright
+  FORETOUCH_TRY(const auto walker, Walker::build(body, *inspected.level, place.origin));
   const Standing standing = standingAt(walker, place);
   // A body in a wrong unit is at home nowhere.
   const bool isFrameRight =
@@ -216,7 +218,7 @@ std::vector<ViewRow> settingsOf(const Inspected& inspected) {
   std::vector<ViewRow> rows;
   if (inspected.scene() != nullptr) rows = sceneSettings(request);
   if (!request.avatarPath.empty()) rows.push_back({"avatar", fileName(request.avatarPath), ""});
-  if (inspected.played) {
+  if (inspected.body() != nullptr) {
     for (ViewRow& row : clipSettings(request)) rows.push_back(std::move(row));
   }
   return rows;

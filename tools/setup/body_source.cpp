@@ -9,7 +9,6 @@
 #include "assets/bvh/bvh_reader.h"
 #include "assets/import/model_import.h"
 #include "assets/text_file.h"
-#include "tools/inputs/clip_pose.h"
 #include "tools/inputs/joint_map.h"
 #include "tools/inputs/motion_file.h"
 
@@ -130,8 +129,7 @@ Result<BodySource> readBody(const BodyRequest& request, const std::string& meshF
   return source;
 }
 
-Result<WalkingBody> walkingBody(const BodySource& source, const BodyRequest& request,
-                                std::size_t count) {
+Result<WalkingBody> walkingBody(const BodySource& source, const BodyRequest& request) {
   const Clip clip = source.clipOrRest();
   const Avatar& avatar = *source.avatar;
   const std::string& path = request.motion.empty() ? request.avatar : request.motion;
@@ -139,14 +137,7 @@ Result<WalkingBody> walkingBody(const BodySource& source, const BodyRequest& req
                 matchWithMap(avatar.skeleton(), clip.skeleton, request.map, path));
   Placement upright;
   upright.motionUpZ = request.up == UpAxis::Z;
-  const PlacedClip placed{avatar, clip, match, upright, source.isUpright, path};
-  WalkingBody body{avatar, {}};
-  const std::size_t stride = std::max<std::size_t>(1, (clip.frames.size() + count - 1) / count);
-  for (std::size_t frame = 0; frame < clip.frames.size(); frame += stride) {
-    FORETOUCH_TRY(auto pose, poseAtFrame(placed, static_cast<std::int64_t>(frame)));
-    body.poses.push_back(std::move(pose));
-  }
-  return body;
+  return walkingBody({avatar, clip, match, upright, source.isUpright, path});
 }
 
 }  // namespace foretouch::tools

@@ -42,8 +42,7 @@ struct BodySource {
 /// Whether the avatar must be written, because none of the files is one.
 [[nodiscard]] bool makesAvatar(const BodyRequest& request);
 
-/// The poses of at most `count` frames spread over the clip, Y-up, around its origin.
-[[nodiscard]] Result<WalkingBody> walkingBody(const BodySource& source, const BodyRequest& request,
-                                              std::size_t count);
+/// Its poses as walkingBody() has them.
+[[nodiscard]] Result<WalkingBody> walkingBody(const BodySource& source, const BodyRequest& request);
 
 }  // namespace foretouch::tools

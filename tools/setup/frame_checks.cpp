@@ -12,10 +12,11 @@ namespace {
 /// `offer`: by what the numbers would have to be multiplied once more.
 PlacementCheck unitCheck(const char* name, const char* option, const Offer<double>& offer,
                          const FileFrame& frame) {
+  const std::string text = unitInWords(frame.metresPerUnit) + ": " + offer.reason;
   if (offer.value == 1.0) {
-    return {name, offer.isSure ? CheckState::Good : CheckState::Doubt, offer.reason, ""};
+    return {name, offer.isSure ? CheckState::Good : CheckState::Doubt, text, ""};
   }
-  return {name, CheckState::Doubt, offer.reason,
+  return {name, CheckState::Doubt, text,
           fmt::format("{} {:.3g}", option, offer.value * frame.metresPerUnit)};
 }
 

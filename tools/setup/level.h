@@ -1,5 +1,5 @@
-// tools/setup/level.h: a scene as somebody would walk through it: where floors are, which side of a
-// surface is its front, and what a point meets along a line. World W: metres, +Y up.
+// tools/setup/level.h: a scene as somebody would walk through it: which side of a surface is its
+// front, and what a point meets along a line. World W: metres, +Y up.
 #pragma once
 
 #include <memory>
@@ -14,19 +14,6 @@
 
 namespace foretouch::tools {
 
-/// A triangle on a line, and its side.
-struct LevelHit {
-  double distance = 0.0;
-  TriangleId triangle = -1;
-  bool isFront = true;  ///< By the order of the triangle's vertices in the file.
-};
-
-/// A spot on a surface that a foot could stand on.
-struct FloorSpot {
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
-  bool facesUp = true;  ///< Its front is up.
-};
-
 class Level {
  public:
   /// Errors: as Scene::build().
@@ -36,15 +23,9 @@ class Level {
   /// Unit, of the front; zero without an area.
   [[nodiscard]] Eigen::Vector3d normal(TriangleId triangle) const;
 
-  /// What a point meets first on its way. Straight up, down or sideways it is fast.
-  [[nodiscard]] std::optional<LevelHit> cast(const Eigen::Vector3d& from,
-                                             const Eigen::Vector3d& to) const;
-
-  /// About `count` spots on all surfaces that are at most `steepest` (radians) from level, spread
-  /// evenly over their area; the same ones every time. None if there is no such surface.
-  [[nodiscard]] std::vector<FloorSpot> floorSpots(std::size_t count, double steepest) const;
-  /// Of all surfaces at most that steep, in square metres.
-  [[nodiscard]] double floorArea(double steepest) const;
+  /// How far a point goes before it meets something. Straight up, down or sideways it is fast.
+  [[nodiscard]] std::optional<double> cast(const Eigen::Vector3d& from,
+                                           const Eigen::Vector3d& to) const;
 
  private:
   Level(Scene scene, std::vector<Eigen::Vector3d> areas, Avatar point, Query query);

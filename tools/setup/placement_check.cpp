@@ -11,12 +11,10 @@
 namespace foretouch::tools {
 namespace {
 
-/// More than half of what the chest sees shows its back: the body is in a solid or behind a wall.
-constexpr double kMostlyBacks = 0.5;
 /// Feet that are farther from the floor than a step is high.
 constexpr double kStepHigh = 0.3;
-/// A clip's usual pose stands this much higher or lower than its first at most (m).
-constexpr double kUsualRise = 0.04;
+/// A clip's first pose stands this much higher or lower than the clip at most (m).
+constexpr double kFirstRise = 0.04;
 
 std::string linksIn(const Walker& walker, const std::vector<Inside>& inside) {
   const Skeleton& skeleton = walker.body().avatar.skeleton();
@@ -41,82 +39,155 @@ std::string objectsOf(const Walker& walker, const std::vector<Inside>& inside) {
   return firstOf(names);
 }
 
+/// A T-pose, or a body in the air: the height of the place does not come from it.
+std::string firstPoseInWords(const Standing& standing) {
+  if (std::abs(standing.firstRise) <= kFirstRise) return "";
+  return fmt::format("the first pose is {:.3g} m {} than the clip stands: a T-pose, or in the air",
+                     std::abs(standing.firstRise), standing.firstRise > 0 ? "higher" : "lower");
+}
+
 PlacementCheck startCheck(const Walker& walker, const Standing& standing) {
-  if (standing.inside.empty()) {
-    return {"start", CheckState::Good, "the first pose is free", ""};
+  const std::vector<Inside>& inside = standing.insideAtFirst;
+  const std::string odd = firstPoseInWords(standing);
+  if (inside.empty()) {
+    return {"start", odd.empty() ? CheckState::Good : CheckState::Doubt,
+            odd.empty() ? "the first pose is free" : odd, ""};
   }
-  const bool isTrunkIn =
-      std::any_of(standing.inside.begin(), standing.inside.end(),
-                  [&](const Inside& inside) { return walker.isTrunk(inside.link); });
+  const bool isTrunkIn = std::any_of(inside.begin(), inside.end(),
+                                     [&](const Inside& i) { return walker.isTrunk(i.link); });
   return {"start", isTrunkIn ? CheckState::Bad : CheckState::Doubt,
-          fmt::format("at the first pose, {} start{} inside {}", linksIn(walker, standing.inside),
-                      standing.inside.size() > 1 ? "" : "s", objectsOf(walker, standing.inside)),
+          fmt::format("at the first pose, {} start{} inside {}{}", linksIn(walker, inside),
+                      inside.size() > 1 ? "" : "s", objectsOf(walker, inside),
+                      odd.empty() ? "" : "; " + odd),
           ""};
 }
 
-PlacementCheck floorCheck(const Standing& standing) {
+/// `knowsFloor`: the scene has one.
+PlacementCheck floorCheck(const Standing& standing, bool knowsFloor) {
   if (standing.floorAbove) {
     return {"floor", *standing.floorAbove > kStandsWithin ? CheckState::Bad : CheckState::Doubt,
             fmt::format("its lowest point is {:.3g} m below the floor", *standing.floorAbove), ""};
   }
   if (!standing.floorBelow) {
-    return {"floor", CheckState::Bad, "no floor is below it: straight down there is nothing", ""};
+    return {"floor", knowsFloor ? CheckState::Bad : CheckState::Doubt,
+            "no floor is below it: straight down there is nothing", ""};
   }
   const double gap = *standing.floorBelow;
-  const CheckState state = gap <= kStandsWithin ? CheckState::Good
-                           : gap <= kStepHigh   ? CheckState::Doubt
-                                                : CheckState::Bad;
+  const CheckState state = gap <= kStandsWithin              ? CheckState::Good
+                           : gap <= kStepHigh || !knowsFloor ? CheckState::Doubt
+                                                             : CheckState::Bad;
   return {"floor", state, fmt::format("its lowest point is {:.3g} m above the floor", gap), ""};
 }
 
-/// Whether the body is in the level's free space at all.
-PlacementCheck levelCheck(const Standing& standing) {
-  if (standing.isOutside) {
-    return {"level", CheckState::Bad, "it stands outside the scene", ""};
+/// What is wrong with a level in which nobody of this height could walk; empty: nothing.
+std::string whyNoFloor(const Walker& walker) {
+  const WalkableFloor* const floor = walker.floor();
+  if (floor == nullptr) return walker.floorDoubt();
+  if (floor->hasMain()) return "";
+  const double height = floor->room().height;
+  if (floor->lowHeadroom()) {
+    return fmt::format(
+        "the body is taller than the room: it is {:.3g} m high, and the scene's "
+        "floors have about {:.2g} m above them; is a unit wrong (--scene-scale, "
+        "--clip-scale)?",
+        height, *floor->lowHeadroom());
   }
-  if (standing.seen > 0 && standing.backs > kMostlyBacks) {
-    return {"level", CheckState::Bad,
-            fmt::format("most surfaces around it ({:.0f} %) show it their backs: it is inside a "
-                        "solid, or behind the level's walls",
-                        100.0 * standing.backs),
-            ""};
+  std::string text =
+      fmt::format("the scene has no floor on which a body of {:.3g} m could walk", height);
+  if (floor->lookedWithin()) {
+    text += fmt::format(" within {:.3g} m of the place; --place X,Y,Z,YAW looks elsewhere",
+                        *floor->lookedWithin());
   }
-  if (standing.seen == 0) {
-    return {"level", CheckState::Doubt, "no surface is in sight of it along any axis", ""};
-  }
-  return {"level", CheckState::Good, "it stands in the scene's free space", ""};
+  if (floor->hasAny()) text += ", but a roof or a thing (setup --on OBJECT stands on it)";
+  return text;
 }
 
-PlacementCheck pathCheck(const Standing& standing) {
-  const auto of = [&](std::size_t count) {
-    return fmt::format("in {} of {} poses", count, standing.poses);
-  };
-  if (2 * standing.trunkInside > standing.poses) {
-    return {"path", CheckState::Bad,
-            "its trunk is inside the scene's surfaces " + of(standing.trunkInside), ""};
+/// Nothing that one walks on is known: what is below the body says little.
+bool isWithoutFloor(const Walker& walker) {
+  const WalkableFloor* const floor = walker.floor();
+  return floor == nullptr || (!floor->hasMain() && !floor->lowHeadroom());
+}
+
+PlacementCheck onMainFloor(const Walker& walker) {
+  const WalkableFloor& floor = *walker.floor();
+  if (floor.showsBack()) {
+    return {"level", CheckState::Doubt,
+            "it stands on surfaces that show it their backs: turned over, or the outside of a room",
+            ""};
   }
-  if (2 * standing.overVoid > standing.poses) {
-    return {"path", CheckState::Bad, "no floor is below it " + of(standing.overVoid), ""};
-  }
-  if (standing.trunkInside + standing.overVoid > 0) {
-    std::string text = standing.trunkInside == 0
-                           ? ""
-                           : "its trunk is inside the scene's surfaces " + of(standing.trunkInside);
-    if (standing.overVoid > 0) {
-      text += (text.empty() ? "no floor is below it " : ", and no floor is below it ") +
-              of(standing.overVoid);
-    }
-    return {"path", CheckState::Doubt, text, ""};
-  }
-  if (std::abs(standing.usualRise) > kUsualRise) {
-    Placement usual = standing.place;
-    usual.origin.y() -= standing.usualRise;
+  if (floor.isOnTop() || floor.hangs()) {
     return {
-        "path", CheckState::Doubt,
-        fmt::format("in most poses its lowest point is {:.3g} m {} than in the first one, which "
-                    "may be a T-pose or in the air; this would put those on the floor",
-                    std::abs(standing.usualRise), standing.usualRise > 0 ? "higher" : "lower"),
-        "--place " + textOf(usual)};
+        "level", CheckState::Doubt,
+        floor.hangs()
+            ? "what it stands on hangs high above the scene's lowest point: is it a roof?"
+            : "nothing of the scene is above what it stands on, and much is below: is it a roof?",
+        "--place " + textOf(originPlace(walker))};
+  }
+  if (floor.isSmall()) {
+    return {"level", CheckState::Doubt,
+            fmt::format("what it stands on has {:.2g} square metres with room for it, and the "
+                        "scene has no larger floor: is it a thing?",
+                        floor.area()),
+            "--place " + textOf(originPlace(walker))};
+  }
+  return {"level", CheckState::Good,
+          fmt::format("it stands on the scene's own floor: {:.3g} square metres with room for it",
+                      floor.area()),
+          ""};
+}
+
+/// Whether the body is where a person would stand.
+PlacementCheck levelCheck(const Walker& walker, const Standing& standing) {
+  const std::string why = whyNoFloor(walker);
+  if (standing.isOutside && !isWithoutFloor(walker)) {
+    return {"level", CheckState::Bad, "it stands outside the scene", ""};
+  }
+  if (!why.empty() && !standing.isOnAsked) {
+    return {"level", isWithoutFloor(walker) ? CheckState::Doubt : CheckState::Bad, why, ""};
+  }
+  if (standing.isOnAsked && standing.floor != FloorKind::Main) {
+    return {"level", CheckState::Doubt,
+            "it stands on " + inQuotes(walker.on()) +
+                ", as you said, and nobody reaches that from the scene's own floor",
+            ""};
+  }
+  switch (standing.floor) {
+    case FloorKind::Main: return onMainFloor(walker);
+    case FloorKind::Over:
+      return {"level", CheckState::Doubt,
+              "what it stands on lies over other floor and cannot be reached from it: a roof, a "
+              "beam, furniture",
+              ""};
+    case FloorKind::Apart:
+      return {"level", CheckState::Doubt,
+              "what it stands on cannot be reached from the scene's own floor", ""};
+    case FloorKind::None: break;
+  }
+  return {"level", CheckState::Doubt,
+          "nobody could walk where it stands: an edge, a slope, or too little room", ""};
+}
+
+/// What happens along the clip in some poses: its trunk inside things, no floor below it.
+std::string pathInWords(const Standing& standing) {
+  std::string text;
+  const auto add = [&](const char* what, std::size_t count) {
+    if (count == 0) return;
+    if (!text.empty()) text += ", and ";
+    text += fmt::format("{} in {} of {} poses", what, count, standing.poses);
+  };
+  add("its trunk is inside the scene's surfaces", standing.trunkInside);
+  add("nothing is below it", standing.overVoid);
+  if (standing.offFloor > standing.overVoid) add("it leaves the floor", standing.offFloor);
+  return text;
+}
+
+/// `knowsFloor`: there is one that could be left.
+PlacementCheck pathCheck(Standing standing, bool knowsFloor) {
+  if (!knowsFloor) standing.offFloor = standing.overVoid = 0;
+  if (std::string text = pathInWords(standing); !text.empty()) {
+    const std::size_t most = std::max({standing.trunkInside, standing.overVoid, standing.offFloor});
+    return {"path", 2 * most > standing.poses ? CheckState::Bad : CheckState::Doubt,
+            text + "; foretouch view shows where", ""};
   }
   return {
       "path", CheckState::Good,
@@ -143,8 +214,8 @@ bool areUsable(const std::vector<PlacementCheck>& checks) {
 }
 
 bool isWrong(const Standing& standing) {
-  return !standing.standsFree() || standing.isOutside || standing.backs > kMostlyBacks ||
-         standing.trunkInside + standing.overVoid > 0;
+  return !standing.standsFree() || standing.isOutside || !standing.isOnFloor() ||
+         standing.trunkInside + standing.overVoid + standing.offFloor > 0;
 }
 
 std::string textOf(const Placement& place) {
@@ -155,8 +226,10 @@ std::string textOf(const Placement& place) {
 
 std::vector<PlacementCheck> checksOf(const Walker& walker, const Standing& standing,
                                      const Standing* better) {
-  std::vector<PlacementCheck> checks = {startCheck(walker, standing), floorCheck(standing),
-                                        levelCheck(standing), pathCheck(standing)};
+  const bool knowsFloor = !isWithoutFloor(walker);
+  std::vector<PlacementCheck> checks = {
+      startCheck(walker, standing), floorCheck(standing, knowsFloor), levelCheck(walker, standing),
+      pathCheck(standing, knowsFloor)};
   if (better == nullptr) return checks;
   // Once: all of them are about the same place.
   const auto first = std::find_if(checks.begin(), checks.end(), [](const PlacementCheck& check) {

@@ -1,14 +1,13 @@
 #include "tools/setup/scene_offer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "lss/index.h"
 #include "tools/setup/level.h"
-#include "tools/setup/standing.h"
+#include "tools/setup/walkable_floor.h"
 
 namespace foretouch::tools {
 namespace {
@@ -26,10 +25,7 @@ constexpr double kSmallestLevel = 5.0;
 constexpr double kLowestLevel = 1.5, kHighestLevel = 60.0, kLargestLevel = 3000.0;
 /// Above this, metres are less likely than centimetres.
 constexpr double kTooHigh = 200.0;
-/// A person needs this much room above the floor, and to each side (m).
-constexpr double kHeadroom = 1.7, kElbowRoom = 0.3;
-constexpr std::size_t kSpotsLookedAt = 200;
-/// The share of all spots that must have room.
+/// The share of the ground plan that must be floor with room for a person.
 constexpr double kEnoughRoom = 0.05;
 
 Vector3d sizeOf(const RawScene& raw) {
@@ -51,33 +47,19 @@ double shareFacingUp(const RawScene& raw, int axis) {
   return all > 0.0 ? up / all : 0.5;
 }
 
-bool hasRoom(const Level& level, const Vector3d& spot) {
-  constexpr double kOffTheFloor = 0.02;
-  if (level.cast(spot + Vector3d(0, kOffTheFloor, 0), spot + Vector3d(0, kHeadroom, 0))) {
-    return false;
-  }
-  const Vector3d chest = spot + Vector3d(0, 1.0, 0);
-  const std::array<Vector3d, 4> sides = {Vector3d(kElbowRoom, 0, 0), Vector3d(-kElbowRoom, 0, 0),
-                                         Vector3d(0, 0, kElbowRoom), Vector3d(0, 0, -kElbowRoom)};
-  return std::none_of(sides.begin(), sides.end(), [&](const Vector3d& side) {
-    return level.cast(chest, chest + side).has_value();
-  });
-}
-
-/// The share of a level's floors on which a person finds room, in this unit.
-double roomIn(const RawScene& raw, double unit) {
+/// Whether there is floor on which a person finds room, in this unit.
+bool hasRoom(const RawScene& raw, double unit) {
   RawScene scaled = raw;
   for (Triangle& triangle : scaled.triangles) {
     for (Vector3d& vertex : triangle.vertices) vertex *= unit;
   }
   const auto level = Level::build(std::move(scaled));
-  if (!level.ok()) return 0.0;
-  const std::vector<FloorSpot> spots = level.value().floorSpots(kSpotsLookedAt, kSteepestFloor);
-  if (spots.empty()) return 0.0;
-  const auto fits = std::count_if(spots.begin(), spots.end(), [&](const FloorSpot& spot) {
-    return hasRoom(level.value(), spot.p_W);
-  });
-  return static_cast<double>(fits) / static_cast<double>(spots.size());
+  if (!level.ok()) return false;
+  const SceneAudit& audit = level.value().scene().audit();
+  const Vector3d size = audit.boxMax - audit.boxMin;
+  const auto floor =
+      WalkableFloor::build(level.value(), BodyRoom{}, 0.5 * (audit.boxMin + audit.boxMax), nullptr);
+  return floor.ok() && floor.value().area() > kEnoughRoom * size.x() * size.z();
 }
 
 std::string sizeText(const Vector3d& size) {
@@ -117,7 +99,7 @@ Offer<double> sceneUnitOf(const RawScene& raw) {
   }
   for (const double unit : {0.001, 0.01}) {
     if (size.y() * unit < kLowestLevel || size.maxCoeff() * unit < kSmallestLevel) continue;
-    if (roomIn(raw, unit) < kEnoughRoom) continue;
+    if (!hasRoom(raw, unit)) continue;
     return {unit, false,
             fmt::format("in {} {}, with room for a person",
                         unit == 0.001 ? "millimetres" : "centimetres", inMetres(unit))};

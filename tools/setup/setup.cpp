@@ -9,15 +9,12 @@
 #include "articulated/quoted.h"
 #include "articulated/try.h"
 #include "assets/import/scene_import.h"
-#include "tools/settings/frame_settings.h"
 #include "tools/setup/body_offer.h"
+#include "tools/setup/frame_checks.h"
 #include "tools/setup/scene_offer.h"
 
 namespace foretouch::tools {
 namespace {
-
-/// Among how many poses of a clip to look for room.
-constexpr std::size_t kPosesLookedAt = 24;
 
 template <typename Value>
 Finding<Value> saidByUser(Value value) {
@@ -59,7 +56,7 @@ Result<ImportedScene> importWith(const SetupRequest& request, std::optional<doub
 }
 
 /// Axis first: the unit of a level shows in its height.
-Result<RawScene> readScene(const SetupRequest& request, Setup& setup) {
+Result<ImportedScene> readScene(const SetupRequest& request, Setup& setup) {
   FORETOUCH_TRY(auto imported, importWith(request, request.sceneScale, request.sceneUp));
   const DeclaredFrame& declared = imported.frame.declared;
   if (request.sceneUp) {
@@ -87,7 +84,7 @@ Result<RawScene> readScene(const SetupRequest& request, Setup& setup) {
     setup.notes.push_back(request.scene + ": " + note);
   }
   noteObjects(request, imported.scene, setup.notes);
-  return std::move(imported.scene);
+  return imported;
 }
 
 /// A file's own word counts, unless the body's size contradicts it: exporters forget to convert.
@@ -128,25 +125,24 @@ Result<Done> readBodyTwice(const SetupRequest& request, const std::string& meshF
   return Done{};
 }
 
+/// What setup only guessed is a doubt, even if what it makes of the file looks right.
 template <typename Value>
-PlacementCheck checkOf(const char* name, const Finding<Value>& finding, const std::string& value) {
-  return {name, finding.offer.isSure ? CheckState::Good : CheckState::Doubt,
-          value + ": " + finding.offer.reason, ""};
+void doubtGuess(const Finding<Value>& finding, PlacementCheck& check) {
+  if (finding.offer.isSure || finding.isSaidByFile || finding.isSaidByUser) return;
+  check.state = CheckState::Doubt;
 }
 
-std::string axisInWords(UpAxis up) {
-  return std::string(wordOf(up)) + " is up";
-}
-
-void addOffers(Setup& setup) {
-  setup.checks.push_back(
-      checkOf("scene's unit", setup.sceneScale, unitInWords(setup.sceneScale.offer.value)));
-  setup.checks.push_back(
-      checkOf("scene's axis", setup.sceneUp, axisInWords(setup.sceneUp.offer.value)));
-  setup.checks.push_back(
-      checkOf("body's unit", setup.bodyScale, unitInWords(setup.bodyScale.offer.value)));
-  setup.checks.push_back(
-      checkOf("body's axis", setup.bodyUp, axisInWords(setup.bodyUp.offer.value)));
+/// Unit and axis, by the sentences of `foretouch view`.
+void addFrameChecks(const RawScene& raw, const FileFrame& frame, Setup& setup) {
+  setup.checks = sceneFrameChecks(raw, frame);
+  const BodySource& body = setup.body;
+  for (PlacementCheck& check : clipFrameChecks(body.clipOrRest(), body.frame, body.isUpright)) {
+    setup.checks.push_back(std::move(check));
+  }
+  doubtGuess(setup.sceneScale, setup.checks[0]);
+  doubtGuess(setup.sceneUp, setup.checks[1]);
+  doubtGuess(setup.bodyScale, setup.checks[2]);
+  doubtGuess(setup.bodyUp, setup.checks[3]);
 }
 
 void noteStillness(Setup& setup) {
@@ -165,26 +161,25 @@ void noteStillness(Setup& setup) {
                         ": never moves, so nothing can happen between its poses");
 }
 
-/// The user's place is judged and kept; without one, the best is taken.
+/// The user's place is judged and kept; without one, the best is taken; without a floor, the
+/// origin.
 Result<Done> findPlace(RawScene raw, Setup& setup) {
-  FORETOUCH_TRY(const auto level, inFile(Level::build(std::move(raw)), setup.request.scene));
-  FORETOUCH_TRY(const auto body, walkingBody(setup.body, setup.request.body, kPosesLookedAt));
-  FORETOUCH_TRY(const auto walker, Walker::build(body, level));
-  const Placement wish = setup.request.place.value_or(Placement());
-  const Standing asked = standingAt(walker, wish);
-  const auto best = setup.request.place && !isWrong(asked) ? asked : bestStanding(walker, wish);
-  const bool takesBest = best && !setup.request.place;
-  const Standing& standing = takesBest ? *best : asked;
+  const SetupRequest& request = setup.request;
+  FORETOUCH_TRY(const auto level, inFile(Level::build(std::move(raw)), request.scene));
+  FORETOUCH_TRY(const auto body, walkingBody(setup.body, request.body));
+  const Placement wish = request.place.value_or(Placement());
+  FORETOUCH_TRY(const auto walker, Walker::build(body, level, wish.origin, request.on));
+  Standing standing = standingAt(walker, request.place ? wish : originPlace(walker));
+  std::optional<Standing> best;
+  if (!request.place || isWrong(standing)) best = bestStanding(walker, wish);
+  if (best && !request.place) {
+    standing = *best;
+    best.reset();
+  }
   setup.place = standing.place;
   setup.isPlaceFound = standing.standsFree();
-  for (PlacementCheck& check : checksOf(walker, standing, best && !takesBest ? &*best : nullptr)) {
+  for (PlacementCheck& check : checksOf(walker, standing, best ? &*best : nullptr)) {
     setup.checks.push_back(std::move(check));
-  }
-  if (!best) {
-    setup.notes.push_back(setup.request.scene +
-                          (level.floorArea(kSteepestFloor) > 0.0
-                               ? ": has no floor with room for this body; is a unit wrong?"
-                               : ": has no floor: nothing in it is level; is its axis right?"));
   }
   return Done{};
 }
@@ -198,12 +193,12 @@ bool Setup::isUsable() const {
 Result<Setup> findSetup(const SetupRequest& request, const std::string& meshFile) {
   Setup setup;
   setup.request = request;
-  FORETOUCH_TRY(auto raw, readScene(request, setup));
+  FORETOUCH_TRY(auto imported, readScene(request, setup));
   FORETOUCH_CHECK(readBodyTwice(request, meshFile, setup));
   setup.notes.insert(setup.notes.end(), setup.body.notes.begin(), setup.body.notes.end());
-  addOffers(setup);
+  addFrameChecks(imported.scene, imported.frame, setup);
   noteStillness(setup);
-  FORETOUCH_CHECK(findPlace(std::move(raw), setup));
+  FORETOUCH_CHECK(findPlace(std::move(imported.scene), setup));
   return setup;
 }
 

@@ -23,6 +23,7 @@ struct SetupRequest {
   std::optional<double> sceneScale;
   std::optional<UpAxis> sceneUp;
   std::optional<Placement> place;
+  std::string on;  ///< Objects on which the body is wanted, as a name pattern; empty: the floor.
 };
 
 /// One answer, and whether it needs an option: a file that says its unit itself is read so.

@@ -34,6 +34,7 @@ struct AskedSetup {
   WorldRequest world;
   ClipRequest clip;
   std::string output = kProjectName;
+  std::string on;
   bool yes = false, json = false;
   bool givesPlace = false;
 };
@@ -45,6 +46,7 @@ SetupRequest requestOf(const AskedSetup& asked) {
   request.sceneUp = asked.world.sceneImport.up;
   request.body = {asked.clip.motionPath, asked.clip.avatarPath,  asked.clip.animation,
                   asked.clip.mapPath,    asked.clip.motionScale, asked.clip.motionUp};
+  request.on = asked.on;
   if (asked.givesPlace) {
     request.place = asked.clip.placement;
     request.place->motionUpZ = false;
@@ -278,6 +280,11 @@ Command setupCommand() {
             "given")
       .in(kInputGroup);
   addClipSettings(settings, asked->clip);
+  settings
+      .text("--on", "OBJECT", asked->on,
+            "Stand on this object, a roof or a table; `*` at an end stands for anything. Else on "
+            "the floor that most of the scene is reached from")
+      .in(kUnitsGroup);
   settings.path("-o,--output", "FILE", asked->output, "Project file to write").in(kOutputGroup);
   settings.flag("--yes", asked->yes, "Write what is offered, without asking").in(kOutputGroup);
   settings.asJson(asked->json);

@@ -14,36 +14,41 @@ namespace foretouch::tools {
 
 /// Feet may be this far above the floor (m) and still stand.
 inline constexpr double kStandsWithin = 0.02;
-/// Surfaces up to this slope (radians, 35 degrees) are floor.
-inline constexpr double kSteepestFloor = 0.61;
 
-/// A placement, judged by the engine: nothing in it is guessed from boxes.
+/// A placement, judged by the engine and by where one could walk.
 struct Standing {
   Placement place;
-  std::vector<Inside> inside;  ///< At the first pose.
+  std::vector<Inside> insideAtFirst;  ///< At the clip's first pose.
+  // At the pose that says at which height the clip stands:
+  std::vector<Inside> inside;
   std::optional<double>
       floorBelow;  ///< From the lowest point of the body down, metres; none: void.
-  std::optional<double> floorAbove;  ///< A floor that the first pose is sunk below: how far.
-  bool isOutside = false;            ///< The body is outside of the box around the scene.
-  /// Of the surfaces that the chest sees along the axes, the share that shows its back.
-  double backs = 0.0;
-  std::size_t seen = 0;  ///< How many surfaces these are.
+  std::optional<double> floorAbove;  ///< A floor that it is sunk below: how far.
+  FloorKind floor = FloorKind::None;
+  bool isOnAsked = false;
+  bool isOutside = false;  ///< The body is outside of the box around the scene.
   // Of all poses looked at:
   std::size_t poses = 0, trunkInside = 0, limbsInside = 0, overVoid = 0;
-  /// How much higher the lowest point of the body is in the usual pose than in the first (m): a
-  /// clip that starts in a T-pose, or in the air.
-  double usualRise = 0.0;
+  std::size_t offFloor = 0;  ///< Neither the main floor nor an asked object is below it.
+  /// How much higher the lowest point of the body is in the first pose than where it stands (m).
+  double firstRise = 0.0;
 
   [[nodiscard]] bool standsFree() const {
     return inside.empty() && floorBelow && *floorBelow <= kStandsWithin;
   }
+  /// On the main floor, or on what was asked.
+  [[nodiscard]] bool isOnFloor() const { return floor == FloorKind::Main || isOnAsked; }
 };
 
 [[nodiscard]] Standing standingAt(const Walker& walker, const Placement& place);
 
-/// The place that suits the body best: free, on a floor, with room for its whole clip, on the front
-/// side of the level's surfaces, and near `wish` (a placement's origin; its yaw is tried first).
-/// The same for the same files. Nothing if nobody fits anywhere. Some seconds at most.
+/// The place that suits the body best: free, on the level's main floor (or on what was asked), with
+/// room for its whole clip, away from edges, and near `wish` (a placement's origin; its yaw is
+/// tried first). A wish that is right is kept. The same for the same files. Nothing if nobody fits
+/// anywhere. Some seconds at most.
 [[nodiscard]] std::optional<Standing> bestStanding(const Walker& walker, const Placement& wish);
+
+/// Where nothing can be stood on: the clip's own ground at the height 0, its origin at the scene's.
+[[nodiscard]] Placement originPlace(const Walker& walker);
 
 }  // namespace foretouch::tools

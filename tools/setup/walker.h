@@ -2,8 +2,10 @@
 // metres, +Y up.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,7 +15,8 @@
 #include "articulated/skeleton.h"
 #include "assets/avatar/joint_match.h"
 #include "middleware/query/query.h"
-#include "tools/setup/level.h"
+#include "tools/inputs/clip_pose.h"
+#include "tools/setup/walkable_floor.h"
 
 namespace foretouch::tools {
 
@@ -36,13 +39,31 @@ struct Rest {
   TriangleId triangle = -1;
 };
 
+/// The body at frames of a clip that are spread over it, some of them if they are many; the same
+/// for all who ask. `clip`: with the placement that makes it Y-up, no other.
+[[nodiscard]] Result<WalkingBody> walkingBody(const PlacedClip& clip);
+
+/// Which of a body's poses says at which height it stands: one of its lowest, but for the few that
+/// dip lower. A clip may begin in a T-pose, or in the air.
+[[nodiscard]] std::size_t standingPose(const WalkingBody& body);
+
 class Walker {
  public:
-  /// Both outlive the walker. Errors: as Query::build().
-  [[nodiscard]] static Result<Walker> build(const WalkingBody& body, const Level& level);
+  /// Both outlive the walker. `around`: where to look for floor in a level too large to be looked
+  /// at as a whole. `on`: a name pattern of the objects on which it is wanted; empty: on the floor.
+  /// Errors: as Query::build(); no object has such a name.
+  [[nodiscard]] static Result<Walker> build(const WalkingBody& body, const Level& level,
+                                            const Eigen::Vector3d& around = Eigen::Vector3d::Zero(),
+                                            const std::string& on = "");
 
   [[nodiscard]] const WalkingBody& body() const { return *body_; }
   [[nodiscard]] const Level& level() const { return *level_; }
+  /// Index of the pose that says at which height it stands.
+  [[nodiscard]] std::size_t standing() const { return standing_; }
+  /// Where a body of this height could walk; nullptr if that took too much: `floorDoubt` says what.
+  [[nodiscard]] const WalkableFloor* floor() const { return floor_ ? &*floor_ : nullptr; }
+  [[nodiscard]] const std::string& floorDoubt() const { return floorDoubt_; }
+  [[nodiscard]] const std::string& on() const { return on_; }
 
   [[nodiscard]] Pose poseAt(std::size_t index, const Placement& place) const;
   /// All links that start inside a surface.
@@ -56,8 +77,13 @@ class Walker {
  private:
   Walker(const WalkingBody& body, const Level& level, Query query);
 
+  [[nodiscard]] Result<Done> findFloor(const Eigen::Vector3d& around);
+
   const WalkingBody* body_;
   const Level* level_;
+  std::size_t standing_;
+  std::string on_, floorDoubt_;
+  std::optional<WalkableFloor> floor_;
   Query query_;
   std::vector<LinkId> trunk_, feet_;
   std::unique_ptr<Scratch> scratch_;

@@ -28,31 +28,15 @@ PlacementCheck checkNamed(const std::vector<PlacementCheck>& checks, const std::
   return {};
 }
 
-TEST(Level, CastsMeetTheFirstSurfaceAndItsSide) {
+TEST(Level, CastsMeetTheFirstSurface) {
   const Level level = levelOf(room());
   const auto down = level.cast({0, 1, 0}, {0, -9, 0});
   ASSERT_TRUE(down);
-  EXPECT_NEAR(down->distance, 1.0, 2e-3);
-  EXPECT_TRUE(down->isFront);
+  EXPECT_NEAR(*down, 1.0, 2e-3);
   const auto fromOutside = level.cast({0, 9, 0}, {0, -9, 0});
   ASSERT_TRUE(fromOutside);
-  EXPECT_NEAR(fromOutside->distance, 6.0, 2e-3);
-  EXPECT_FALSE(fromOutside->isFront) << "the ceiling's back";
+  EXPECT_NEAR(*fromOutside, 6.0, 2e-3);
   EXPECT_FALSE(level.cast({0, 9, 0}, {0, 4, 0}));
-}
-
-TEST(Level, FloorSpotsLieOnLevelSurfacesAlone) {
-  RawScene raw = room();
-  addRectangle(raw, {-4, 0, 3}, {8, 0, 0}, {0, 4, 1}, "ramp");  // 76 degrees: no floor
-  const Level level = levelOf(std::move(raw));
-  const auto spots = level.floorSpots(300, kSteepestFloor);
-  ASSERT_GT(spots.size(), 290u);
-  std::size_t up = 0;
-  for (const FloorSpot& spot : spots) {
-    EXPECT_TRUE(spot.p_W.y() == 0.0 || spot.p_W.y() == 3.0) << spot.p_W.transpose();
-    up += spot.facesUp ? 1 : 0;
-  }
-  EXPECT_NEAR(static_cast<double>(up), 150.0, 3.0) << "floor and ceiling are of one size";
 }
 
 TEST(Standing, OnTheFloorIsFree) {
@@ -64,7 +48,7 @@ TEST(Standing, OnTheFloorIsFree) {
   EXPECT_TRUE(standing.standsFree());
   EXPECT_NEAR(*standing.floorBelow, 0.005, 2e-3);
   EXPECT_FALSE(isWrong(standing));
-  EXPECT_EQ(standing.backs, 0.0);
+  EXPECT_EQ(standing.floor, FloorKind::Main);
   EXPECT_TRUE(areUsable(checksOf(walker.value(), standing, nullptr)));
 }
 
@@ -81,16 +65,17 @@ TEST(Standing, InTheVoidBesideTheRoomIsSaid) {
   EXPECT_EQ(checkNamed(checks, "level").state, CheckState::Bad);
 }
 
-TEST(Standing, OnTopOfACeilingIsBehindTheLevel) {
+TEST(Standing, OnTopOfACeilingIsARoof) {
   const Level level = levelOf(room());
   const auto body = walking({{0, 3.005, 0}});
   const auto walker = Walker::build(body, level);
   ASSERT_TRUE(walker.ok());
   const Standing standing = standingAt(walker.value(), Placement());
   EXPECT_TRUE(standing.standsFree());
-  EXPECT_EQ(standing.backs, 1.0);
+  EXPECT_EQ(standing.floor, FloorKind::Over);
   EXPECT_EQ(checkNamed(checksOf(walker.value(), standing, nullptr), "level").state,
-            CheckState::Bad);
+            CheckState::Doubt);
+  EXPECT_TRUE(isWrong(standing)) << "so a better place is looked for";
 }
 
 TEST(Standing, HalfInAWallNamesTrunkAndObject) {
@@ -132,16 +117,28 @@ TEST(Standing, ABodyThatFloatsIsSaid) {
             CheckState::Bad);
 }
 
-TEST(Standing, AClipThatBeginsInATPoseIsSaid) {
+TEST(Standing, ATPoseAtTheBeginDoesNotSayTheHeight) {
   const Level level = levelOf(room());
-  const auto body = walking({{0, 0.005, 0}, {0, 0.1, 0}, {0, 0.1, 0}, {0, 0.1, 0}});
+  // 9 cm lower than the clip, as T-poses with pointed feet are.
+  const auto body = walking({{0, -0.09, 0}, {0, 0, 0}, {0, 0.001, 0}, {0, 0.1, 0}, {0, 0.002, 0}});
   const auto walker = Walker::build(body, level);
   ASSERT_TRUE(walker.ok());
-  const Standing standing = standingAt(walker.value(), Placement());
-  EXPECT_NEAR(standing.usualRise, 0.095, 1e-9);
-  const PlacementCheck path = checkNamed(checksOf(walker.value(), standing, nullptr), "path");
-  EXPECT_EQ(path.state, CheckState::Doubt);
-  EXPECT_EQ(path.tryThis, "--place 0,-0.095,0,0");
+  EXPECT_EQ(standingPose(body), 1u);
+  const auto best = bestStanding(walker.value(), Placement());
+  ASSERT_TRUE(best);
+  EXPECT_NEAR(best->place.origin.y(), 0.003, 0.0015);
+  EXPECT_NEAR(best->firstRise, -0.09, 1e-9);
+  const PlacementCheck start = checkNamed(checksOf(walker.value(), *best, nullptr), "start");
+  EXPECT_EQ(start.state, CheckState::Doubt);
+  EXPECT_NE(start.text.find("T-pose"), std::string::npos) << start.text;
+  EXPECT_NE(start.text.find("inside"), std::string::npos) << "told as what it is";
+}
+
+TEST(Standing, AFewToesInTheFloorDoNotLiftTheClip) {
+  std::vector<Eigen::Vector3d> moves(40, {0, 0, 0});
+  moves[7].y() = moves[20].y() = -0.03;
+  EXPECT_EQ(walking(moves).poses[standingPose(walking(moves))].translations[0].y(),
+            walking({{0, 0, 0}}).poses[0].translations[0].y());
 }
 
 TEST(BestStanding, IsOnTheFloorFreeOfFurniture) {
@@ -182,6 +179,11 @@ TEST(BestStanding, IsNowhereWithoutAFloorOrWithoutRoom) {
   const auto beside = Walker::build(body, upright);
   ASSERT_TRUE(beside.ok());
   EXPECT_FALSE(bestStanding(beside.value(), Placement()));
+  const Placement origin = originPlace(beside.value());
+  EXPECT_NEAR(origin.origin.y(), 0.0, 1.1e-3) << "its own ground, at the scene's height 0";
+  const auto checks = checksOf(beside.value(), standingAt(beside.value(), origin), nullptr);
+  EXPECT_EQ(checkNamed(checks, "level").state, CheckState::Doubt);
+  EXPECT_NE(checkNamed(checks, "level").text.find("no floor"), std::string::npos);
 }
 
 TEST(BestStanding, IsTheSameEveryTime) {
