@@ -115,13 +115,10 @@ PlacementCheck onMainFloor(const Walker& walker) {
             "it stands on surfaces that show it their backs: turned over, or the outside of a room",
             ""};
   }
-  if (floor.isOnTop() || floor.hangs()) {
-    return {
-        "level", CheckState::Doubt,
-        floor.hangs()
-            ? "what it stands on hangs high above the scene's lowest point: is it a roof?"
-            : "nothing of the scene is above what it stands on, and much is below: is it a roof?",
-        "--place " + textOf(originPlace(walker))};
+  if (floor.isOnTop()) {
+    return {"level", CheckState::Doubt,
+            "nothing of the scene is above what it stands on, and much is below: is it a roof?",
+            "--place " + textOf(originPlace(walker))};
   }
   if (floor.isSmall()) {
     return {"level", CheckState::Doubt,
