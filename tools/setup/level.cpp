@@ -55,14 +55,14 @@ Vector3d Level::normal(TriangleId triangle) const {
   return size > 0.0 ? Vector3d(area / size) : Vector3d::Zero();
 }
 
-std::optional<double> Level::cast(const Vector3d& from, const Vector3d& to) const {
+std::optional<LevelHit> Level::cast(const Vector3d& from, const Vector3d& to) const {
   const ChainMotion motion(point_.skeleton(), poseOfPoint(point_, from), poseOfPoint(point_, to));
   const StepContacts step = query_.answer(motion, *scratch_);
   const LinkContact& contact = step.links.front();
   if (contact.verdict != Verdict::Contact && contact.verdict != Verdict::StartsInContact) {
     return std::nullopt;
   }
-  return contact.toi * (to - from).norm();
+  return LevelHit{contact.toi * (to - from).norm(), contact.triangle};
 }
 
 }  // namespace foretouch::tools

@@ -14,6 +14,12 @@
 
 namespace foretouch::tools {
 
+/// What a point meets on a line.
+struct LevelHit {
+  double distance = 0.0;
+  TriangleId triangle = -1;
+};
+
 class Level {
  public:
   /// Errors: as Scene::build().
@@ -23,9 +29,9 @@ class Level {
   /// Unit, of the front; zero without an area.
   [[nodiscard]] Eigen::Vector3d normal(TriangleId triangle) const;
 
-  /// How far a point goes before it meets something. Straight up, down or sideways it is fast.
-  [[nodiscard]] std::optional<double> cast(const Eigen::Vector3d& from,
-                                           const Eigen::Vector3d& to) const;
+  /// What a point meets first on its way. Straight up, down or sideways it is fast.
+  [[nodiscard]] std::optional<LevelHit> cast(const Eigen::Vector3d& from,
+                                             const Eigen::Vector3d& to) const;
 
  private:
   Level(Scene scene, std::vector<Eigen::Vector3d> areas, Avatar point, Query query);

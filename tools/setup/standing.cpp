@@ -85,7 +85,7 @@ void findFloor(const Walker& walker, const Pose& pose, const Eigen::AlignedBox3d
   const Vector3d middle = box.center();
   const auto hit = walker.level().cast(middle, middle - Vector3d(0, reach, 0));
   if (!hit) return;
-  const double gap = *hit - 0.5 * box.sizes().y();
+  const double gap = hit->distance - 0.5 * box.sizes().y();
   (gap >= 0.0 ? standing.floorBelow : standing.floorAbove) = std::abs(gap);
 }
 

@@ -32,10 +32,10 @@ TEST(Level, CastsMeetTheFirstSurface) {
   const Level level = levelOf(room());
   const auto down = level.cast({0, 1, 0}, {0, -9, 0});
   ASSERT_TRUE(down);
-  EXPECT_NEAR(*down, 1.0, 2e-3);
+  EXPECT_NEAR(down->distance, 1.0, 2e-3);
   const auto fromOutside = level.cast({0, 9, 0}, {0, -9, 0});
   ASSERT_TRUE(fromOutside);
-  EXPECT_NEAR(*fromOutside, 6.0, 2e-3);
+  EXPECT_NEAR(fromOutside->distance, 6.0, 2e-3);
   EXPECT_FALSE(level.cast({0, 9, 0}, {0, 4, 0}));
 }
 
