@@ -65,7 +65,7 @@ std::vector<std::vector<std::string>> rowsOf(const std::string& path) {
   return rows;
 }
 
-std::size_t linesOf(const std::string& path) {
+std::size_t countLines(const std::string& path) {
   const std::string text = contentOf(path);
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
@@ -86,14 +86,14 @@ TEST(FeetProgram, WritesStancesLabelsAndAPlot) {
     const double truth = rows[i][0] == "LeftFoot" ? 20.0 : 0.0;
     EXPECT_NEAR(std::stod(rows[i][10]), truth, 1.0) << rows[i][0] << " " << rows[i][1];
   }
-  EXPECT_EQ(linesOf(folder / "l.csv"), 1u + 161u * 6u);
+  EXPECT_EQ(countLines(folder / "l.csv"), 1u + 161u * 6u);
   EXPECT_NE(contentOf(folder / "feet.html").find("<polyline class=\"trace\""), std::string::npos);
   for (const char* const name : {"l.jsonl", "l.npz"}) {
     const Ended again = files.feet({"--labels", folder / name, "--from", "10f", "--to", "0.5"});
     ASSERT_EQ(again.exitCode, 0) << again.err;
     EXPECT_NE(again.out.find("frames 10 to 50"), std::string::npos) << again.out;
   }
-  EXPECT_EQ(linesOf(folder / "l.jsonl"), 1u + 41u);
+  EXPECT_EQ(countLines(folder / "l.jsonl"), 1u + 41u);
   EXPECT_EQ(contentOf(folder / "l.npz").substr(0, 2), "PK");
 }
 
