@@ -11,6 +11,15 @@
 
 namespace foretouch::tools {
 
+bool isSameFile(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  std::error_code absent;
+  const auto whole = [&](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(path, absent), absent);
+  };
+  return fs::equivalent(a, b, absent) || whole(a) == whole(b);
+}
+
 Result<Done> checkIsNoInput(const std::string& output, const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs) {
     std::error_code missing;
@@ -37,11 +46,7 @@ Result<Done> checkOutputs(const std::string& output, const std::string& report,
                           const std::vector<std::string>& inputs) {
   const auto checked = checkOutput(output, inputs);
   if (!checked.ok() || report.empty()) return checked;
-  namespace fs = std::filesystem;
-  std::error_code absent;
-  const bool areOne = fs::equivalent(output, report, absent) ||
-                      fs::weakly_canonical(output, absent) == fs::weakly_canonical(report, absent);
-  if (areOne) {
+  if (isSameFile(output, report)) {
     return Error::in(report, ErrorCode::FileUnwritable,
                      "is to hold the results as well; expected another file for the report");
   }

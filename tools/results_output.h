@@ -8,6 +8,9 @@
 
 namespace foretouch::tools {
 
+/// Whether two paths name one file, which need not be there yet.
+[[nodiscard]] bool isSameFile(const std::string& a, const std::string& b);
+
 /// Refuses an output that is one of the inputs. Skips empty paths.
 [[nodiscard]] Result<Done> checkIsNoInput(const std::string& output,
                                           const std::vector<std::string>& inputs);

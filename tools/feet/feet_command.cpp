@@ -1,5 +1,7 @@
 #include "tools/feet/feet_command.h"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -31,11 +33,16 @@ struct FeetJob {
 Result<Done> check(const FeetJob& job) {
   const FeetRequest& request = job.request;
   if (!job.labels.empty()) FORETOUCH_CHECK(labelFormatOf(job.labels));
-  std::vector<std::string> taken{request.scenePath, request.avatarPath, request.motionPath,
-                                 request.robotPath, request.mapPath};
+  std::vector<std::string> taken;
   for (const std::string& output : {job.output, job.labels, job.plot}) {
     if (output.empty()) continue;
-    FORETOUCH_CHECK(checkOutput(output, taken));
+    FORETOUCH_CHECK(checkOutput(output, {request.scenePath, request.avatarPath, request.motionPath,
+                                         request.robotPath, request.mapPath}));
+    for (const std::string& other : taken) {
+      if (!isSameFile(output, other)) continue;
+      return Error::in(output, ErrorCode::FileUnwritable,
+                       "is to hold another output as well; expected a file for each");
+    }
     taken.push_back(output);
   }
   return Done{};
@@ -71,6 +78,11 @@ std::string placesOf(const FeetJob& job) {
   return text.empty() ? text : "\n" + text;
 }
 
+bool hasGround(const FeetAnswer& answer) {
+  return std::any_of(answer.samples.begin(), answer.samples.end(),
+                     [](const PartSample& sample) { return !std::isnan(sample.height); });
+}
+
 Result<Done> runFeet(const FeetJob& job) {
   FORETOUCH_CHECK(check(job));
   FORETOUCH_TRY(const auto inputs, loadFeetInputs(job.request));
@@ -84,6 +96,11 @@ Result<Done> runFeet(const FeetJob& job) {
                     return !guard.requested();
                   }));
     if (guard.requested()) return Done{};
+    if (!hasGround(answer)) {
+      printNote(
+          "there is no ground below the feet at any pose; --place X,Y,Z,YAW puts the body "
+          "elsewhere");
+    }
     FORETOUCH_CHECK(writeAll(job, inputs, answer));
     text = job.asJson ? feetJson(inputs, answer) : feetText(inputs, answer) + placesOf(job);
   }

@@ -105,7 +105,7 @@ class RaisedFoot {
       const bool touched = touches;
       touches = height <= (touched ? 2.0 * tolerance : tolerance);
       at.touches += touches && !touched ? 1 : 0;
-      at.touchS += touches ? inputs_.stepS() : 0.0;
+      at.touchS += touches && step < inputs_.steps() ? inputs_.stepS() : 0.0;
     }
   }
 

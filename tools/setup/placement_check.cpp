@@ -194,6 +194,12 @@ PlacementCheck pathCheck(Standing standing, bool knowsFloor) {
       ""};
 }
 
+/// Nobody would move a body by less.
+bool isSamePlace(const Placement& a, const Placement& b) {
+  constexpr double kWorthAMove = 5e-3;  // metres
+  return (a.origin - b.origin).norm() < kWorthAMove && a.yawDeg == b.yawDeg;
+}
+
 }  // namespace
 
 const char* toString(CheckState state) {
@@ -227,7 +233,7 @@ std::vector<PlacementCheck> checksOf(const Walker& walker, const Standing& stand
   std::vector<PlacementCheck> checks = {
       startCheck(walker, standing), floorCheck(standing, knowsFloor), levelCheck(walker, standing),
       pathCheck(standing, knowsFloor)};
-  if (better == nullptr) return checks;
+  if (better == nullptr || isSamePlace(better->place, standing.place)) return checks;
   // Once: all of them are about the same place.
   const auto first = std::find_if(checks.begin(), checks.end(), [](const PlacementCheck& check) {
     return check.state != CheckState::Good;

@@ -96,7 +96,8 @@ std::string besideProject(const std::string& path, const std::string& project) {
 Result<Done> keepOld(const std::string& path, std::vector<std::string>& written) {
   std::error_code failed;
   if (!fs::exists(path, failed)) return Done{};
-  const std::string old = path + "~";
+  std::string old = path + "~";
+  for (int k = 2; fs::exists(old, failed); ++k) old = path + "~" + std::to_string(k);
   fs::rename(path, old, failed);
   if (failed) {
     return Error::in(path, ErrorCode::FileUnwritable,
@@ -116,6 +117,10 @@ Result<Done> writeText(const std::string& path, const std::string& text) {
 Result<std::vector<std::string>> writeFiles(const AskedSetup& asked, const Setup& setup,
                                             const std::string& avatarPath) {
   std::vector<std::string> written;
+  if (isSameFile(asked.output, avatarPath)) {
+    return Error::in(asked.output, ErrorCode::FileUnwritable,
+                     "is the avatar's file as well; expected another one for the project");
+  }
   if (makesAvatar(setup.request.body)) {
     FORETOUCH_CHECK(keepOld(avatarPath, written));
     FORETOUCH_CHECK(setup.body.ofModel ? writeModelAvatar(*setup.body.ofModel, avatarPath)
@@ -139,7 +144,7 @@ Result<std::vector<std::string>> writeFiles(const AskedSetup& asked, const Setup
 std::vector<std::string> nextCommands(const AskedSetup& asked, const Setup& setup) {
   const std::string project = asked.output == kProjectName ? "" : " --project " + asked.output;
   std::vector<std::string> next = {"foretouch view" + project};
-  if (setup.body.clip) {
+  if (setup.body.clip && setup.body.clip->frames.size() > 1) {
     next.push_back("foretouch replay" + project +
                    " --rate 10 --output contacts.jsonl --report contacts.html");
   }

@@ -32,7 +32,7 @@ void writeFrame(const char* name, const std::string& file, const Finding<double>
 
 std::string describe(const Setup& setup) {
   return describe(setup.checks) + fmt::format("  {:<6}{:<14}{}\n", "", "place",
-                                              setup.isPlaceFound
+                                              setup.isPlaceFound || setup.request.place
                                                   ? "--place " + textOf(setup.place)
                                                   : "none found: --place " + textOf(setup.place));
 }

@@ -147,6 +147,8 @@ TEST(FeetProgram, NamesWhatIsWrong) {
             "--from: expected an instant of the clip, which ends at 1.6 s (frame 160)"},
            {{"--from", "-1"}, "--from: expected seconds of the clip, or a frame from 0 as 300f"},
            {{"--output", clip}, "walk.bvh"},
+           {{"--output", files.folder / "new.csv", "--plot", files.folder / "./new.csv"},
+            "is to hold another output as well"},
            {{"--ground", "fit", "--from", "0.66", "--to", "0.7", "--rate", "100"},
             "--ground fit: "},
        }) {

@@ -140,8 +140,9 @@ TEST(SetupProgram, ABodyThatNeverMovesAndASceneWithoutAFloorAreSaid) {
 
 TEST(SetupProgram, StandsOnWhatIsNamedAndViewAgrees) {
   const TempFolder folder;
-  std::string text = "v -5 0 -5\nv -5 0 5\nv 5 0 5\nv 5 0 -5\no floor\nf 1 2 3 4\n";
-  text += "v 1 0.8 -2\nv 1 0.8 2\nv 4 0.8 2\nv 4 0.8 -2\no stage\nf 5 6 7 8\n";
+  // Large enough that no foot of a wide stance hangs over its edge.
+  std::string text = "v -9 0 -9\nv -9 0 9\nv 9 0 9\nv 9 0 -9\no floor\nf 1 2 3 4\n";
+  text += "v -1 0.8 -4\nv -1 0.8 4\nv 7 0.8 4\nv 7 0.8 -4\no stage\nf 5 6 7 8\n";
   folder.write("hall.obj", text);
   const std::string body = kExample + "/dancer.bvh", project = folder / "foretouch.toml";
   const json onFloor = setupIn(folder, folder / "hall.obj", body);
@@ -160,6 +161,19 @@ TEST(SetupProgram, StandsOnWhatIsNamedAndViewAgrees) {
   const Ended wrong = runForetouch({"setup", folder / "hall.obj", body, "--on", "rooof"});
   EXPECT_EQ(wrong.exitCode, 2);
   EXPECT_NE(wrong.err.find("'floor', 'stage'"), std::string::npos) << wrong.err;
+}
+
+TEST(SetupProgram, KeepsEveryFileThatWasThere) {
+  const TempFolder folder;
+  folder.write("hall.obj", "v -5 1 -5\nv -5 1 5\nv 5 1 5\nv 5 1 -5\no floor\nf 1 2 3 4\n");
+  folder.write("dancer.avatar.json", "mine");
+  const std::string clip = kExample + "/dancer.bvh", avatar = folder / "dancer.avatar.json";
+  const Ended refused =
+      runForetouch({"setup", folder / "hall.obj", clip, "--yes", "--output", avatar});
+  EXPECT_EQ(refused.exitCode, 2) << refused.out;
+  EXPECT_EQ(contentOf(avatar), "mine");
+  for (int k = 0; k < 2; ++k) static_cast<void>(setupIn(folder, folder / "hall.obj", clip));
+  EXPECT_EQ(contentOf(folder / "dancer.avatar.json~"), "mine") << "not the one of the first run";
 }
 
 TEST(SetupProgram, ThePageSaysWhereABodyWithoutAClipStands) {
