@@ -254,6 +254,10 @@ Result<std::string> projectText(const Project& project, const std::string& folde
                        const std::string& file) -> Result<Done> {
     text += fmt::format("\n{}\n", title);
     if (file.empty()) return Done{};
+    if (std::any_of(file.begin(), file.end(), [](unsigned char c) { return c < 0x20; })) {
+      return Error::in(file, ErrorCode::OutOfRange,
+                       "expected a name without control characters: a project cannot hold it");
+    }
     FORETOUCH_TRY(const auto mark, markOfFile((std::filesystem::path(folder) / file).string()));
     text += "file = " + tomlText(file) + "\n";
     marks += fmt::format("{} = \"{}\"\n", table, mark);
