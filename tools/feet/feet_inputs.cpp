@@ -29,14 +29,6 @@ constexpr double kLookDown = 3.0;
 /// A plain floor goes on this far beyond the body (m).
 constexpr double kFloorMargin = 20.0;
 
-Vector3d normalOf(const Triangle& triangle) {
-  const auto& [a, b, c] = triangle.vertices;
-  const Vector3d normal = (b - a).cross(c - a);
-  const double length = normal.norm();
-  if (!(length > 0.0)) return Vector3d::Zero();
-  return normal.y() < 0.0 ? Vector3d(-normal / length) : Vector3d(normal / length);
-}
-
 Result<PlayedClip> loadPlayed(const FeetRequest& request) {
   if (!request.avatarPath.empty()) return loadPlayedClip(request);
   if (clipFormatOf(request.motionPath) == ClipFormat::Bvh) return loadClipAlone(request);
@@ -181,7 +173,8 @@ std::optional<GroundSurface> FeetInputs::groundBelow(const Vector3d& p_W) const 
   const auto hit = level.cast(from, to);
   if (!hit) return std::nullopt;
   const Triangle& triangle = level.scene().triangle(hit->triangle);
-  const Vector3d normal = normalOf(triangle);
+  const Vector3d front = level.normal(hit->triangle);
+  const Vector3d normal = front.y() < 0.0 ? Vector3d(-front) : front;
   if (normal.y() < kWalkableUp) return std::nullopt;
   // The cast ends within its tolerance: the triangle's plane says where it is.
   const double down = normal.dot(from - triangle.vertices[0]) / normal.y();

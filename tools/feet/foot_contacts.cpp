@@ -53,11 +53,8 @@ class Collector {
 
 /// The plane of the triangle that is met, turned towards the part; up, for who stands.
 GroundSurface Collector::surfaceOf(const WorldEvent& event) const {
-  const Triangle& triangle = inputs_.level.scene().triangle(event.b.triangle);
-  const auto& [a, b, c] = triangle.vertices;
-  Vector3d normal = (b - a).cross(c - a);
-  const double length = normal.norm();
-  normal = length > 0.0 ? Vector3d(normal / length) : event.nhat_BA_W;
+  const Vector3d front = inputs_.level.normal(event.b.triangle);
+  const Vector3d normal = front.isZero(0.0) ? event.nhat_BA_W : front;
   const bool isLevel = std::abs(normal.y()) >= kWalkableUp;
   const double side = isLevel ? normal.y() : normal.dot(event.nhat_BA_W);
   return {event.b.p_W, side < 0.0 ? Vector3d(-normal) : normal};
