@@ -15,6 +15,7 @@ namespace internal {
 enum class ScratchKind : std::uint8_t {
   Query,
   Near,
+  Bracket,
   Edge,
   Depth,
   World,

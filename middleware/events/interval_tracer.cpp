@@ -39,6 +39,19 @@ void IntervalTracer::trace(MovingSides& sides, const IntervalTolerance& toleranc
   witness = last_;
 }
 
+IntervalTracer::Search IntervalTracer::search(MovingSides& sides,
+                                              const IntervalTolerance& tolerance, double from,
+                                              SidesPair& witness, EventCounters& counters) {
+  sides_ = &sides;
+  tolerance_ = tolerance;
+  last_ = witness;
+  ++counters.freeLooks;
+  const bool isKnown = !last_.isNone() && sides.at(last_, from).gapUpper <= tolerance.enter;
+  const Search found = isKnown ? Search{Found::Contact, from} : searchContact(from, counters);
+  witness = last_;
+  return found;
+}
+
 void IntervalTracer::leaveUnresolved(double from, std::vector<StepPart>& parts) const {
   const auto reason = sides_->isSpent() ? UndecidedReason::WorkBudget : UndecidedReason::Resolution;
   parts.push_back({PartKind::Unresolved, from, 1.0, true, reason});

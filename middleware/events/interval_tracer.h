@@ -47,16 +47,21 @@ class IntervalTracer {
   void trace(MovingSides& sides, const IntervalTolerance& tolerance, double from, TraceStart start,
              SidesPair& witness, std::vector<StepPart>& parts, EventCounters& counters);
 
- private:
-  void leaveUnresolved(double from, std::vector<StepPart>& parts) const;
-  void traceParts(double from, TraceStart start, std::vector<StepPart>& parts,
-                  EventCounters& counters);
   /// Where a search ends.
   enum class Found : std::uint8_t { Nothing, Contact, Unresolved };
   struct Search {
     Found found = Found::Nothing;
     double t = 1.0;
   };
+  /// From `from` on: the first instant at which a pair is within `enter`. Before it, or to the end,
+  /// all are proven more than `floor` apart. `witness`: the pair.
+  [[nodiscard]] Search search(MovingSides& sides, const IntervalTolerance& tolerance, double from,
+                              SidesPair& witness, EventCounters& counters);
+
+ private:
+  void leaveUnresolved(double from, std::vector<StepPart>& parts) const;
+  void traceParts(double from, TraceStart start, std::vector<StepPart>& parts,
+                  EventCounters& counters);
   /// What holds the two together at an instant.
   struct Hold {
     bool isContact = false;  // they are within what was asked

@@ -6,6 +6,7 @@
 
 #include "lss/assert.h"
 #include "lss/index.h"
+#include "lss/rounding.h"
 #include "middleware/events/swept_tube.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/scene_parts.h"
@@ -49,6 +50,8 @@ void MovingSides::begin(LinkId frame) {
   frame_ = frame;
   asked_ = nullptr;
   scene_ = nullptr;
+  growthSign_ = 0.0;
+  isBackward_ = false;
   states_.t = std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -89,6 +92,7 @@ void MovingSides::setShares(const PairsAsked& asked, std::int32_t first,
 void MovingSides::setScene(const Scene& scene, ObjectId object) {
   scene_ = &scene;
   object_ = object;
+  ignored_ = nullptr;
   other_.link = kNoParent;
 }
 
@@ -101,11 +105,22 @@ const MovingSides::States& MovingSides::statesAt(double t) {
 }
 
 MovingPair MovingSides::at(const SidesPair& pair, double t) {
+  if (!isBackward_) return pairAt(pair, t);
+  MovingPair back = pairAt(pair, 1.0 - t);
+  for (MovingHull* const part : {&back.one, &back.other}) {
+    for (Eigen::Vector3d& velocity : part->velocity) velocity = -velocity;
+    part->radiusRate = -part->radiusRate;
+  }
+  return back;
+}
+
+MovingPair MovingSides::pairAt(const SidesPair& pair, double t) {
   ++looks;
   work += kLookWork;
   const States& now = statesAt(t);
   MovingHull one = one_.hullAt(pair.one, now.one);
   if (scene_ != nullptr) {
+    grow(one, t);
     return movingPair(one, MovingHull::still(scene_->triangle(pair.other.triangle)));
   }
   MovingHull other = other_.hullAt(pair.other, now.other);
@@ -115,15 +130,24 @@ MovingPair MovingSides::at(const SidesPair& pair, double t) {
     one.radius *= share;
     other.radius *= share;
   }
+  grow(one, t);
   return movingPair(one, other);
+}
+
+void MovingSides::grow(MovingHull& one, double t) const {
+  if (growthSign_ == 0.0) return;
+  one.radius += growthSign_ * growth_.at(t) * kInflation;
+  one.radiusRate = growthSign_ * growth_.rateAt(t);
+  one.radiusBend = growthSign_ * growth_.bend();
 }
 
 void MovingSides::collect(double from, double to, double reach, std::vector<SidesPair>& pairs) {
   FORETOUCH_ASSERT(from <= to);
   pairs.clear();
-  const States end = statesAt(to);
-  const States begin = statesAt(from);
-  Collecting in{begin, end, to - from, reach, pairs};
+  const States end = statesAt(isBackward_ ? 1.0 - from : to);
+  const States begin = statesAt(isBackward_ ? 1.0 - to : from);
+  const double grown = growthSign_ > 0.0 ? reach + growth_.most() * kInflation : reach;
+  Collecting in{begin, end, end.t - begin.t, grown, pairs};
   if (scene_ == nullptr) {
     collectLinks(in);
   } else {
@@ -222,6 +246,7 @@ void MovingSides::addTriangles(Collecting& in, const Swept& one) {
   }
   for (const TriangleId id : found_) {
     if (object_ != kNoObject && scene_->object(id) != object_) continue;
+    if (ignored_ != nullptr && ignored_->has(*scene_, id)) continue;
     const Triangle& triangle = scene_->triangle(id);
     if ((tube && !tube->mayMeet(triangle)) || !one.box.overlaps(boxOf(triangle))) continue;
     in.pairs.push_back({pieceOf(one.lss, one.part), {-1, id}});

@@ -9,6 +9,8 @@
 
 #include "articulated/motion.h"
 #include "lss/lss.h"
+#include "middleware/pair/growth.h"
+#include "middleware/pair/ignored_objects.h"
 #include "middleware/pair/pairs_asked.h"
 #include "middleware/pair/side.h"
 #include "middleware/scene/scene.h"
@@ -74,6 +76,17 @@ class MovingSides {
   /// The triangles of the object, instead of another link; of all objects if it is kNoObject.
   void setScene(const Scene& scene, ObjectId object);
 
+  /// Objects of the scene that are passed over; null: none. Until setScene().
+  void ignore(const IgnoredObjects* ignored) { ignored_ = ignored; }
+  /// Adds the growth to the sum of the radii from now on, or takes it off: `sign` is 1 or -1. Until
+  /// begin().
+  void grow(const Growth& growth, double sign) {
+    growth_ = growth;
+    growthSign_ = sign;
+  }
+  /// The motion backwards in time, or forwards again: t is then 1 at its begin. Until begin().
+  void turnBack(bool isBackward) { isBackward_ = isBackward; }
+
   [[nodiscard]] bool isScene() const { return scene_ != nullptr; }
   [[nodiscard]] const Scene& scene() const { return *scene_; }
 
@@ -110,6 +123,8 @@ class MovingSides {
     std::vector<SidesPair>& pairs;
   };
   [[nodiscard]] const States& statesAt(double t);
+  [[nodiscard]] MovingPair pairAt(const SidesPair& pair, double t);
+  void grow(MovingHull& one, double t) const;
   void setSide(LinkSide& side, MotionEvaluator& evaluator, LinkId link, const LinkShape& shape);
   [[nodiscard]] static Swept sweptOf(const LinkSide& side, std::int32_t lss, Part part,
                                      const LinkState& begin, const LinkState& end, double span,
@@ -126,7 +141,11 @@ class MovingSides {
   const PairsAsked* asked_ = nullptr;
   const Scene* scene_ = nullptr;
   ObjectId object_ = kNoObject;
-  States states_;
+  const IgnoredObjects* ignored_ = nullptr;
+  Growth growth_;
+  double growthSign_ = 0.0;
+  bool isBackward_ = false;
+  States states_;  // of the motion as it goes
   std::vector<TriangleId> found_;
 };
 

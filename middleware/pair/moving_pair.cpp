@@ -20,13 +20,16 @@ double worstOf(const MovingHull& part, const std::array<double, 3>& rounding) {
 /// For how long point i of `one` stays `floor` or more above each point of `other`, along `nhat`.
 double stepOfPoint(const MovingHull& one, std::size_t i, const MovingHull& other, double gap,
                    const std::array<double, 3>& spare, const Vector3d& nhat) {
-  const double speed = nhat.dot(one.velocity[i]) - one.velocityRounding[i];
-  if (!other.moves) return safeStep(gap, speed, one.acceleration[i]);
+  const double speed =
+      nhat.dot(one.velocity[i]) - one.velocityRounding[i] - (one.radiusRate + other.radiusRate);
+  const double bend = one.radiusBend + other.radiusBend;
+  if (!other.moves) return safeStep(gap, speed, std::max(0.0, one.acceleration[i] + bend));
   double step = kInfinity;
   for (std::size_t j = 0; j < countOf(other.hull.count); ++j) {
     const double closing = nhat.dot(other.velocity[j]) + other.velocityRounding[j];
-    step = std::min(step, safeStep(gap + spare[j], speed - closing,
-                                   (one.acceleration[i] + other.acceleration[j]) * kInflation));
+    const double acceleration = (one.acceleration[i] + other.acceleration[j]) * kInflation;
+    step = std::min(step,
+                    safeStep(gap + spare[j], speed - closing, std::max(0.0, acceleration + bend)));
   }
   return step;
 }
@@ -52,7 +55,7 @@ MovingPair movingPair(const MovingHull& one, const MovingHull& other) {
   const double radii = one.radius + other.radius;
   const double otherRounding = worstOf(other, other.positionRounding);
   // Of the sums with radii and roundings; the differences of clearances have theirs in the slack.
-  const double sumRounding = 4.0 * kUnitRoundoff * (radii + std::abs(pair.axes.upper));
+  const double sumRounding = 4.0 * kUnitRoundoff * (std::abs(radii) + std::abs(pair.axes.upper));
   for (std::size_t i = 0; i < countOf(one.hull.count); ++i) {
     pair.gap[i] =
         pair.axes.clearance[i] - (one.positionRounding[i] + otherRounding) - radii - sumRounding;

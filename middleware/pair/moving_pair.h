@@ -17,11 +17,13 @@ namespace foretouch::internal {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A part at one instant: the hull of two or three points, grown by `radius`. Metres; derivatives
+/// A part at one instant: the hull of two or three points, grown by `radius`, which is below zero
+/// where a bound on errors is taken off a part (middleware/bracket/bracket.md). Metres; derivatives
 /// per unit of t. Both parts of a pair are in one frame, in which their motion is bounded.
 struct MovingHull {
   Hull hull;
   double radius = 0.0;
+  double radiusRate = 0.0, radiusBend = 0.0;  ///< First and second derivative of the radius.
   bool moves = false;  ///< False: the rest is zero, and of a scene's triangle also exact.
   std::array<Eigen::Vector3d, 3> velocity;
   std::array<double, 3> acceleration{}, positionRounding{}, velocityRounding{};

@@ -1,0 +1,214 @@
+#include "articulated/motion_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "lss/assert.h"
+#include "lss/index.h"
+#include "lss/rounding.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Below this angle (rad) series are exact to rounding.
+constexpr double kSmallTurn = 1e-4;
+/// A piece may turn by so much for strayOf() to hold (motion_model.md 2).
+constexpr double kMostPieceTurn = 0.4;
+/// Of the angles that doubles compute here, and of their sums (motion_model.md 3).
+constexpr double kTurnRounding = 1e-14;
+
+/// Of the shorter arc.
+Vector3d logOf(const Quaternion& q) {
+  const double sign = q.w() < 0.0 ? -1.0 : 1.0;
+  const Vector3d v = sign * q.vec();
+  const double sine = v.norm();
+  if (sine == 0.0) return Vector3d::Zero();
+  return 2.0 * std::atan2(sine, sign * q.w()) / sine * v;
+}
+
+Quaternion expOf(const Vector3d& w) {
+  const double angle = w.norm();
+  const double share =
+      angle < kSmallTurn ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
+  Quaternion q;
+  q.w() = std::cos(0.5 * angle);
+  q.vec() = share * w;
+  return q;
+}
+
+Vector3d turnOf(const Pose& from, const Pose& to, std::size_t joint) {
+  return logOf(from.rotations[joint].conjugate() * to.rotations[joint]);
+}
+
+/// The derivative of the logarithm at w, of a curve that turns by `rate` in its own frame there.
+Vector3d logRate(const Vector3d& w, const Vector3d& rate) {
+  const double square = w.squaredNorm(), angle = std::sqrt(square);
+  const double share =
+      angle < 0.1 ? 1.0 / 12.0 + square / 720.0
+                  : 1.0 / square - (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
+  const Vector3d cross = w.cross(rate);
+  return rate + 0.5 * cross + share * w.cross(cross);
+}
+
+/// Per unit of t, from the changes of the two intervals around a pose.
+Vector3d centralSlope(const Vector3d& before, double secondsBefore, const Vector3d& after,
+                      double secondsAfter, double seconds) {
+  const Vector3d rate =
+      (before * (secondsAfter / secondsBefore) + after * (secondsBefore / secondsAfter)) /
+      (secondsBefore + secondsAfter);
+  return seconds * rate;
+}
+
+/// The slope at an end that does not bend there.
+Vector3d naturalSlope(const Vector3d& change, const Vector3d& otherSlope) {
+  return 1.5 * change - 0.5 * otherSlope;
+}
+
+}  // namespace
+
+const char* toString(MotionModel model) {
+  switch (model) {
+    case MotionModel::ConstantRate: return "constant-rate";
+    case MotionModel::Cubic: return "cubic";
+    case MotionModel::CubicLate: return "cubic-late";
+  }
+  return "constant-rate";
+}
+
+Vector3d ModelMotion::Curve::at(double t) const {
+  const double rest = 1.0 - t;
+  return t * rest * (rest * slope0 - t * slope1) + t * t * (3.0 - 2.0 * t) * change;
+}
+
+/// The second derivative is linear in t.
+double ModelMotion::Curve::bendIn(double begin, double end) const {
+  const auto bendAt = [this](double t) {
+    return ((6.0 * t - 4.0) * slope0 + (6.0 - 12.0 * t) * change + (6.0 * t - 2.0) * slope1).norm();
+  };
+  return std::max(bendAt(begin), bendAt(end));
+}
+
+ModelMotion::JointCurves ModelMotion::curvesOf(const PosedStep& step, MotionModel model,
+                                               std::size_t joint) {
+  const auto shiftOf = [joint](const Pose& from, const Pose& to) -> Vector3d {
+    return to.translations[joint] - from.translations[joint];
+  };
+  JointCurves curves;
+  Curve &turn = curves.turn, &shift = curves.shift;
+  turn.change = turnOf(*step.from, *step.to, joint);
+  shift.change = shiftOf(*step.from, *step.to);
+  const bool hasBefore = step.before != nullptr;
+  const bool hasAfter = step.after != nullptr && model == MotionModel::CubicLate;
+  if (hasBefore) {
+    turn.slope0 = centralSlope(turnOf(*step.before, *step.from, joint), step.secondsBefore,
+                               turn.change, step.seconds, step.seconds);
+    shift.slope0 = centralSlope(shiftOf(*step.before, *step.from), step.secondsBefore, shift.change,
+                                step.seconds, step.seconds);
+  }
+  if (hasAfter) {
+    turn.slope1 = logRate(
+        turn.change, centralSlope(turn.change, step.seconds, turnOf(*step.to, *step.after, joint),
+                                  step.secondsAfter, step.seconds));
+    shift.slope1 = centralSlope(shift.change, step.seconds, shiftOf(*step.to, *step.after),
+                                step.secondsAfter, step.seconds);
+  }
+  for (Curve* const curve : {&turn, &shift}) {
+    if (!hasBefore) {
+      curve->slope0 = hasAfter ? naturalSlope(curve->change, curve->slope1) : curve->change;
+    }
+    if (!hasAfter) curve->slope1 = naturalSlope(curve->change, curve->slope0);
+  }
+  if (!(turn.change.norm() <= kMostTurn)) turn.slope0 = turn.slope1 = turn.change;
+  // The curve lies in the hull of its control points.
+  const double reach =
+      std::max((step.from->translations[joint] + shift.slope0 / 3.0).lpNorm<Eigen::Infinity>(),
+               (step.to->translations[joint] - shift.slope1 / 3.0).lpNorm<Eigen::Infinity>());
+  if (!(reach <= kMaxCoordinate)) shift.slope0 = shift.slope1 = shift.change;
+  return curves;
+}
+
+void ModelMotion::assign(const Skeleton& skeleton, const PosedStep& step, MotionModel model) {
+  FORETOUCH_ASSERT(step.from != nullptr && step.to != nullptr && step.seconds > 0.0);
+  from_ = step.from;
+  to_ = step.to;
+  isConstantRate_ =
+      model == MotionModel::ConstantRate ||
+      (step.before == nullptr && (step.after == nullptr || model != MotionModel::CubicLate));
+  joints_.clear();
+  if (isConstantRate_) return;
+  for (std::size_t joint = 0; joint < countOf(skeleton.numJoints()); ++joint) {
+    joints_.push_back(curvesOf(step, model, joint));
+  }
+}
+
+bool ModelMotion::goOn(const PosedStep& step, double horizon, std::size_t most,
+                       std::vector<Pose>& ends) {
+  const double steps = horizon / step.seconds;
+  double turn = 0.0, reach = 0.0;
+  const std::size_t numJoints = step.to->rotations.size();
+  for (std::size_t joint = 0; joint < numJoints; ++joint) {
+    turn = std::max(turn, steps * turnOf(*step.from, *step.to, joint).norm());
+    const Vector3d& to = step.to->translations[joint];
+    reach = std::max(
+        reach, (to + steps * (to - step.from->translations[joint])).lpNorm<Eigen::Infinity>());
+  }
+  if (!(turn <= static_cast<double>(most)) || !(reach <= kMaxCoordinate)) return false;
+  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(turn)));
+  ends.assign(count, *step.to);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double share = steps * static_cast<double>(k + 1) / static_cast<double>(count);
+    for (std::size_t joint = 0; joint < numJoints; ++joint) {
+      const Quaternion& to = step.to->rotations[joint];
+      const Vector3d turned = share * turnOf(*step.from, *step.to, joint);
+      ends[k].rotations[joint] = (to * expOf(turned)).normalized();
+      const Vector3d& place = step.to->translations[joint];
+      ends[k].translations[joint] = place + share * (place - step.from->translations[joint]);
+    }
+  }
+  return true;
+}
+
+void ModelMotion::poseAt(double t, Pose& pose) const {
+  FORETOUCH_ASSERT(!isConstantRate_ || t == 0.0 || t == 1.0);
+  if (t == 0.0 || t == 1.0) {
+    pose = t == 0.0 ? *from_ : *to_;
+    return;
+  }
+  pose.rotations.resize(joints_.size());
+  pose.translations.resize(joints_.size());
+  for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
+    pose.rotations[joint] =
+        (from_->rotations[joint] * expOf(joints_[joint].turn.at(t))).normalized();
+    pose.translations[joint] = from_->translations[joint] + joints_[joint].shift.at(t);
+  }
+}
+
+JointStray ModelMotion::strayOf(JointId joint, double begin, double end) const {
+  if (isConstantRate_) return {};
+  const JointCurves& curves = joints_[slotOf(joint)];
+  const double span = end - begin, square = span * span;
+  const Curve& turn = curves.turn;
+  const Vector3d w0 = turn.at(begin), w1 = turn.at(end);
+  const double bend = turn.bendIn(begin, end), way = (w1 - w0).norm();
+  if (way + 0.125 * bend * square > kMostPieceTurn) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return {kInfinity, kInfinity};
+  }
+  // Of the straight line in logarithms, which is no geodesic (motion_model.md 2).
+  const double farthest = std::max(w0.norm(), w1.norm());
+  const double crossed = w0.cross(w1).norm();
+  const double twist =
+      2.0 * crossed * way * (1.0 / 6.0 + farthest * (1.0 / 12.0 + farthest / 60.0));
+  JointStray stray;
+  stray.turn = (0.125 * bend * square + twist) * internal::kInflation + kTurnRounding;
+  stray.shift = 0.125 * curves.shift.bendIn(begin, end) * square * internal::kInflation +
+                4.0 * kUnitRoundoff * from_->translations[slotOf(joint)].lpNorm<1>();
+  return stray;
+}
+
+}  // namespace foretouch

@@ -1,0 +1,62 @@
+// bench/person/held_back.h: a person whose full-rate poses are known, and of whom only every n-th
+// is given: where they truly were, where a model has them, and how near the two are. Kinematics,
+// model and distances are the judge's own. Metres, seconds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "judge/scene.h"
+#include "judge/way_judge.h"
+
+namespace foretouch::tools {
+
+/// As articulated/motion_model.h says, by other code.
+enum class JudgedModel : std::uint8_t { ConstantRate, Cubic, CubicLate };
+
+/// Of a step, u in [0,1].
+struct HeldBackStep {
+  std::size_t from = 0, to = 0;       ///< Frames.
+  std::size_t before = 0, after = 0;  ///< Frames; that of the end itself: there is none.
+};
+
+/// One body on one way of full-rate poses. For one thread.
+class HeldBack {
+ public:
+  using Axis = std::array<oracle::Vec3d, 2>;
+
+  /// The scene must outlive it.
+  HeldBack(const oracle::Scene& scene, oracle::WayBody body, std::vector<oracle::PlainPose> frames);
+
+  [[nodiscard]] std::size_t numFrames() const { return frames_.size(); }
+  /// Every n-th frame; the last step may be left out.
+  [[nodiscard]] std::vector<HeldBackStep> steps(std::size_t every) const;
+  /// Ends of all capsules, link by link: of the person, and of the model.
+  [[nodiscard]] const std::vector<Axis>& truthAt(const HeldBackStep& step, double u);
+  [[nodiscard]] const std::vector<Axis>& modelAt(const HeldBackStep& step, JudgedModel model,
+                                                 double u);
+  /// Of one given pose.
+  [[nodiscard]] const std::vector<Axis>& posedAt(std::size_t frame);
+  [[nodiscard]] const std::vector<int>& linkOf() const { return judge_.linkOf(); }
+  [[nodiscard]] std::size_t numLinks() const { return body_.parents.size(); }
+
+  /// The least separation of a link's capsules from the scene, or of two links; `cutoff` if nothing
+  /// is nearer.
+  [[nodiscard]] double fromScene(const std::vector<Axis>& axes, int link, double cutoff) const;
+  [[nodiscard]] double fromLink(const std::vector<Axis>& axes, int link, int other) const;
+
+ private:
+  [[nodiscard]] oracle::PlainPose between(const oracle::PlainPose& from,
+                                          const oracle::PlainPose& to, double t) const;
+  [[nodiscard]] oracle::PlainPose modelled(const HeldBackStep& step, JudgedModel model, double u);
+
+  const oracle::Scene& scene_;
+  oracle::WayBody body_;
+  std::vector<oracle::PlainPose> frames_;
+  oracle::WayJudge judge_;
+  std::vector<double> radii_;       // of each capsule
+  std::vector<std::size_t> first_;  // of each link, and one past the last
+};
+
+}  // namespace foretouch::tools

@@ -1,0 +1,91 @@
+// middleware/bracket/bracket_run.h: a question about brackets, checked and resolved, what it keeps,
+// and its answer once the pieces of the model and the growths are known. Not installed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "articulated/motion.h"
+#include "lss/index.h"
+#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/model_pieces.h"
+#include "middleware/bracket/person_growth.h"
+#include "middleware/bracket/side_bracket.h"
+#include "middleware/pair/ignored_objects.h"
+#include "middleware/pair/pairs_asked.h"
+#include "middleware/scene/flat_bvh_lanes.h"
+#include "middleware/surface/link_surface.h"
+#include "tessellation/aabb.h"
+#include "tessellation/lss_table.h"
+#include "tessellation/swept_boxes.h"
+
+namespace foretouch::internal {
+
+struct OwnPair {
+  LinkId a, b;
+};
+
+/// What questions about brackets keep.
+struct BracketMemory : ScratchPart {
+  static constexpr ScratchKind kKind = ScratchKind::Bracket;
+  static constexpr int kLevels = 6;  ///< 1, 2, 4 ... ModelPieces::kMost pieces.
+
+  ModelMotion model;
+  std::array<ModelPieces, kLevels> levels;
+  std::array<std::uint8_t, kLevels> isCut{};  ///< Of the step at hand.
+  int base = 0;                               ///< The coarsest level that says something.
+  ChainMotion standing;
+  std::vector<LinkState> before, from, to, after;
+  std::vector<std::optional<StepGrowth>> growths;  ///< Per link, of the step.
+  std::vector<double> most;                        ///< Per link: the largest, as told.
+  std::vector<Aabb> boxes;                         ///< Per link: what it may sweep in the step.
+  std::vector<LinkState> first, last;
+  SweptBoxes lanes;
+  std::vector<LeafHit> hits;
+  std::vector<std::uint8_t> isNear;
+  MovingSides sides;
+  SideBracketer bracketer;
+  IgnoredObjects ignored;
+};
+
+/// A question, checked and resolved.
+struct BracketPlan {
+  Avatar avatar;
+  Scene scene;
+  BracketOptions options;
+  LssTable table;
+  PairsAsked asked;
+  std::vector<OwnPair> pairs;
+  std::vector<double> rho;  // per link: no point of it is farther from its origin (m)
+
+  [[nodiscard]] LinkShape shapeOf(LinkId link) const {
+    return {avatar.lss(link),
+            options.surface ? options.surface->parts().links[slotOf(link)].get() : nullptr};
+  }
+};
+
+/// How the growths of pieces follow from what is known of a link.
+class PieceGrowths {
+ public:
+  [[nodiscard]] virtual Growth of(const ModelPiece& piece, LinkId link) const = 0;
+
+ protected:
+  ~PieceGrowths() = default;
+};
+
+/// What a run is to find.
+struct BracketAsk {
+  const PosedStep& step;
+  const PieceGrowths& growths;
+  bool isRefined = false;  ///< There are finer levels of the model.
+  bool isAhead = false;    ///< Only from when a touch is possible.
+};
+
+/// Brackets every link, and every asked pair of own links, of which growths are known. The base
+/// level is cut.
+void bracketLinks(const BracketPlan& plan, const BracketAsk& ask, BracketMemory& memory,
+                  StepBrackets& brackets);
+
+}  // namespace foretouch::internal

@@ -1,0 +1,59 @@
+// middleware/bracket/model_pieces.h: a step of a model as pieces of constant rate, and how far each
+// link may be from the model in each. Not installed.
+#pragma once
+
+#include <vector>
+
+#include "articulated/motion.h"
+#include "articulated/motion_model.h"
+#include "articulated/skeleton.h"
+#include "lss/index.h"
+
+namespace foretouch::internal {
+
+/// How far points of a link are from the model at most: shift + turn * (their distance from the
+/// link's origin). Metres and radians.
+struct LinkStray {
+  double turn = 0.0, shift = 0.0;
+  [[nodiscard]] double at(double rho) const { return shift + turn * rho; }
+};
+
+struct ModelPiece {
+  double begin = 0.0, end = 1.0;  ///< Of the step.
+  ChainMotion motion;
+  MotionEvaluator evaluator;      ///< Of `motion`.
+  std::vector<LinkStray> strays;  ///< Per link; infinite: the piece is too long to say.
+};
+
+/// One cut of a step. For one thread; keeps its memory.
+class ModelPieces {
+ public:
+  static constexpr int kMost = 32;
+
+  ModelPieces() = default;
+  ModelPieces(const ModelPieces&) = delete;  // evaluators refer to their pieces' motions
+  ModelPieces& operator=(const ModelPieces&) = delete;
+
+  /// Equal pieces of the model's step. False: a link may stray by any amount in one of them.
+  bool cut(const Skeleton& skeleton, const PosedStep& step, const ModelMotion& model, int count);
+  /// The first half of the step stands as at its begin, the second half as at its end.
+  void stand(const Skeleton& skeleton, const PosedStep& step);
+  /// Goes on as it went in the step; false: that cannot be said.
+  [[nodiscard]] bool goOn(const Skeleton& skeleton, const PosedStep& step, double horizon);
+
+  [[nodiscard]] int count() const { return count_; }
+  [[nodiscard]] ModelPiece& piece(int k) { return pieces_[slotOf(k)]; }
+  /// The piece that holds an instant of the step.
+  [[nodiscard]] int at(double t) const;
+
+ private:
+  void resize(int count);
+  void setPiece(int k, const Skeleton& skeleton, const Pose& from, const Pose& to);
+
+  std::vector<ModelPiece> pieces_;
+  int count_ = 0;
+  Pose from_, to_;
+  std::vector<Pose> ends_;
+};
+
+}  // namespace foretouch::internal

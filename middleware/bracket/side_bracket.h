@@ -1,0 +1,41 @@
+// middleware/bracket/side_bracket.h: when the grown and the shrunk body of two sides touch in one
+// piece of a motion. Proof: bracket.md 1. Not installed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "middleware/events/interval_tracer.h"
+#include "middleware/events/moving_sides.h"
+#include "middleware/events/world_event.h"
+#include "middleware/pair/growth.h"
+
+namespace foretouch::internal {
+
+/// Which body, and from which end of the piece.
+struct BracketSearch {
+  enum class Body : std::uint8_t { Grown, Shrunk };
+  enum class Way : std::uint8_t { Forward, Backward };
+  Body body = Body::Grown;
+  Way way = Way::Forward;
+};
+
+/// For one thread; keeps its memory.
+class SideBracketer {
+ public:
+  explicit SideBracketer(double resolution = 1e-5) : resolution_(resolution) {}
+
+  /// From `from` on, or back from it (t of the piece, in [0,1]): the first instant at which the
+  /// grown body may touch, or the shrunk one surely does; nothing: there is none to the piece's
+  /// end. `witness`: the pair that touches, or one to look at first.
+  [[nodiscard]] std::optional<double> find(MovingSides& sides, const Growth& growth,
+                                           const BracketSearch& search, double from,
+                                           SidesPair& witness);
+
+ private:
+  double resolution_;
+  IntervalTracer tracer_;
+  EventCounters counters_;
+};
+
+}  // namespace foretouch::internal

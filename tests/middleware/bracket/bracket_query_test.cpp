@@ -1,0 +1,219 @@
+// What brackets say of a ball whose true touches are known in closed form.
+#include "middleware/bracket/bracket_query.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/middleware/balls.h"
+#include "tests/middleware/own_body.h"
+#include "tests/support/random_motion.h"
+
+namespace foretouch {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRadius = 0.1, kStepS = 0.1;
+
+/// A wide plate at y = 0.
+Scene plate() {
+  RawScene raw;
+  raw.objectNames = {"plate"};
+  raw.triangles = {{{Vector3d(-9, 0, -9), Vector3d(9, 0, -9), Vector3d(9, 0, 9)}},
+                   {{Vector3d(-9, 0, -9), Vector3d(9, 0, 9), Vector3d(-9, 0, 9)}}};
+  raw.objectOf = {0, 0};
+  return Scene::build(std::move(raw)).value();
+}
+
+Pose poseAt(double y) {
+  Pose pose;
+  pose.rotations = {Quaternion::Identity()};
+  pose.translations = {Vector3d(0.3, y, 0.2)};
+  return pose;
+}
+
+/// The least t in [0,1] with f(t) <= 0, of a function that falls.
+template <typename Function>
+double firstRoot(const Function& f) {
+  double low = 0.0, high = 1.0;
+  if (f(low) <= 0.0) return 0.0;
+  if (f(high) > 0.0) return 2.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (f(middle) <= 0.0 ? high : low) = middle;
+  }
+  return high;
+}
+
+class BallOverPlate : public testing::Test {
+ protected:
+  LinkBracket ask(double y0, double y1, const LinkBound& bound) {
+    const Pose from = poseAt(y0), to = poseAt(y1);
+    PosedStep step;
+    step.from = &from;
+    step.to = &to;
+    step.seconds = kStepS;
+    EXPECT_TRUE(query_.answer(step, MotionModel::ConstantRate, {bound}, scratch_, brackets_).ok());
+    return brackets_.links.front();
+  }
+  BracketQuery query_ = BracketQuery::build(test::ball(kRadius), plate()).value();
+  Scratch scratch_;
+  StepBrackets brackets_;
+};
+
+double rhoAt(double most, double error, double t) {
+  return error + 4.0 * most * t * (1.0 - t);
+}
+
+TEST_F(BallOverPlate, BracketsTheTouchBetweenTheGrownAndTheShrunkBall) {
+  LinkBound bound;
+  bound.acceleration = 20.0;
+  bound.error = 0.002;
+  const double most = 20.0 * kStepS * kStepS / 8.0;
+  const double y0 = 0.3, y1 = 0.04;
+  const auto height = [&](double t) { return y0 + t * (y1 - y0) - kRadius; };
+  const LinkBracket bracket = ask(y0, y1, bound);
+  ASSERT_EQ(bracket.verdict, BracketVerdict::Certain);
+  const double first = firstRoot([&](double t) { return height(t) - rhoAt(most, 0.002, t); });
+  const double surely = firstRoot([&](double t) { return height(t) + rhoAt(most, 0.002, t); });
+  const double perMetre = 1.0 / (y0 - y1);
+  EXPECT_LE(bracket.possibleFrom, first);
+  EXPECT_GE(bracket.possibleFrom, first - 5e-5 * perMetre);
+  EXPECT_GE(bracket.certainFrom, surely);
+  EXPECT_LE(bracket.certainFrom, surely + 5e-5 * perMetre);
+  EXPECT_EQ(bracket.possibleUntil, 1.0);
+  EXPECT_GE(bracket.certainUntil, 1.0 - 1e-12);
+  EXPECT_NEAR(bracket.growth, most + 0.002, 1e-9);
+}
+
+TEST_F(BallOverPlate, LeavingIsEnteringBackwards) {
+  LinkBound bound;
+  bound.acceleration = 20.0;
+  const LinkBracket down = ask(0.3, 0.04, bound), up = ask(0.04, 0.3, bound);
+  EXPECT_EQ(up.verdict, BracketVerdict::Certain);
+  EXPECT_NEAR(up.possibleUntil, 1.0 - down.possibleFrom, 1e-9);
+  EXPECT_NEAR(up.certainUntil, 1.0 - down.certainFrom, 1e-9);
+  EXPECT_EQ(up.possibleFrom, 0.0);
+}
+
+TEST_F(BallOverPlate, WhatStaysFartherThanTheBoundIsExcluded) {
+  LinkBound bound;
+  bound.acceleration = 20.0;
+  const double most = 20.0 * kStepS * kStepS / 8.0;
+  EXPECT_EQ(ask(0.2 + most, 0.2 + most, bound).verdict, BracketVerdict::Excluded);
+  EXPECT_EQ(ask(kRadius + most + 1e-4, kRadius + most + 1e-4, bound).verdict,
+            BracketVerdict::Excluded);
+  EXPECT_EQ(ask(kRadius + most - 1e-4, kRadius + most - 1e-4, bound).verdict,
+            BracketVerdict::Possible);
+}
+
+TEST_F(BallOverPlate, AShrunkRadiusBelowZeroIsCertainOfNothing) {
+  LinkBound bound;
+  bound.error = 1.01 * kRadius;
+  bound.acceleration = 0.0;
+  EXPECT_EQ(ask(0.0, 0.0, bound).verdict, BracketVerdict::Possible);
+  EXPECT_EQ(ask(0.3, -0.3, bound).verdict, BracketVerdict::Possible);
+  bound.error = 0.99 * kRadius;
+  EXPECT_EQ(ask(0.0, 0.0, bound).verdict, BracketVerdict::Certain);
+}
+
+TEST_F(BallOverPlate, WithoutABoundNothingIsClaimed) {
+  EXPECT_EQ(ask(5.0, 5.0, {}).verdict, BracketVerdict::Unclaimed);
+  LinkBound bound;
+  bound.followFloor = 0.001;  // of poses around the step, and there are none
+  EXPECT_EQ(ask(5.0, 5.0, bound).verdict, BracketVerdict::Unclaimed);
+}
+
+TEST_F(BallOverPlate, TheLesserBoundCountsWhereThePosesDoNotBend) {
+  const Pose before = poseAt(0.3), from = poseAt(0.2), to = poseAt(0.15), after = poseAt(0.15);
+  PosedStep step{&before, &from, &to, &after, kStepS, kStepS, kStepS};
+  LinkBound bound;
+  bound.acceleration = 1e4;
+  bound.followFloor = 0.001;
+  bound.followShare = 0.5;
+  ASSERT_TRUE(query_.answer(step, MotionModel::ConstantRate, {bound}, scratch_, brackets_).ok());
+  // The poses bend by 0.05 m at both ends.
+  EXPECT_NEAR(brackets_.links.front().growth, 0.001 + 0.5 * 0.05, 1e-9);
+}
+
+TEST_F(BallOverPlate, AcrossAGapASpeedExcludesWhatNobodySaw) {
+  const Pose from = poseAt(0.5), to = poseAt(0.5);
+  PosedStep step{nullptr, &from, &to, nullptr, 0.0, 1.0, 0.0};
+  LinkBound bound;
+  bound.speed = 0.79;  // half a second there: 0.395 m of 0.4
+  ASSERT_TRUE(query_.answerGap(step, {bound}, scratch_, brackets_).ok());
+  EXPECT_EQ(brackets_.links.front().verdict, BracketVerdict::Excluded);
+  bound.speed = 0.81;
+  ASSERT_TRUE(query_.answerGap(step, {bound}, scratch_, brackets_).ok());
+  EXPECT_EQ(brackets_.links.front().verdict, BracketVerdict::Possible);
+  EXPECT_NEAR(brackets_.links.front().possibleFrom, 0.4 / 0.81, 1e-3);
+  EXPECT_NEAR(brackets_.links.front().possibleUntil, 1.0 - 0.4 / 0.81, 1e-3);
+  ASSERT_TRUE(query_.answerGap(step, {LinkBound{}}, scratch_, brackets_).ok());
+  EXPECT_EQ(brackets_.links.front().verdict, BracketVerdict::Unclaimed);
+}
+
+TEST_F(BallOverPlate, LookingAheadSaysNotBeforeWhen) {
+  const Pose from = poseAt(0.6), to = poseAt(0.5);  // 1 m/s down
+  PosedStep step{nullptr, &from, &to, nullptr, 0.0, kStepS, 0.0};
+  LinkBound bound;
+  bound.aheadSpeed = 0.2;
+  bound.aheadAcceleration = 4.0;
+  bound.error = 0.01;
+  ASSERT_TRUE(query_.lookAhead(step, 1.0, {bound}, scratch_, brackets_).ok());
+  const LinkBracket& bracket = brackets_.links.front();
+  ASSERT_EQ(bracket.verdict, BracketVerdict::Possible);
+  const double first = firstRoot([](double s) { return 0.4 - s - 0.01 - 0.2 * s - 2.0 * s * s; });
+  EXPECT_LE(bracket.possibleFrom, first);
+  EXPECT_NEAR(bracket.possibleFrom, first, 1e-4);
+  bound.aheadAcceleration = LinkBound::kNone;
+  ASSERT_TRUE(query_.lookAhead(step, 1.0, {bound}, scratch_, brackets_).ok());
+  EXPECT_EQ(brackets_.links.front().verdict, BracketVerdict::Unclaimed);
+}
+
+TEST_F(BallOverPlate, RefusesBoundsThatAreNone) {
+  const Pose pose = poseAt(1.0);
+  PosedStep step{nullptr, &pose, &pose, nullptr, 0.0, kStepS, 0.0};
+  EXPECT_FALSE(query_.answer(step, MotionModel::Cubic, {}, scratch_, brackets_).ok());
+  LinkBound bound;
+  bound.error = -1e-9;
+  const auto negative = query_.answer(step, MotionModel::Cubic, {bound}, scratch_, brackets_);
+  ASSERT_FALSE(negative.ok());
+  EXPECT_EQ(negative.error().index, 0);
+  bound.error = std::nan("");
+  EXPECT_FALSE(query_.answerGap(step, {bound}, scratch_, brackets_).ok());
+  EXPECT_FALSE(query_.lookAhead(step, -1.0, {LinkBound{}}, scratch_, brackets_).ok());
+}
+
+TEST(OwnLinks, BothGrowthsAdd) {
+  RawSkeleton raw;
+  raw.joints = {{"a", kNoParent, Vector3d::Zero(), Quaternion::Identity()},
+                {"b", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
+  const Lss ball{Vector3d::Zero(), Vector3d::Zero(), kRadius};
+  const Avatar avatar = Avatar::build(Skeleton::build(raw).value(), {{ball}, {ball}}).value();
+  BracketOptions options;
+  options.self = PairRules::asking(avatar, {{0, 1}}).value();
+  const BracketQuery query = BracketQuery::build(avatar, test::farScene(), options).value();
+  Pose pose = restPose(avatar.skeleton());
+  pose.translations[1].x() = 2.0 * kRadius + 0.03;
+  PosedStep step{nullptr, &pose, &pose, nullptr, 0.0, kStepS, 0.0};
+  LinkBound bound;
+  bound.acceleration = 0.0;
+  Scratch scratch;
+  StepBrackets brackets;
+  for (const auto& [error, isFar] : {std::pair{0.0149, true}, std::pair{0.0151, false}}) {
+    bound.error = error;
+    ASSERT_TRUE(
+        query.answer(step, MotionModel::ConstantRate, {bound, bound}, scratch, brackets).ok());
+    EXPECT_EQ(brackets.pairs.empty(), isFar) << error;
+  }
+  pose.translations[1].x() = 2.0 * kRadius - 0.04;
+  ASSERT_TRUE(
+      query.answer(step, MotionModel::ConstantRate, {bound, bound}, scratch, brackets).ok());
+  ASSERT_EQ(brackets.pairs.size(), 1U);
+  EXPECT_EQ(brackets.pairs.front().verdict, BracketVerdict::Certain);
+  EXPECT_EQ(brackets.pairs.front().other, 1);
+}
+
+}  // namespace
+}  // namespace foretouch

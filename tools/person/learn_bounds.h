@@ -1,0 +1,52 @@
+// tools/person/learn_bounds.h: bounds on how far persons are from a model, learned from clips at
+// their full rate: every n-th pose is given, the others say where the person truly was.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/clip.h"
+#include "articulated/motion_model.h"
+#include "articulated/result.h"
+#include "assets/bounds/bounds_file.h"
+
+namespace foretouch::tools {
+
+struct LearnRequest {
+  std::vector<MotionModel> models{MotionModel::CubicLate};
+  std::vector<double> ratesHz{30.0};  ///< Of given poses; the nearest whole number of frames.
+  double quantile = 0.999;            ///< Of steps, in (0,1].
+  double errorM = 0.0;                ///< Of a pose: what the tracker is off by.
+  bool isByLink = false;              ///< By name, of clips of one skeleton; else by part.
+};
+
+/// Clips one after the other; then the file. For one thread.
+class BoundsLearner {
+ public:
+  explicit BoundsLearner(const LearnRequest& request) : request_(request) {}
+
+  /// How many of the rates the clip serves: it must have two frames or more per given pose.
+  int learn(const Clip& clip, const Avatar& avatar);
+  /// One entry per part (or link), model and rate; where more than one clip had a rate, of the
+  /// nearest given one.
+  [[nodiscard]] BoundsFile bounds() const;
+
+ private:
+  /// Of one part, model and rate; per step what was needed.
+  struct Seen {
+    std::string part;
+    MotionModel model;
+    double rateHz;
+    std::vector<double> accelerations, shares, gapSpeeds, aheadAccelerations;
+  };
+  void learnAt(const Clip& clip, const Avatar& avatar, MotionModel model, double rateHz,
+               std::size_t every);
+  [[nodiscard]] Seen& seenOf(const std::string& part, MotionModel model, double rateHz);
+
+  LearnRequest request_;
+  std::vector<Seen> seen_;
+};
+
+}  // namespace foretouch::tools
