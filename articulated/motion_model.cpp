@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 
 /// Below this angle (rad) series are exact to rounding.
 constexpr double kSmallTurn = 1e-4;
-/// A piece may turn by so much for strayOf() to hold (motion_model.md 2).
-constexpr double kMostPieceTurn = 0.4;
+/// The twist of a piece for which strayOf() holds (motion_model.md 2).
+constexpr double kMostTwist = 0.05;
 /// Of the angles that doubles compute here, and of their sums (motion_model.md 3).
 constexpr double kTurnRounding = 1e-14;
 
@@ -195,17 +195,16 @@ JointStray ModelMotion::strayOf(JointId joint, double begin, double end) const {
   const Curve& turn = curves.turn;
   const Vector3d w0 = turn.at(begin), w1 = turn.at(end);
   const double bend = turn.bendIn(begin, end), way = (w1 - w0).norm();
-  if (way + 0.125 * bend * square > kMostPieceTurn) {
+  // Of the straight line in logarithms, which is no geodesic (motion_model.md 2).
+  const double farthest = std::max(w0.norm(), w1.norm());
+  const double twist =
+      w0.cross(w1).norm() * way * (1.0 / 6.0 + farthest * (1.0 / 12.0 + farthest / 60.0));
+  if (!(way <= kMostTurn && twist <= kMostTwist)) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     return {kInfinity, kInfinity};
   }
-  // Of the straight line in logarithms, which is no geodesic (motion_model.md 2).
-  const double farthest = std::max(w0.norm(), w1.norm());
-  const double crossed = w0.cross(w1).norm();
-  const double twist =
-      2.0 * crossed * way * (1.0 / 6.0 + farthest * (1.0 / 12.0 + farthest / 60.0));
   JointStray stray;
-  stray.turn = (0.125 * bend * square + twist) * internal::kInflation + kTurnRounding;
+  stray.turn = (0.125 * bend * square + 2.0 * twist) * internal::kInflation + kTurnRounding;
   stray.shift = 0.125 * curves.shift.bendIn(begin, end) * square * internal::kInflation +
                 4.0 * kUnitRoundoff * from_->translations[slotOf(joint)].lpNorm<1>();
   return stray;

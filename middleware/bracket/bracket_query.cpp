@@ -21,6 +21,7 @@ using internal::BracketMemory;
 using internal::BracketPlan;
 using internal::Growth;
 using internal::ModelPiece;
+using internal::ModelPieces;
 using internal::StepGrowth;
 
 Result<Done> checkedBounds(const Avatar& avatar, const std::vector<LinkBound>& bounds) {
@@ -168,13 +169,38 @@ class GrowthsAhead final : public internal::PieceGrowths {
   double horizon_;
 };
 
-/// The coarsest level of which all that links stray is known; false: there is none.
-bool cutBase(const Skeleton& skeleton, const PosedStep& step, BracketMemory& memory) {
-  for (memory.base = 0; memory.base < BracketMemory::kLevels; ++memory.base) {
-    const auto level = slotOf(memory.base);
-    if (!memory.levels[level].cut(skeleton, step, memory.model, 1 << memory.base)) continue;
-    memory.isCut[level] = 1;
-    return true;
+/// Links may stray from the base level's pieces by what the person may, or by this (m).
+constexpr double kBaseStray = 2e-3;
+
+/// How many times farther a link strays than it may; infinite: that cannot be said.
+double excessOf(const BracketPlan& plan, const BracketMemory& memory, ModelPieces& pieces) {
+  double most = 0.0;
+  for (int k = 0; k < pieces.count(); ++k) {
+    for (LinkId link = 0; link < plan.avatar.numLinks(); ++link) {
+      const auto i = slotOf(link);
+      if (!memory.growths[i]) continue;
+      const double stray = pieces.piece(k).strays[i].at(plan.rho[i]);
+      most = std::max(most, stray / std::max(memory.growths[i]->most, kBaseStray));
+    }
+  }
+  return most;
+}
+
+/// The coarsest level of which no link strays too far; false: none says anything.
+bool cutBase(const BracketPlan& plan, const PosedStep& step, BracketMemory& memory) {
+  for (memory.base = 0; memory.base < BracketMemory::kLevels;) {
+    ModelPieces& pieces = memory.levels[slotOf(memory.base)];
+    const bool isKnown = pieces.cut(plan.avatar.skeleton(), step, memory.model, 1 << memory.base);
+    const double excess = isKnown ? excessOf(plan, memory, pieces) : 4.0;
+    const bool isLast = memory.base + 1 == BracketMemory::kLevels;
+    if (isKnown && (excess <= 1.0 || isLast)) {
+      memory.isCut[slotOf(memory.base)] = 1;
+      return true;
+    }
+    // Halving a piece quarters what it strays.
+    const int more = static_cast<int>(std::ceil(0.5 * std::log2(std::max(2.0, excess))));
+    memory.base =
+        isLast ? BracketMemory::kLevels : std::min(memory.base + more, BracketMemory::kLevels - 1);
   }
   memory.base = 0;
   return false;
@@ -228,7 +254,6 @@ Result<Done> BracketQuery::answer(const PosedStep& step, MotionModel model,
   auto& memory = scratch.of<BracketMemory>();
   beginAnswer(plan.avatar, memory, brackets);
   memory.model.assign(plan.avatar.skeleton(), step, model);
-  if (!cutBase(plan.avatar.skeleton(), step, memory)) return Done{};
   std::optional<PoseBends> bends;
   const bool isAnyFollowed = std::any_of(bounds.begin(), bounds.end(), [](const LinkBound& bound) {
     return std::isfinite(bound.followFloor);
@@ -240,9 +265,10 @@ Result<Done> BracketQuery::answer(const PosedStep& step, MotionModel model,
     memory.growths[i] = StepGrowth::of(bounds[i], step.seconds, bend);
     if (memory.growths[i]) memory.most[i] = memory.growths[i]->largest();
   }
+  if (!cutBase(plan, step, memory)) return Done{};
   const GrowthsOfStep growths(plan, memory);
   const bool isRefined = !memory.model.isConstantRate();
-  internal::bracketLinks(plan, {step, growths, isRefined, false}, memory, brackets);
+  internal::bracketLinks(plan, {step, growths, isRefined, true, false}, memory, brackets);
   return Done{};
 }
 
@@ -258,7 +284,7 @@ Result<Done> BracketQuery::answerGap(const PosedStep& step, const std::vector<Li
   }
   memory.levels[0].stand(plan_->avatar.skeleton(), step);
   const GrowthsOfGap growths(bounds, step.seconds);
-  internal::bracketLinks(*plan_, {step, growths, false, false}, memory, brackets);
+  internal::bracketLinks(*plan_, {step, growths, false, false, false}, memory, brackets);
   return Done{};
 }
 
@@ -280,7 +306,7 @@ Result<Done> BracketQuery::lookAhead(const PosedStep& step, double horizon,
         bound.error + horizon * (bound.aheadSpeed + 0.5 * horizon * bound.aheadAcceleration);
   }
   const GrowthsAhead growths(bounds, horizon);
-  internal::bracketLinks(*plan_, {step, growths, false, true}, memory, brackets);
+  internal::bracketLinks(*plan_, {step, growths, false, true, true}, memory, brackets);
   return Done{};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lss/rounding.h"
 #include "middleware/scene/scene_parts.h"
@@ -16,7 +17,10 @@ using Way = BracketSearch::Way;
 
 /// Pieces stray from the model by about this share of what the person may, or by so many
 /// resolutions: more of them cost more than they bring.
-constexpr double kStrayShare = 1.0 / 16.0, kStrayResolutions = 2.0;
+constexpr double kStrayShare = 1.0 / 3.0, kStrayResolutions = 2.0;
+
+/// Up to here (m) all that is near in a step is collected once.
+constexpr double kSmallGrowth = 5e-3;
 
 /// Who is asked: a link and the scene, or two own links.
 struct Asked {
@@ -52,11 +56,13 @@ class BracketRun {
     memory_.boxes.assign(countOf(plan_.avatar.numLinks()), Aabb{});
     for (int k = 0; k < base().count(); ++k) {
       ModelPiece& piece = base().piece(k);
-      piece.evaluator.statesAt(0.0, memory_.first);
+      // A piece begins where the one before it ends.
+      if (k == 0 || !ask_.isContinuous) piece.evaluator.statesAt(0.0, memory_.first);
       piece.evaluator.statesAt(1.0, memory_.last);
       for (LinkId link = 0; link < plan_.avatar.numLinks(); ++link) {
         if (memory_.growths[slotOf(link)]) sweepLink(piece, link);
       }
+      std::swap(memory_.first, memory_.last);
     }
     brackets_.pieces = base().count();
   }
@@ -118,17 +124,29 @@ class BracketRun {
     if (bracket.verdict != BracketVerdict::Excluded) brackets_.pairs.push_back(bracket);
   }
 
-  /// By the base level first; what it leaves open, by a finer one.
+  /// By the base level first, which excludes most, and closes on what is touched throughout; what
+  /// it leaves open, by the level that is fine enough.
   void bracketSides(const Asked& asked, LinkBracket& bracket) {
+    limitIfSmall(bracket.growth, asked);
     bracketOn(base(), asked, bracket);
-    if (!ask_.isRefined || bracket.verdict == BracketVerdict::Excluded) return;
-    const bool isOpen = bracket.verdict == BracketVerdict::Possible ||
-                        bracket.possibleFrom < bracket.certainFrom ||
-                        bracket.certainUntil < bracket.possibleUntil;
-    const int level = levelFor(asked);
-    if (!isOpen || level <= memory_.base) return;
+    const bool isClosed = bracket.verdict == BracketVerdict::Excluded ||
+                          (bracket.verdict == BracketVerdict::Certain &&
+                           bracket.certainFrom <= bracket.possibleFrom &&
+                           bracket.certainUntil >= bracket.possibleUntil);
+    const int level = ask_.isRefined && !isClosed ? levelFor(asked) : memory_.base;
+    if (level <= memory_.base) return;
     cutLevel(level);
     bracketOn(memory_.levels[slotOf(level)], asked, bracket);
+  }
+
+  void limitIfSmall(double growth, const Asked& asked) {
+    memory_.isLimited = growth <= kSmallGrowth;
+    if (!memory_.isLimited) return;
+    memory_.near.resize(std::max(memory_.near.size(), countOf(base().count())));
+    for (int k = 0; k < base().count(); ++k) {
+      memory_.sides.grow(setSides(base().piece(k), asked), 1.0);
+      memory_.sides.collect(0.0, 1.0, plan_.options.resolution, memory_.near[slotOf(k)]);
+    }
   }
 
   void cutLevel(int level) {
@@ -178,45 +196,46 @@ class BracketRun {
   /// What the bracket says already holds, and is made narrower.
   void bracketOn(ModelPieces& pieces, const Asked& asked, LinkBracket& bracket) {
     const bool isNew = bracket.verdict == BracketVerdict::Excluded;
-    const bool wasCertain = bracket.verdict == BracketVerdict::Certain;
+    const double earliest = isNew ? 0.0 : bracket.possibleFrom;
     const double latest = isNew ? 1.0 : bracket.possibleUntil;
     SidesPair witness;
-    const auto first = find(pieces, asked, {Body::Grown, Way::Forward},
-                            isNew ? 0.0 : bracket.possibleFrom, latest, witness);
-    if (!first) {
-      bracket = excluded(bracket);
-      return;
-    }
-    bracket.verdict = wasCertain ? BracketVerdict::Certain : BracketVerdict::Possible;
-    bracket.possibleFrom = *first;
+    const auto first = find(pieces, asked, {Body::Grown, Way::Forward}, earliest, latest, witness);
+    // What one level proves, the next one need not.
+    if (!first && isNew) return;
+    if (isNew) bracket.verdict = BracketVerdict::Possible;
+    bracket.possibleFrom = first.value_or(latest);
     if (asked.other == kNoParent && !witness.isNone()) bracket.triangle = witness.other.triangle;
     if (ask_.isAhead) return;
-    const auto last = find(pieces, asked, {Body::Grown, Way::Backward}, latest, *first, witness);
+    SidesPair inside = witness;
+    const auto last =
+        find(pieces, asked, {Body::Grown, Way::Backward}, latest, bracket.possibleFrom, witness);
     bracket.possibleUntil = last.value_or(latest);
-    findCertain(pieces, asked, wasCertain, witness, bracket);
+    if (!first) return exclude(bracket);
+    findCertain(pieces, asked, inside, bracket);
   }
 
-  void findCertain(ModelPieces& pieces, const Asked& asked, bool wasCertain, SidesPair witness,
+  /// A finer level finds nothing where a coarser one did: what was certain stays so.
+  static void exclude(LinkBracket& bracket) {
+    if (bracket.verdict == BracketVerdict::Certain) return;
+    const LinkBracket fresh;
+    bracket.verdict = BracketVerdict::Excluded;
+    bracket.possibleFrom = fresh.possibleFrom;
+    bracket.possibleUntil = fresh.possibleUntil;
+    bracket.triangle = fresh.triangle;
+  }
+
+  void findCertain(ModelPieces& pieces, const Asked& asked, SidesPair inside,
                    LinkBracket& bracket) {
+    const bool isKnown = bracket.verdict == BracketVerdict::Certain;
     const auto from = find(pieces, asked, {Body::Shrunk, Way::Forward}, bracket.possibleFrom,
-                           wasCertain ? bracket.certainFrom : bracket.possibleUntil, witness);
-    if (!from && !wasCertain) return;
-    if (!wasCertain) bracket.certainUntil = *from;
+                           isKnown ? bracket.certainFrom : bracket.possibleUntil, inside);
+    if (!from && !isKnown) return;
+    bracket.certainUntil = std::max(isKnown ? bracket.certainUntil : 0.0, from.value_or(0.0));
+    bracket.certainFrom = std::min(isKnown ? bracket.certainFrom : 1.0, from.value_or(1.0));
     bracket.verdict = BracketVerdict::Certain;
-    bracket.certainFrom = from && wasCertain ? std::min(*from, bracket.certainFrom)
-                                             : from.value_or(bracket.certainFrom);
     const auto until = find(pieces, asked, {Body::Shrunk, Way::Backward}, bracket.possibleUntil,
-                            bracket.certainUntil, witness);
+                            bracket.certainUntil, inside);
     bracket.certainUntil = std::max(bracket.certainUntil, until.value_or(0.0));
-  }
-
-  [[nodiscard]] static LinkBracket excluded(const LinkBracket& bracket) {
-    LinkBracket none;
-    none.link = bracket.link;
-    none.other = bracket.other;
-    none.verdict = BracketVerdict::Excluded;
-    none.growth = bracket.growth;
-    return none;
   }
 
   /// The first instant that the search finds from `from` to `to` of the step, which is before it on
@@ -229,6 +248,9 @@ class BracketRun {
       ModelPiece& piece = pieces.piece(k);
       const double span = piece.end - piece.begin;
       const Growth growth = setSides(piece, asked);
+      if (memory_.isLimited) {
+        memory_.sides.limitTo(memory_.near[slotOf(k * base().count() / pieces.count())]);
+      }
       const double at = std::clamp((from - piece.begin) / span, 0.0, 1.0);
       const auto t = memory_.bracketer.find(memory_.sides, growth, search, at, witness);
       if (t) return std::clamp(piece.begin + *t * span, 0.0, 1.0);

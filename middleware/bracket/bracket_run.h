@@ -45,6 +45,10 @@ struct BracketMemory : ScratchPart {
   SweptBoxes lanes;
   std::vector<LeafHit> hits;
   std::vector<std::uint8_t> isNear;
+  /// Of who is asked, where growths are small: the pairs that may be near in each piece of the base
+  /// level. Nothing else can touch the person, whatever finer pieces do (bracket.md 3).
+  std::vector<std::vector<SidesPair>> near;
+  bool isLimited = false;
   MovingSides sides;
   SideBracketer bracketer;
   IgnoredObjects ignored;
@@ -79,8 +83,9 @@ class PieceGrowths {
 struct BracketAsk {
   const PosedStep& step;
   const PieceGrowths& growths;
-  bool isRefined = false;  ///< There are finer levels of the model.
-  bool isAhead = false;    ///< Only from when a touch is possible.
+  bool isRefined = false;    ///< There are finer levels of the model.
+  bool isContinuous = true;  ///< Each piece begins where the one before it ends.
+  bool isAhead = false;      ///< Only from when a touch is possible.
 };
 
 /// Brackets every link, and every asked pair of own links, of which growths are known. The base

@@ -41,13 +41,12 @@ void IntervalTracer::trace(MovingSides& sides, const IntervalTolerance& toleranc
 
 IntervalTracer::Search IntervalTracer::search(MovingSides& sides,
                                               const IntervalTolerance& tolerance, double from,
-                                              SidesPair& witness, EventCounters& counters) {
+                                              double firstSpan, SidesPair& witness,
+                                              EventCounters& counters) {
   sides_ = &sides;
   tolerance_ = tolerance;
   last_ = witness;
-  ++counters.freeLooks;
-  const bool isKnown = !last_.isNone() && sides.at(last_, from).gapUpper <= tolerance.enter;
-  const Search found = isKnown ? Search{Found::Contact, from} : searchContact(from, counters);
+  const Search found = searchContact(from, firstSpan, counters);
   witness = last_;
   return found;
 }
@@ -69,7 +68,7 @@ void IntervalTracer::traceParts(double from, TraceStart start, std::vector<StepP
   }
   for (;;) {
     if (!isContact) {
-      const Search search = searchContact(t, counters);
+      const Search search = searchContact(t, 1.0, counters);
       if (search.found == Found::Nothing) return;
       if (search.found == Found::Unresolved) {
         return leaveUnresolved(search.t, parts);
@@ -139,8 +138,9 @@ bool IntervalTracer::followContact(double& t, EventCounters& counters) {
   return true;
 }
 
-IntervalTracer::Search IntervalTracer::searchContact(double from, EventCounters& counters) {
-  double begin = from, end = 1.0;
+IntervalTracer::Search IntervalTracer::searchContact(double from, double firstSpan,
+                                                     EventCounters& counters) {
+  double begin = from, end = std::min(1.0, from + firstSpan);
   while (begin < 1.0) {
     if (sides_->isSpent()) return {Found::Unresolved, begin};
     sides_->collect(begin, end, tolerance_.enter, near_);

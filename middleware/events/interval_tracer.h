@@ -54,9 +54,10 @@ class IntervalTracer {
     double t = 1.0;
   };
   /// From `from` on: the first instant at which a pair is within `enter`. Before it, or to the end,
-  /// all are proven more than `floor` apart. `witness`: the pair.
+  /// all are proven more than `floor` apart. `witness` becomes the pair. It looks at `firstSpan` of
+  /// the motion first, and at ever more of it.
   [[nodiscard]] Search search(MovingSides& sides, const IntervalTolerance& tolerance, double from,
-                              SidesPair& witness, EventCounters& counters);
+                              double firstSpan, SidesPair& witness, EventCounters& counters);
 
  private:
   void leaveUnresolved(double from, std::vector<StepPart>& parts) const;
@@ -73,7 +74,7 @@ class IntervalTracer {
   [[nodiscard]] bool tryHold(const SidesPair& pair, double t, double within, Hold& best);
   /// From an instant of contact to where it ends; false: it cannot be told from there on.
   [[nodiscard]] bool followContact(double& t, EventCounters& counters);
-  [[nodiscard]] Search searchContact(double from, EventCounters& counters);
+  [[nodiscard]] Search searchContact(double from, double firstSpan, EventCounters& counters);
   [[nodiscard]] double cutPiece(double begin, double end);
   [[nodiscard]] Search searchPiece(double from, double to, EventCounters& counters);
 

@@ -7,7 +7,6 @@
 #include "lss/assert.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
-#include "middleware/events/swept_tube.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/scene_parts.h"
 
@@ -52,6 +51,7 @@ void MovingSides::begin(LinkId frame) {
   scene_ = nullptr;
   growthSign_ = 0.0;
   isBackward_ = false;
+  limited_ = nullptr;
   states_.t = std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -146,8 +146,10 @@ void MovingSides::collect(double from, double to, double reach, std::vector<Side
   pairs.clear();
   const States end = statesAt(isBackward_ ? 1.0 - from : to);
   const States begin = statesAt(isBackward_ ? 1.0 - to : from);
-  const double grown = growthSign_ > 0.0 ? reach + growth_.most() * kInflation : reach;
+  const double grown =
+      growthSign_ > 0.0 ? reach + growth_.mostIn(begin.t, end.t) * kInflation : reach;
   Collecting in{begin, end, end.t - begin.t, grown, pairs};
+  if (limited_ != nullptr) return collectAmong(in);
   if (scene_ == nullptr) {
     collectLinks(in);
   } else {
@@ -156,9 +158,41 @@ void MovingSides::collect(double from, double to, double reach, std::vector<Side
     }
   }
   // A triangle may be in two LSS.
-  if (one_.surface == nullptr && (scene_ != nullptr || other_.surface == nullptr)) return;
-  std::sort(pairs.begin(), pairs.end(), isBefore);
-  pairs.erase(std::unique(pairs.begin(), pairs.end(), areSameSurfaces), pairs.end());
+  if (one_.surface != nullptr || (scene_ == nullptr && other_.surface != nullptr)) {
+    std::sort(pairs.begin(), pairs.end(), isBefore);
+    pairs.erase(std::unique(pairs.begin(), pairs.end(), areSameSurfaces), pairs.end());
+  }
+}
+
+SweptTube MovingSides::tubeOf(const Collecting& in, std::int32_t index) const {
+  const Lss& lss = (*one_.lss)[slotOf(index)];
+  return {lss,
+          one_.bounds[slotOf(index)],
+          axisEnds(lss, in.begin.one),
+          axisEnds(lss, in.end.one),
+          in.span,
+          in.reach};
+}
+
+/// Those of them whose boxes meet; of a whole LSS and a triangle, that its tube meets. An LSS's
+/// pairs lie side by side.
+void MovingSides::collectAmong(Collecting& in) const {
+  Swept one{-1, Part::whole(), {}};
+  std::optional<SweptTube> tube;
+  for (const SidesPair& pair : *limited_) {
+    const Part part = partOf(pair.one);
+    if (pair.one.lss != one.lss || !(part == one.part)) {
+      one = sweptOfOne(in, pair.one.lss, part);
+      tube.reset();
+      if (scene_ != nullptr && part.isWhole()) tube.emplace(tubeOf(in, pair.one.lss));
+    }
+    const bool isNear =
+        scene_ == nullptr
+            ? one.box.overlaps(sweptOfOther(in, pair.other.lss, partOf(pair.other)).box)
+            : one.box.overlaps(boxOf(scene_->triangle(pair.other.triangle))) &&
+                  (!tube || tube->mayMeet(scene_->triangle(pair.other.triangle)));
+    if (isNear) in.pairs.push_back(pair);
+  }
 }
 
 /// What a triangle sweeps: as sweptBox() of an LSS without a radius, for each of its corners.
@@ -240,9 +274,7 @@ void MovingSides::collectScene(Collecting& in, const Swept& one) {
 void MovingSides::addTriangles(Collecting& in, const Swept& one) {
   std::optional<SweptTube> tube;
   if (!one.part.isTriangle()) {
-    const Lss& lss = (*one_.lss)[slotOf(one.lss)];
-    tube.emplace(lss, one_.bounds[slotOf(one.lss)], axisEnds(lss, in.begin.one),
-                 axisEnds(lss, in.end.one), in.span, in.reach);
+    tube.emplace(tubeOf(in, one.lss));
   }
   for (const TriangleId id : found_) {
     if (object_ != kNoObject && scene_->object(id) != object_) continue;

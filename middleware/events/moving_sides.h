@@ -9,6 +9,7 @@
 
 #include "articulated/motion.h"
 #include "lss/lss.h"
+#include "middleware/events/swept_tube.h"
 #include "middleware/pair/growth.h"
 #include "middleware/pair/ignored_objects.h"
 #include "middleware/pair/pairs_asked.h"
@@ -84,6 +85,9 @@ class MovingSides {
     growth_ = growth;
     growthSign_ = sign;
   }
+  /// collect() looks among these pairs alone, until begin().
+  void limitTo(const std::vector<SidesPair>& pairs) { limited_ = &pairs; }
+  [[nodiscard]] const std::vector<SidesPair>* limit() const { return limited_; }
   /// The motion backwards in time, or forwards again: t is then 1 at its begin. Until begin().
   void turnBack(bool isBackward) { isBackward_ = isBackward; }
 
@@ -131,6 +135,8 @@ class MovingSides {
                                      double reach);
   [[nodiscard]] Swept sweptOfOne(const Collecting& in, std::int32_t lss, Part part) const;
   [[nodiscard]] Swept sweptOfOther(const Collecting& in, std::int32_t lss, Part part) const;
+  void collectAmong(Collecting& in) const;
+  [[nodiscard]] SweptTube tubeOf(const Collecting& in, std::int32_t index) const;
   void collectLinks(Collecting& in);
   void collectParts(Collecting& in, const Swept& one, const Swept& other);
   void collectScene(Collecting& in, const Swept& one);
@@ -145,6 +151,7 @@ class MovingSides {
   Growth growth_;
   double growthSign_ = 0.0;
   bool isBackward_ = false;
+  const std::vector<SidesPair>* limited_ = nullptr;
   States states_;  // of the motion as it goes
   std::vector<TriangleId> found_;
 };

@@ -77,11 +77,12 @@ TEST_F(BallOverPlate, BracketsTheTouchBetweenTheGrownAndTheShrunkBall) {
   ASSERT_EQ(bracket.verdict, BracketVerdict::Certain);
   const double first = firstRoot([&](double t) { return height(t) - rhoAt(most, 0.002, t); });
   const double surely = firstRoot([&](double t) { return height(t) + rhoAt(most, 0.002, t); });
-  const double perMetre = 1.0 / (y0 - y1);
+  // A thousandth of the growth, and half as much again for what the growth changes meanwhile.
+  const double slack = 1.5 * (most + 0.002) / 1000.0 / (y0 - y1);
   EXPECT_LE(bracket.possibleFrom, first);
-  EXPECT_GE(bracket.possibleFrom, first - 5e-5 * perMetre);
+  EXPECT_GE(bracket.possibleFrom, first - slack);
   EXPECT_GE(bracket.certainFrom, surely);
-  EXPECT_LE(bracket.certainFrom, surely + 5e-5 * perMetre);
+  EXPECT_LE(bracket.certainFrom, surely + slack);
   EXPECT_EQ(bracket.possibleUntil, 1.0);
   EXPECT_GE(bracket.certainUntil, 1.0 - 1e-12);
   EXPECT_NEAR(bracket.growth, most + 0.002, 1e-9);
@@ -165,7 +166,7 @@ TEST_F(BallOverPlate, LookingAheadSaysNotBeforeWhen) {
   ASSERT_EQ(bracket.verdict, BracketVerdict::Possible);
   const double first = firstRoot([](double s) { return 0.4 - s - 0.01 - 0.2 * s - 2.0 * s * s; });
   EXPECT_LE(bracket.possibleFrom, first);
-  EXPECT_NEAR(bracket.possibleFrom, first, 1e-4);
+  EXPECT_NEAR(bracket.possibleFrom, first, 2e-3);
   bound.aheadAcceleration = LinkBound::kNone;
   ASSERT_TRUE(query_.lookAhead(step, 1.0, {bound}, scratch_, brackets_).ok());
   EXPECT_EQ(brackets_.links.front().verdict, BracketVerdict::Unclaimed);
