@@ -6,7 +6,7 @@
 #include "articulated/try.h"
 #include "bench/commands.h"
 #include "bench/deadline.h"
-#include "bench/lists.h"
+#include "tools/settings/lists.h"
 #include "bench/options.h"
 #include "tools/settings/world_settings.h"
 

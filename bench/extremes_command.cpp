@@ -10,7 +10,7 @@
 #include "bench/commands.h"
 #include "bench/extremes.h"
 #include "bench/extremes/case_json.h"
-#include "bench/lists.h"
+#include "tools/settings/lists.h"
 #include "bench/machine.h"
 #include "bench/options.h"
 

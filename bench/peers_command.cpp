@@ -12,7 +12,7 @@
 #include "assets/text_file.h"
 #include "bench/commands.h"
 #include "bench/inputs.h"
-#include "bench/lists.h"
+#include "tools/settings/lists.h"
 #include "bench/machine.h"
 #include "bench/options.h"
 #include "bench/peers.h"

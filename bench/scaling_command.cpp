@@ -5,7 +5,7 @@
 
 #include "articulated/try.h"
 #include "bench/commands.h"
-#include "bench/lists.h"
+#include "tools/settings/lists.h"
 #include "bench/options.h"
 #include "bench/scaling.h"
 #include "tools/settings/world_settings.h"

@@ -6,7 +6,7 @@
 #include "articulated/try.h"
 #include "bench/commands.h"
 #include "bench/crowds.h"
-#include "bench/lists.h"
+#include "tools/settings/lists.h"
 #include "bench/machine.h"
 #include "bench/options.h"
 #include "bench/private_network.h"

@@ -99,9 +99,10 @@ const std::map<std::string, Rooms> kRooms = {
       {"batch", {"settings", ""}},
       {"floor", {"inputs", "settings", ""}},
       {"feet", {"floor", "setup", "inputs", "settings", ""}},
+      {"person", {"inputs", "settings", ""}},
       {"certificate", {"inputs", "settings", ""}},
       {"commands",
-       {"batch", "certificate", "feet", "floor", "view", "report", "log", "sweep", "glb", "world",
+       {"batch", "certificate", "feet", "floor", "person", "view", "report", "log", "sweep", "glb", "world",
         "solid", "stream", "replay", "setup", "touches", "audit", "inputs", "settings", ""}}}},
 };
 

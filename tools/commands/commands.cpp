@@ -17,6 +17,7 @@
 #include "tools/feet/feet_command.h"
 #include "tools/help_page.h"
 #include "tools/log/log_command.h"
+#include "tools/person/bounds_command.h"
 #include "tools/report/view_command.h"
 #include "tools/setup/setup_command.h"
 #include "tools/solid/solid_command.h"
@@ -56,6 +57,7 @@ std::vector<Command> allCommands() {
   add("Live", listenCommand());
   add("Files", avatarCommand());
   add("Files", sceneCommand());
+  add("Files", boundsCommand());
   Command log = logCommand();
   log.commands.push_back(logReplayCommand());
   add("Files", std::move(log));

@@ -119,12 +119,13 @@ ExitCode runDemo(const AskedDemo& asked) {
   job.outputPath = asked.output;
   job.report.path = asked.report.empty() ? defaultReport(asked.output) : asked.report;
   const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(job.report.path);
-  const auto done = runReplay(job, [&](const ReplaySummary& summary) {
-    const std::string text = inWords(summary) + "page:    " + job.report.path +
-                             "   (open it in a browser)\nresults: " + job.outputPath + "\n" +
-                             (asked.details ? details(job, summary) : "");
-    outIsTaken ? printAside(text) : printOut(text);
-  });
+  const auto done =
+      runReplay(job, [&](const ReplaySummary& summary, const std::string& /*person*/) {
+        const std::string text = inWords(summary) + "page:    " + job.report.path +
+                                 "   (open it in a browser)\nresults: " + job.outputPath + "\n" +
+                                 (asked.details ? details(job, summary) : "");
+        outIsTaken ? printAside(text) : printOut(text);
+      });
   if (!done.ok()) return failed(done.error());
   offerToOpen(job.report.path);
   return ExitCode::Done;

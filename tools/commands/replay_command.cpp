@@ -91,6 +91,27 @@ void addGoneSettings(Settings& settings) {
   settings.gone("--rays", "is gone: foretouch-bench latency times rays beside steps");
 }
 
+/// The person, not the model.
+void addPersonSettings(Settings& settings, PersonRequest& person) {
+  settings
+      .path("--bounds", "FILE", person.boundsPath,
+            "Also what the person surely touched, perhaps, or not at all, within these bounds on "
+            "how far they are from the motion between two poses (foretouch bounds)")
+      .files("json")
+      .in(kTouchGroup)
+      .ofClips();
+  settings
+      .word<MotionModel>("--between", "WORD", person.model,
+                         {{"constant-rate", MotionModel::ConstantRate},
+                          {"cubic", MotionModel::Cubic},
+                          {"cubic-late", MotionModel::CubicLate}},
+                         "The motion between two poses that the bounds are about; cubic-late needs "
+                         "the pose after them")
+      .needing("--bounds")
+      .in(kTouchGroup)
+      .ofClips();
+}
+
 /// Settings of clips only.
 void addClipOnlySettings(Settings& settings, AskedReplay& asked) {
   addRateSetting(settings, asked.job.request).ofClips();
@@ -133,6 +154,7 @@ Settings replaySettings(AskedReplay& asked) {
   addQuerySettings(settings, asked.job.request);
   addReplayQuerySettings(settings, asked.job.request);
   addTouchSettings(settings, asked.job.request);
+  addPersonSettings(settings, asked.job.person);
   addSolidReplaySettings(settings, asked.solid);
   addOutputSettings(settings, asked);
   addGoneSettings(settings);
@@ -215,10 +237,10 @@ ExitCode runClip(const AskedReplay& asked) {
   const std::string& report = job.report.path;
   const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(report) ||
                           isStandardOutput(job.glb.path);
-  const auto done = runReplay(job, [&](const ReplaySummary& summary) {
+  const auto done = runReplay(job, [&](const ReplaySummary& summary, const std::string& person) {
     const int threads = job.threads;
     std::string text = asked.asJson ? summaryLine(summary, threads, job.outputPath, report)
-                                    : summary.text(threads);
+                                    : summary.text(threads) + person;
     if (!asked.asJson && !outIsTaken) text += placesOf(job.outputPath, report);
     outIsTaken ? printAside(text) : printOut(text);
   });
@@ -308,15 +330,16 @@ Result<Done> checkPages(const ReplayJob& job) {
         checkOutputs(job.outputPath, page,
                      {request.scenePath, request.avatarPath, request.motionPath, request.robotPath,
                       request.mapPath, request.policyPath, request.skinPath, request.pairsPath,
-                      page == job.glb.path ? job.report.path : ""}));
+                      job.person.boundsPath, page == job.glb.path ? job.report.path : ""}));
   }
   return Done{};
 }
 
 }  // namespace
 
-Result<Done> runReplay(const ReplayJob& job,
-                       const std::function<void(const ReplaySummary&)>& tell) {
+Result<Done> runReplay(
+    const ReplayJob& job,
+    const std::function<void(const ReplaySummary&, const std::string& person)>& tell) {
   const ReplayRequest& request = job.request;
   FORETOUCH_CHECK(checkPages(job));
   FORETOUCH_TRY(const auto inputs, loadReplayInputs(request));
@@ -325,6 +348,7 @@ Result<Done> runReplay(const ReplayJob& job,
   if (rate) printNote(*rate);
 
   ReplaySummary summary(inputs);
+  std::string person;
   PlaceDoubts doubts(inputs.avatar.skeleton(), inputs.query.self.has_value());
   FORETOUCH_TRY(auto touches, ReplayTouches::start(inputs));
   std::optional<ReplayReport> report;
@@ -354,6 +378,11 @@ Result<Done> runReplay(const ReplayJob& job,
       glb.add(touches.begun());
       summary.add(touches);
       file.write(touches.lines());
+      if (job.person.isAsked()) {
+        FORETOUCH_TRY(const auto answer, personTouches(inputs, job.person));
+        file.write(personLines(inputs, job.person, answer));
+        person = personText(inputs, job.person, answer);
+      }
       FORETOUCH_CHECK(file.commit());
       FORETOUCH_CHECK(writeGlb(glb, touches, job.glb.path));
     }
@@ -364,7 +393,7 @@ Result<Done> runReplay(const ReplayJob& job,
       if (!reported.ok()) return reported.error();
     }
   }
-  tell(summary);
+  tell(summary, person);
   for (const std::string& remark : doubts.remarks()) printNote(remark);
   return Done{};
 }

@@ -1,86 +1,176 @@
 #include "tools/person/learn_bounds.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "articulated/motion.h"
 #include "lss/index.h"
+#include "tools/person/axis_places.h"
 
 namespace foretouch::tools {
 namespace {
 
-using Eigen::Vector3d;
-
 /// What every followed bound allows (m): below it a share of nothing would be infinite.
-constexpr double kFollowFloor = 3e-4;
-/// Beyond the last pose, in steps, up to which "ahead" is learned.
-constexpr std::size_t kAheadSteps = 4;
+constexpr double kFollowFloor = 5e-5;
+/// Steps beyond the last pose up to which "ahead" is learned.
+constexpr std::size_t kAheadSteps = 4, kMostAheadPieces = 32;
 
-/// The ends of all axes of all links at a pose.
-using AxisEndsOfPose = std::vector<std::array<Vector3d, 2>>;
+/// The value at or below which a share of the values lie.
+double quantileOf(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const double rank = std::ceil(share * static_cast<double>(values.size())) - 1.0;
+  return values[static_cast<std::size_t>(
+      std::clamp(rank, 0.0, static_cast<double>(values.size() - 1)))];
+}
 
-class Places {
+/// One clip with every n-th pose given, by one model: what each link needs in a step.
+class HeldBackClip {
  public:
-  explicit Places(const Avatar& avatar) : avatar_(avatar) {
-    for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-      linkOf_.insert(linkOf_.end(), avatar.lss(link).size(), link);
+  HeldBackClip(const Clip& clip, const Avatar& avatar, MotionModel model, std::size_t every,
+               double errorM)
+      : frames_(clip.frames),
+        skeleton_(avatar.skeleton()),
+        placer_(avatar),
+        model_(model),
+        every_(every),
+        frameTimeS_(clip.frameTimeS),
+        seconds_(static_cast<double>(every) * clip.frameTimeS),
+        errorM_(errorM) {}
+
+  [[nodiscard]] double seconds() const { return seconds_; }
+
+  /// False: there is no such step.
+  bool begin(std::size_t first) {
+    if (first + every_ >= frames_.size()) return false;
+    first_ = first;
+    last_ = first + every_;
+    const bool isLate = model_ == MotionModel::CubicLate && last_ + every_ < frames_.size();
+    step_ = {first >= every_ ? &frames_[first - every_] : nullptr,
+             &frames_[first],
+             &frames_[last_],
+             isLate ? &frames_[last_ + every_] : nullptr,
+             seconds_,
+             seconds_,
+             seconds_};
+    return true;
+  }
+
+  /// How far the person was from the model, as the height of the parabola that holds it (m).
+  void strays(std::vector<double>& most) {
+    motion_.assign(skeleton_, step_, model_);
+    const ChainMotion constant(skeleton_, *step_.from, *step_.to);
+    most.assign(countOf(skeleton_.numJoints()), 0.0);
+    for (std::size_t frame = first_ + 1; frame < last_; ++frame) {
+      const double u = static_cast<double>(frame - first_) / static_cast<double>(every_);
+      motion_.isConstantRate() ? constant.poseAt(u, pose_) : motion_.poseAt(u, pose_);
+      raise(frame, 4.0 * u * (1.0 - u), most);
     }
   }
-  [[nodiscard]] const std::vector<LinkId>& linkOf() const { return linkOf_; }
-  void at(const Pose& pose, AxisEndsOfPose& ends) {
-    motion_.assign(avatar_.skeleton(), pose, pose);
-    motion_.statesAt(0.0, states_);
-    ends.clear();
-    for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
-      const LinkState& state = states_[slotOf(link)];
-      for (const Lss& lss : avatar_.lss(link)) {
-        ends.push_back({state.pointAt(lss.a), state.pointAt(lss.b)});
-      }
+
+  /// How fast the person was at most (m/s).
+  void speeds(std::vector<double>& most) {
+    most.assign(countOf(skeleton_.numJoints()), 0.0);
+    for (std::size_t frame = first_; frame < last_; ++frame) {
+      placer_.place(frames_[frame], one_);
+      placer_.place(frames_[frame + 1], other_);
+      placer_.differences(one_, other_, own_);
+      for (std::size_t i = 0; i < own_.size(); ++i)
+        most[i] = std::max(most[i], own_[i] / frameTimeS_);
     }
   }
-  /// The most that two poses differ, per link.
-  void differences(const AxisEndsOfPose& one, const AxisEndsOfPose& other,
-                   std::vector<double>& most) const {
-    most.assign(countOf(avatar_.numLinks()), 0.0);
-    for (std::size_t i = 0; i < one.size(); ++i) {
-      for (std::size_t end = 0; end < 2; ++end) {
-        double& own = most[slotOf(linkOf_[i])];
-        own = std::max(own, (one[i][end] - other[i][end]).norm());
-      }
+
+  /// How much the given poses bend around the step (m).
+  void bends(std::vector<double>& most) {
+    AxisPlaces before, from, to, after;
+    placer_.place(*step_.from, from);
+    placer_.place(*step_.to, to);
+    std::vector<AxisPlacer::Bend> given;
+    if (step_.before != nullptr) {
+      placer_.place(*step_.before, before);
+      given.push_back({&before, &from, &to});
+    }
+    if (step_.after != nullptr) {
+      placer_.place(*step_.after, after);
+      given.push_back({&from, &to, &after});
+    }
+    placer_.bends(given, most);
+  }
+
+  /// The acceleration that holds what came after the step, had it gone on (m/s^2): the rate of the
+  /// step lags by half of it.
+  void ahead(std::vector<double>& most) {
+    most.assign(countOf(skeleton_.numJoints()), 0.0);
+    const std::size_t end = std::min(frames_.size(), last_ + kAheadSteps * every_ + 1);
+    for (std::size_t frame = last_ + 1; frame < end; ++frame) {
+      const double tau = static_cast<double>(frame - last_) * frameTimeS_;
+      if (!ModelMotion::goOn(step_, tau, kMostAheadPieces, ends_)) return;
+      std::swap(pose_, ends_.back());
+      raise(frame, 0.5 * tau * (seconds_ + tau), most);
     }
   }
 
  private:
-  const Avatar& avatar_;
-  std::vector<LinkId> linkOf_;
-  ChainMotion motion_;
-  std::vector<LinkState> states_;
+  /// By where the person was at a frame and where pose_ has them.
+  void raise(std::size_t frame, double share, std::vector<double>& most) {
+    placer_.place(frames_[frame], one_);
+    placer_.place(pose_, other_);
+    placer_.differences(one_, other_, own_);
+    for (std::size_t i = 0; i < own_.size(); ++i) {
+      most[i] = std::max(most[i], std::max(0.0, own_[i] - errorM_) / share);
+    }
+  }
+
+  const std::vector<Pose>& frames_;
+  const Skeleton& skeleton_;
+  AxisPlacer placer_;
+  MotionModel model_;
+  std::size_t every_, first_ = 0, last_ = 0;
+  double frameTimeS_, seconds_, errorM_;
+  PosedStep step_;
+  ModelMotion motion_;
+  Pose pose_;
+  std::vector<Pose> ends_;
+  AxisPlaces one_, other_;
+  std::vector<double> own_;
 };
 
-/// |x0 - 2 x1 + x2| of the ends, the largest per link.
-void addBends(const AxisEndsOfPose& x0, const AxisEndsOfPose& x1, const AxisEndsOfPose& x2,
-              const std::vector<LinkId>& linkOf, double share,
-              std::vector<std::vector<double>>& bends) {
-  for (std::size_t i = 0; i < x1.size(); ++i) {
-    for (std::size_t end = 0; end < 2; ++end) {
-      const double bend = (x0[i][end] - 2.0 * x1[i][end] + x2[i][end]).norm();
-      bends[slotOf(linkOf[i])][2 * i + end] += share * bend;
+void addStep(const std::vector<BoundsLearner::Seen*>& seenOfLink, HeldBackClip& clip) {
+  std::vector<double> strays, speeds, bends, ahead;
+  clip.strays(strays);
+  clip.speeds(speeds);
+  clip.bends(bends);
+  clip.ahead(ahead);
+  for (std::size_t i = 0; i < seenOfLink.size(); ++i) {
+    if (seenOfLink[i] == nullptr) continue;
+    BoundsLearner::Seen& seen = *seenOfLink[i];
+    seen.accelerations.push_back(8.0 * strays[i] / (clip.seconds() * clip.seconds()));
+    seen.gapSpeeds.push_back(speeds[i]);
+    seen.aheadAccelerations.push_back(ahead[i]);
+    if (bends[i] > 0.0) {
+      seen.shares.push_back(std::max(0.0, strays[i] - kFollowFloor) / bends[i]);
     }
   }
 }
 
-double quantileOf(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const auto place = static_cast<std::size_t>(
-      std::ceil(share * static_cast<double>(values.size())));
-  return values[std::min(values.size() - 1, place == 0 ? 0 : place - 1)];
-}
-
-/// Two claims of which the lesser counts: each at half of what may fail, so that both together hold.
-double eachOfTwo(double quantile) {
-  return 1.0 - 0.5 * (1.0 - quantile);
+BoundEntry entryOf(const BoundsLearner::Seen& seen, const LearnRequest& request) {
+  // Two claims of which the lesser counts: each at half of what may fail, so that both hold.
+  const double each = 1.0 - 0.5 * (1.0 - request.quantile);
+  BoundEntry entry;
+  (request.isByLink ? entry.link : entry.part) = seen.part;
+  entry.model = seen.model;
+  entry.rateHz = seen.rateHz;
+  entry.bound.error = request.errorM;
+  entry.bound.acceleration = quantileOf(seen.accelerations, each);
+  if (!seen.shares.empty()) {
+    entry.bound.followFloor = kFollowFloor;
+    entry.bound.followShare = quantileOf(seen.shares, each);
+  }
+  entry.bound.speed = quantileOf(seen.gapSpeeds, request.quantile);
+  entry.bound.aheadAcceleration = quantileOf(seen.aheadAccelerations, request.quantile);
+  entry.bound.aheadSpeed = 0.5 * entry.bound.aheadAcceleration / seen.rateHz;
+  entry.quantile = request.quantile;
+  entry.count = static_cast<std::int64_t>(seen.accelerations.size());
+  return entry;
 }
 
 }  // namespace
@@ -90,138 +180,46 @@ BoundsLearner::Seen& BoundsLearner::seenOf(const std::string& part, MotionModel 
   for (Seen& seen : seen_) {
     if (seen.part == part && seen.model == model && seen.rateHz == rateHz) return seen;
   }
-  seen_.push_back({part, model, rateHz, {}, {}, {}, {}});
+  Seen seen;
+  seen.part = part;
+  seen.model = model;
+  seen.rateHz = rateHz;
+  seen_.push_back(std::move(seen));
   return seen_.back();
 }
 
 int BoundsLearner::learn(const Clip& clip, const Avatar& avatar) {
+  const std::vector<std::string> parts = boundParts(avatar.skeleton());
   int served = 0;
   for (const double rateHz : request_.ratesHz) {
     const auto every =
         static_cast<std::size_t>(std::max(1.0, std::round(1.0 / (rateHz * clip.frameTimeS))));
     if (every < 2 || clip.frames.size() <= every) continue;
     ++served;
-    for (const MotionModel model : request_.models) learnAt(clip, avatar, model, rateHz, every);
+    for (const MotionModel model : request_.models) {
+      // Named first: adding one more moves those before.
+      const auto nameOf = [&](LinkId link) -> std::string {
+        if (request_.isByLink) return avatar.skeleton().name(link);
+        return parts[slotOf(link)].empty() ? "all" : parts[slotOf(link)];
+      };
+      for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+        if (!avatar.lss(link).empty()) (void)seenOf(nameOf(link), model, rateHz);
+      }
+      std::vector<Seen*> seenOfLink;
+      for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+        const bool hasLss = !avatar.lss(link).empty();
+        seenOfLink.push_back(hasLss ? &seenOf(nameOf(link), model, rateHz) : nullptr);
+      }
+      HeldBackClip held(clip, avatar, model, every, request_.errorM);
+      for (std::size_t first = 0; held.begin(first); first += every) addStep(seenOfLink, held);
+    }
   }
   return served;
 }
 
-void BoundsLearner::learnAt(const Clip& clip, const Avatar& avatar, MotionModel model,
-                            double rateHz, std::size_t every) {
-  const Skeleton& skeleton = avatar.skeleton();
-  const std::vector<Pose>& frames = clip.frames;
-  const double seconds = static_cast<double>(every) * clip.frameTimeS;
-  const std::vector<std::string> parts = boundParts(skeleton);
-  Places places(avatar);
-  ModelMotion motion;
-  AxisEndsOfPose truth, modelled, before, from, to, after;
-  std::vector<double> own, most(countOf(skeleton.numJoints()));
-  Pose pose;
-  for (std::size_t first = 0; first + every < frames.size(); first += every) {
-    const std::size_t last = first + every;
-    PosedStep step{first >= every ? &frames[first - every] : nullptr, &frames[first], &frames[last],
-                   last + every < frames.size() ? &frames[last + every] : nullptr, seconds, seconds,
-                   seconds};
-    if (model != MotionModel::CubicLate) step.after = nullptr;
-    motion.assign(skeleton, step, model);
-    const ChainMotion constant(skeleton, *step.from, *step.to);
-    std::fill(most.begin(), most.end(), 0.0);
-    std::vector<double> speeds(most.size(), 0.0);
-    places.at(*step.from, before);
-    for (std::size_t frame = first + 1; frame <= last; ++frame) {
-      places.at(frames[frame], truth);
-      places.differences(before, truth, own);
-      for (std::size_t i = 0; i < own.size(); ++i) {
-        speeds[i] = std::max(speeds[i], own[i] / clip.frameTimeS);
-      }
-      std::swap(before, truth);
-      if (frame == last) break;
-      const double u = static_cast<double>(frame - first) / static_cast<double>(every);
-      motion.isConstantRate() ? constant.poseAt(u, pose) : motion.poseAt(u, pose);
-      places.at(pose, modelled);
-      places.differences(before, modelled, own);
-      for (std::size_t i = 0; i < own.size(); ++i) {
-        const double beyond = std::max(0.0, own[i] - request_.errorM);
-        most[i] = std::max(most[i], beyond / (4.0 * u * (1.0 - u)));
-      }
-    }
-    // How much the given poses bend around the step, as the bracket measures it.
-    std::vector<double> bends(most.size(), 0.0);
-    const int known = (step.before != nullptr ? 1 : 0) + (step.after != nullptr ? 1 : 0);
-    if (known > 0) {
-      places.at(*step.from, from);
-      places.at(*step.to, to);
-      if (step.before != nullptr) places.at(*step.before, before);
-      if (step.after != nullptr) places.at(*step.after, after);
-      for (std::size_t i = 0; i < from.size(); ++i) {
-        for (std::size_t end = 0; end < 2; ++end) {
-          double bend = 0.0;
-          if (step.before != nullptr) {
-            bend += (before[i][end] - 2.0 * from[i][end] + to[i][end]).norm();
-          }
-          if (step.after != nullptr) {
-            bend += (from[i][end] - 2.0 * to[i][end] + after[i][end]).norm();
-          }
-          double& widest = bends[slotOf(places.linkOf()[i])];
-          widest = std::max(widest, bend / known);
-        }
-      }
-    }
-    // What came after it, had the step gone on.
-    std::vector<double> ahead(most.size(), 0.0);
-    const double horizon = static_cast<double>(kAheadSteps) * seconds;
-    std::vector<Pose> ends;
-    for (std::size_t frame = last + 1; frame < std::min(frames.size(), last + kAheadSteps * every + 1);
-         ++frame) {
-      const double tau = static_cast<double>(frame - last) * clip.frameTimeS;
-      if (!ModelMotion::goOn(step, std::min(tau, horizon), countOf(32), ends)) break;
-      places.at(ends.back(), modelled);
-      places.at(frames[frame], truth);
-      places.differences(truth, modelled, own);
-      for (std::size_t i = 0; i < own.size(); ++i) {
-        const double beyond = std::max(0.0, own[i] - request_.errorM);
-        ahead[i] = std::max(ahead[i], beyond / (0.5 * tau * (seconds + tau)));
-      }
-    }
-    for (LinkId link = 0; link < skeleton.numJoints(); ++link) {
-      const auto i = slotOf(link);
-      if (avatar.lss(link).empty()) continue;
-      const std::string name = request_.isByLink ? skeleton.name(link)
-                               : parts[i].empty() ? "all"
-                                                  : parts[i];
-      Seen& seen = seenOf(name, model, rateHz);
-      seen.accelerations.push_back(8.0 * most[i] / (seconds * seconds));
-      seen.gapSpeeds.push_back(speeds[i]);
-      seen.aheadAccelerations.push_back(ahead[i]);
-      if (bends[i] > 0.0) {
-        seen.shares.push_back(std::max(0.0, most[i] - kFollowFloor) / bends[i]);
-      }
-    }
-  }
-}
-
 BoundsFile BoundsLearner::bounds() const {
   BoundsFile file;
-  const double each = eachOfTwo(request_.quantile);
-  for (const Seen& seen : seen_) {
-    BoundEntry entry;
-    (request_.isByLink ? entry.link : entry.part) = seen.part;
-    entry.model = seen.model;
-    entry.rateHz = seen.rateHz;
-    entry.bound.error = request_.errorM;
-    entry.bound.acceleration = quantileOf(seen.accelerations, each);
-    if (!seen.shares.empty()) {
-      entry.bound.followFloor = kFollowFloor;
-      entry.bound.followShare = quantileOf(seen.shares, each);
-    }
-    entry.bound.speed = quantileOf(seen.gapSpeeds, request_.quantile);
-    // Rates of the last step lag by half a step.
-    entry.bound.aheadAcceleration = quantileOf(seen.aheadAccelerations, request_.quantile);
-    entry.bound.aheadSpeed = 0.5 * entry.bound.aheadAcceleration / seen.rateHz;
-    entry.quantile = request_.quantile;
-    entry.count = static_cast<std::int64_t>(seen.accelerations.size());
-    file.entries.push_back(std::move(entry));
-  }
+  for (const Seen& seen : seen_) file.entries.push_back(entryOf(seen, request_));
   return file;
 }
 

@@ -29,20 +29,18 @@ class BoundsLearner {
 
   /// How many of the rates the clip serves: it must have two frames or more per given pose.
   int learn(const Clip& clip, const Avatar& avatar);
-  /// One entry per part (or link), model and rate; where more than one clip had a rate, of the
-  /// nearest given one.
+  /// One entry per part (or link), model and rate.
   [[nodiscard]] BoundsFile bounds() const;
 
- private:
-  /// Of one part, model and rate; per step what was needed.
+  /// Of one part, model and rate: what each link needed in each step.
   struct Seen {
     std::string part;
-    MotionModel model;
-    double rateHz;
+    MotionModel model = MotionModel::CubicLate;
+    double rateHz = 0.0;
     std::vector<double> accelerations, shares, gapSpeeds, aheadAccelerations;
   };
-  void learnAt(const Clip& clip, const Avatar& avatar, MotionModel model, double rateHz,
-               std::size_t every);
+
+ private:
   [[nodiscard]] Seen& seenOf(const std::string& part, MotionModel model, double rateHz);
 
   LearnRequest request_;

@@ -1,4 +1,4 @@
-#include "bench/lists.h"
+#include "tools/settings/lists.h"
 
 #include <algorithm>
 #include <utility>

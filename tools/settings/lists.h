@@ -1,11 +1,11 @@
-// bench/lists.h: settings whose value is a list, separated by commas.
+// tools/settings/lists.h: settings whose value is a list, separated by commas.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "assets/file_frame.h"
 #include "lss/simd.h"
-#include "tools/inputs/replay_inputs.h"
 #include "tools/settings/settings.h"
 
 namespace foretouch::tools {

@@ -1,0 +1,316 @@
+#include "tools/person/person_touches.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "articulated/try.h"
+#include "assets/json_writer.h"
+#include "lss/index.h"
+#include "tools/person/axis_places.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// A clip breaks a bound beyond this (m): poses and places are rounded in files.
+constexpr double kBreaks = 1e-6;
+
+/// Joins the brackets of steps, link by link and pair by pair.
+class PersonTracker {
+ public:
+  PersonTracker(const ReplayInputs& inputs, std::vector<LinkBound> bounds)
+      : inputs_(inputs), bounds_(std::move(bounds)), placer_(inputs.avatar) {}
+
+  void add(std::int64_t step, const StepBrackets& brackets) {
+    isFirst_ = step == 0;
+    t0S_ = inputs_.timeOfStep(step);
+    t1S_ = inputs_.timeOfStep(step + 1);
+    for (const LinkBracket& bracket : brackets.links) {
+      if (inputs_.avatar.lss(bracket.link).empty()) continue;
+      count(bracket);
+      take(bracket);
+    }
+    for (const LinkBracket& bracket : brackets.pairs) take(bracket);
+    closeUnseen(step);
+  }
+
+  /// Whether the frames that were left out are within the bounds.
+  Result<Done> check(std::int64_t step, const PosedStep& posed, MotionModel model,
+                     const StepBrackets& brackets) {
+    const std::int64_t first = inputs_.steps.frameOf(step);
+    const std::int64_t last = inputs_.steps.frameOf(step + 1);
+    if (last - first < 2) return Done{};
+    model_.assign(inputs_.avatar.skeleton(), posed, model);
+    const ChainMotion constant(inputs_.avatar.skeleton(), *posed.from, *posed.to);
+    Pose pose;
+    for (std::int64_t frame = first + 1; frame < last; ++frame) {
+      const double u = static_cast<double>(frame - first) / static_cast<double>(last - first);
+      model_.isConstantRate() ? constant.poseAt(u, pose) : model_.poseAt(u, pose);
+      FORETOUCH_TRY(const Pose truth, poseAtFrame(inputs_, frame));
+      placer_.place(truth, truth_);
+      placer_.place(pose, modelled_);
+      placer_.differences(truth_, modelled_, apart_);
+      for (const LinkBracket& bracket : brackets.links) {
+        if (bracket.verdict != BracketVerdict::Unclaimed) checkLink(bracket, frame, u);
+      }
+    }
+    return Done{};
+  }
+
+  PersonAnswer finish() {
+    for (auto& [key, open] : open_) {
+      open.touch.endsAfter = true;
+      close(open.touch);
+    }
+    std::stable_sort(
+        answer_.touches.begin(), answer_.touches.end(),
+        [](const PersonTouch& x, const PersonTouch& y) { return x.beginsS[0] < y.beginsS[0]; });
+    return std::move(answer_);
+  }
+
+ private:
+  struct Open {
+    PersonTouch touch;
+    bool isSeen = false;  // in the step at hand
+    bool goesOn = false;  // to the step's end
+  };
+
+  void count(const LinkBracket& bracket) {
+    PersonCounts& counts = answer_.counts;
+    ++counts.intervals;
+    switch (bracket.verdict) {
+      case BracketVerdict::Unclaimed: ++counts.unclaimed; break;
+      case BracketVerdict::Excluded: ++counts.excluded; break;
+      case BracketVerdict::Possible: ++counts.possible; break;
+      case BracketVerdict::Certain: ++counts.certain; break;
+    }
+  }
+
+  [[nodiscard]] double timeAt(double t) const { return t0S_ + t * (t1S_ - t0S_); }
+
+  void take(const LinkBracket& bracket) {
+    if (bracket.verdict != BracketVerdict::Possible && bracket.verdict != BracketVerdict::Certain) {
+      return;
+    }
+    const std::pair<LinkId, LinkId> key{bracket.link, bracket.other};
+    const auto known = open_.find(key);
+    // What ended with the step before, and may begin at once, is one touch.
+    const bool goesOn = known != open_.end() && bracket.possibleFrom == 0.0;
+    if (known != open_.end() && !goesOn) {
+      close(known->second.touch);
+      open_.erase(known);
+    }
+    Open& open = open_[key];
+    if (!goesOn) begin(bracket, open.touch);
+    open.isSeen = true;
+    open.goesOn = bracket.possibleUntil == 1.0;
+    open.touch.endsS[1] = timeAt(bracket.possibleUntil);
+    if (bracket.verdict != BracketVerdict::Certain) return;
+    if (!open.touch.isCertain) open.touch.beginsS[1] = timeAt(bracket.certainFrom);
+    open.touch.isCertain = true;
+    open.touch.endsS[0] = timeAt(bracket.certainUntil);
+  }
+
+  void begin(const LinkBracket& bracket, PersonTouch& touch) const {
+    touch.link = bracket.link;
+    touch.other = bracket.other;
+    touch.triangle = bracket.triangle;
+    touch.beginsS[0] = timeAt(bracket.possibleFrom);
+    touch.beginsBefore = isFirst_ && bracket.possibleFrom == 0.0;
+  }
+
+  void close(const PersonTouch& touch) { answer_.touches.push_back(touch); }
+
+  void closeUnseen(std::int64_t /*step*/) {
+    for (auto it = open_.begin(); it != open_.end();) {
+      Open& open = it->second;
+      const bool isOver = !open.isSeen || !open.goesOn;
+      open.isSeen = false;
+      if (isOver) close(open.touch);
+      it = isOver ? open_.erase(it) : std::next(it);
+    }
+  }
+
+  void checkLink(const LinkBracket& bracket, std::int64_t frame, double u) {
+    const double error = bounds_[slotOf(bracket.link)].error;
+    const double rho = error + 4.0 * (bracket.growth - error) * u * (1.0 - u);
+    const double beyond = apart_[slotOf(bracket.link)] - rho;
+    if (!(beyond > kBreaks)) return;
+    PersonCounts& counts = answer_.counts;
+    ++counts.broken;
+    if (beyond <= counts.worstM) return;
+    counts.worstM = beyond;
+    counts.worstLink = bracket.link;
+    counts.worstS = static_cast<double>(frame) * inputs_.clip.frameTimeS;
+  }
+
+  const ReplayInputs& inputs_;
+  std::vector<LinkBound> bounds_;
+  AxisPlacer placer_;
+  ModelMotion model_;
+  AxisPlaces truth_, modelled_;
+  std::vector<double> apart_;
+  std::map<std::pair<LinkId, LinkId>, Open> open_;
+  bool isFirst_ = false;
+  double t0S_ = 0.0, t1S_ = 0.0;
+  PersonAnswer answer_;
+};
+
+/// The four poses around a step, of which each is read once.
+class PosesAround {
+ public:
+  PosesAround(const ReplayInputs& inputs, MotionModel model) : inputs_(inputs), model_(model) {}
+
+  Result<PosedStep> at(std::int64_t step) {
+    for (; next_ < std::min(step + 3, inputs_.steps.count + 1); ++next_) {
+      FORETOUCH_TRY(poses_[slotOf(next_ % kKept)],
+                    poseAtFrame(inputs_, inputs_.steps.frameOf(next_)));
+    }
+    const auto poseOf = [&](std::int64_t i) -> const Pose* {
+      return i >= 0 && i <= inputs_.steps.count ? &poses_[slotOf(i % kKept)] : nullptr;
+    };
+    const double seconds = inputs_.timeOfStep(1) - inputs_.timeOfStep(0);
+    const bool isLate = model_ == MotionModel::CubicLate;
+    return PosedStep{
+        poseOf(step - 1), poseOf(step), poseOf(step + 1), isLate ? poseOf(step + 2) : nullptr,
+        seconds,          seconds,      seconds};
+  }
+
+ private:
+  static constexpr std::int64_t kKept = 4;
+  const ReplayInputs& inputs_;
+  MotionModel model_;
+  std::int64_t next_ = 0;
+  Pose poses_[kKept];
+};
+
+Result<BracketQuery> queryOf(const ReplayInputs& inputs) {
+  BracketOptions options;
+  if (inputs.query.fidelity == Fidelity::Exact) options.surface = inputs.query.surface;
+  options.self = inputs.query.self;
+  options.ignored = inputs.query.ignored;
+  return BracketQuery::build(inputs.avatar, inputs.scene, options);
+}
+
+void writeTimes(const char* name, const PersonTouch& touch, const double (&times)[2],
+                JsonWriter& out) {
+  out.key(name);
+  out.beginArray();
+  out.value(times[0]);
+  touch.isCertain ? out.value(times[1]) : out.null();
+  out.endArray();
+}
+
+}  // namespace
+
+Result<PersonAnswer> personTouches(const ReplayInputs& inputs, const PersonRequest& request) {
+  FORETOUCH_TRY(const BoundsFile file, readBoundsFile(request.boundsPath));
+  const double rateHz = 1.0 / (inputs.timeOfStep(1) - inputs.timeOfStep(0));
+  FORETOUCH_TRY(auto bounds, inFile(boundsOf(file, inputs.avatar.skeleton(), request.model, rateHz),
+                                    request.boundsPath));
+  FORETOUCH_TRY(const BracketQuery query, queryOf(inputs));
+  PersonTracker tracker(inputs, bounds.bounds);
+  PosesAround poses(inputs, request.model);
+  Scratch scratch;
+  StepBrackets brackets;
+  for (std::int64_t step = 0; step < inputs.steps.count; ++step) {
+    FORETOUCH_TRY(const PosedStep posed, poses.at(step));
+    FORETOUCH_CHECK(query.answer(posed, request.model, bounds.bounds, scratch, brackets));
+    tracker.add(step, brackets);
+    FORETOUCH_CHECK(tracker.check(step, posed, request.model, brackets));
+  }
+  PersonAnswer answer = tracker.finish();
+  answer.rateHz = rateHz;
+  for (LinkId link = 0; link < inputs.avatar.numLinks(); ++link) {
+    if (!inputs.avatar.lss(link).empty() && bounds.entryOf[slotOf(link)] < 0) {
+      answer.unclaimed.push_back(link);
+    }
+  }
+  return answer;
+}
+
+std::string personLines(const ReplayInputs& inputs, const PersonRequest& request,
+                        const PersonAnswer& answer) {
+  const Skeleton& skeleton = inputs.avatar.skeleton();
+  std::string text;
+  JsonWriter out(text);
+  for (const PersonTouch& touch : answer.touches) {
+    out.beginObject();
+    out.key("person_touch");
+    out.beginObject();
+    out.field("link", skeleton.name(touch.link));
+    if (touch.other != kNoParent) out.field("other", skeleton.name(touch.other));
+    if (touch.triangle >= 0) {
+      out.field("object", inputs.scene.objectNames()[slotOf(inputs.scene.object(touch.triangle))]);
+      out.field("triangle", touch.triangle);
+    }
+    out.field("verdict", touch.isCertain ? "certain" : "possible");
+    writeTimes("begins_s", touch, touch.beginsS, out);
+    out.key("ends_s");
+    out.beginArray();
+    touch.isCertain ? out.value(touch.endsS[0]) : out.null();
+    out.value(touch.endsS[1]);
+    out.endArray();
+    if (touch.beginsBefore) out.field("begins_before", true);
+    if (touch.endsAfter) out.field("ends_after", true);
+    out.endObject();
+    out.endObject();
+    text += "\n";
+  }
+  const PersonCounts& counts = answer.counts;
+  out.beginObject();
+  out.key("person");
+  out.beginObject();
+  out.field("between", toString(request.model));
+  out.field("rate_hz", answer.rateHz);
+  out.field("link_steps", counts.intervals);
+  out.field("excluded", counts.excluded);
+  out.field("possible", counts.possible);
+  out.field("certain", counts.certain);
+  out.field("unclaimed", counts.unclaimed);
+  out.field("bounds_broken", counts.broken);
+  if (counts.broken > 0) {
+    out.field("worst_link", skeleton.name(counts.worstLink));
+    out.field("worst_s", counts.worstS);
+    out.field("worst_m", counts.worstM);
+  }
+  out.endObject();
+  out.endObject();
+  return text + "\n";
+}
+
+std::string personText(const ReplayInputs& inputs, const PersonRequest& request,
+                       const PersonAnswer& answer) {
+  const PersonCounts& counts = answer.counts;
+  const auto certain = std::count_if(answer.touches.begin(), answer.touches.end(),
+                                     [](const PersonTouch& touch) { return touch.isCertain; });
+  const auto percent = [&](std::int64_t part) {
+    return counts.intervals == 0
+               ? 0.0
+               : 100.0 * static_cast<double>(part) / static_cast<double>(counts.intervals);
+  };
+  std::string text = fmt::format(
+      "\nthe person, within the bounds of {} ({}, {:.3g} poses per second):\n"
+      "{:<22}{:>10}\n{:<22}{:>10}\n{:<22}{:>10.2f} %   of links and steps: touched nothing\n"
+      "{:<22}{:>10.2f} %\n{:<22}{:>10.2f} %\n",
+      request.boundsPath, toString(request.model), answer.rateHz, "surely touched", certain,
+      "perhaps touched", static_cast<std::int64_t>(answer.touches.size()) - certain, "excluded",
+      percent(counts.excluded), "certain", percent(counts.certain), "undecided",
+      percent(counts.possible));
+  if (counts.unclaimed > 0) {
+    text += fmt::format("{:<22}{:>10.2f} %   nothing is claimed: {} of the links have no bound\n",
+                        "unclaimed", percent(counts.unclaimed), answer.unclaimed.size());
+  }
+  if (counts.broken > 0) {
+    text += fmt::format(
+        "the clip breaks its bounds at {} of the poses that were left out, link by link: {} at "
+        "{:.3f} s by {:.1f} mm; what is said there does not hold\n",
+        counts.broken, inputs.avatar.skeleton().name(counts.worstLink), counts.worstS,
+        1e3 * counts.worstM);
+  }
+  return text;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,61 @@
+// tools/person/person_touches.h: what the person of a replay surely touched and may have touched,
+// by bounds on how far the person may be from a model of the motion: touches with brackets of their
+// begins and ends, and whether the clip itself breaks a bound. Seconds from the clip's first frame.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "articulated/motion_model.h"
+#include "articulated/result.h"
+#include "assets/bounds/bounds_file.h"
+#include "middleware/bracket/bracket_query.h"
+#include "tools/inputs/replay_inputs.h"
+
+namespace foretouch::tools {
+
+struct PersonRequest {
+  std::string boundsPath;  ///< Empty: not asked.
+  MotionModel model = MotionModel::ConstantRate;
+  [[nodiscard]] bool isAsked() const { return !boundsPath.empty(); }
+};
+
+/// Nothing is touched before beginsS[0] and after endsS[1]; if it is certain, the touch began by
+/// beginsS[1] and had not ended before endsS[0].
+struct PersonTouch {
+  LinkId link = 0, other = kNoParent;
+  TriangleId triangle = -1;  ///< Of the scene, that was, or may have been, touched first.
+  bool isCertain = false;
+  double beginsS[2] = {0.0, 0.0}, endsS[2] = {0.0, 0.0};
+  bool beginsBefore = false, endsAfter = false;  ///< The clip begins, or ends, in it.
+};
+
+struct PersonCounts {
+  std::int64_t intervals = 0;  ///< Links that have LSS, times steps.
+  std::int64_t excluded = 0, possible = 0, certain = 0, unclaimed = 0;
+  std::int64_t broken = 0;  ///< Frames, link by link, at which the clip breaks the bound.
+  LinkId worstLink = 0;     ///< Of them, the one by most: when, and by how much (m).
+  double worstS = 0.0, worstM = 0.0;
+};
+
+struct PersonAnswer {
+  std::vector<PersonTouch> touches;  ///< In the order of their begins.
+  PersonCounts counts;
+  std::vector<LinkId> unclaimed;  ///< Links with LSS that the file has no bound for.
+  double rateHz = 0.0;
+};
+
+/// Asks every step, in order. Errors: those of the file, of boundsOf() and of poses.
+[[nodiscard]] Result<PersonAnswer> personTouches(const ReplayInputs& inputs,
+                                                 const PersonRequest& request);
+
+/// Lines of the results (docs/formats.md): one per touch, and one with the counts.
+[[nodiscard]] std::string personLines(const ReplayInputs& inputs, const PersonRequest& request,
+                                      const PersonAnswer& answer);
+/// For people.
+[[nodiscard]] std::string personText(const ReplayInputs& inputs, const PersonRequest& request,
+                                     const PersonAnswer& answer);
+
+}  // namespace foretouch::tools
