@@ -108,14 +108,27 @@ bool isTouching(const LinkContact& contact) {
   return contact.verdict == Verdict::Contact || contact.verdict == Verdict::StartsInContact;
 }
 
+namespace {
+
+/// Triangles have no inside.
+bool startsAtUnknownDepth(const LinkContact& contact) {
+  return contact.verdict == Verdict::StartsInContact && !(contact.penetration > 0.0);
+}
+
+}  // namespace
+
 std::string textOf(const Contact& contact) {
   const LinkContact& c = contactOf(contact);
   const std::string subject = subjectOf(contact, c);
   std::array<char, 96> numbers{};
   if (isTouching(c)) {
     const bool begins = c.verdict == Verdict::StartsInContact;
-    std::snprintf(numbers.data(), numbers.size(), " at t=%.6g, %.3g mm %s", c.toi,
-                  1e3 * (begins ? c.penetration : c.separation), begins ? "deep" : "apart");
+    if (startsAtUnknownDepth(c)) {
+      std::snprintf(numbers.data(), numbers.size(), " at t=%.6g", c.toi);
+    } else {
+      std::snprintf(numbers.data(), numbers.size(), " at t=%.6g, %.3g mm %s", c.toi,
+                    1e3 * (begins ? c.penetration : c.separation), begins ? "deep" : "apart");
+    }
     return subject + (begins ? " starts in contact with " : " meets ") + metBy(contact, c) +
            numbers.data() + endOf(contact, c);
   }
@@ -150,9 +163,12 @@ void bindContact(py::module_& module) {
       .def_property_readonly(
           "separation", ofTouch([](const Contact&, const LinkContact& c) { return c.separation; }),
           "At toi, at most the tolerance.")
-      .def_property_readonly("penetration", ofTouch([](const Contact&, const LinkContact& c) {
-                               return c.penetration;
-                             }))
+      .def_property_readonly(
+          "penetration", ofTouch([](const Contact&, const LinkContact& c) -> py::object {
+            if (startsAtUnknownDepth(c)) return py::none();
+            return py::float_(c.penetration);
+          }),
+          "How deep it starts in contact; None if that is not known, as of triangles.")
       .def_property_readonly("point", pointOf(&LinkContact::p_WScene), "(3,), on the scene.")
       .def_property_readonly("on_link", pointOf(&LinkContact::p_WLink), "(3,), on the link.")
       .def_property_readonly("normal", pointOf(&LinkContact::nhat_SL_W),

@@ -36,6 +36,11 @@ bool feedJointTable(const std::uint8_t* data, std::size_t size) {
       "names differ");
   require(read.rows.size() >= 2 && read.lines.size() == read.rows.size(), "every row has a line");
   require(std::isfinite(read.frameTimeS) && read.frameTimeS > 0.0, "time goes on");
+  require(read.roots.empty() || read.roots.size() == read.rows.size(), "every row has a root");
+  for (const RigidPose& root : read.roots) {
+    require(root.translation.allFinite() && std::abs(root.rotation.norm() - 1.0) < 1e-9,
+            "a root is a rigid pose");
+  }
   for (const std::vector<double>& row : read.rows) {
     require(row.size() == read.joints.size(), "every joint has a value");
     for (const double value : row) require(std::isfinite(value), "values are finite");

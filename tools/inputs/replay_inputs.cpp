@@ -16,6 +16,7 @@
 #include "lss/index.h"
 #include "middleware/query_options.h"
 #include "tools/console.h"
+#include "tools/inputs/apart_meshes.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/first_pose.h"
 #include "tools/inputs/ignored_pairs.h"
@@ -183,8 +184,10 @@ std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
   if (inputs.query.self && request.pairsPath.empty() && !inputs.query.self->leftOut().empty()) {
     remarks.push_back(remarkOnPairs(request, *inputs.query.self));
   }
-  const auto meshes = remarkOnMeshes(inputs.query, request.avatarPath);
-  if (meshes) remarks.push_back(*meshes);
+  for (const auto& remark :
+       {remarkOnApartMeshes(inputs), remarkOnMeshes(inputs.query, request.avatarPath)}) {
+    if (remark) remarks.push_back(*remark);
+  }
   addFrameRemarks(inputs, remarks);
   return remarks;
 }

@@ -88,6 +88,73 @@ void addInstant(Settings& settings, const char* option, const char* key,
   });
 }
 
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : ",") + text;
+  return all;
+}
+
+void addColumns(Settings& settings, JointTableOptions& table) {
+  settings
+      .parsed(
+          "--columns", "NAMES",
+          [&table](const std::string& text) -> Result<Done> {
+            table.columns = splitAtCommas(text);
+            return Done{};
+          },
+          [&table] { return joined(table.columns); },
+          "Columns of a robot's table without a header: their names, or a layout: lafan1-g1, "
+          "bones-seed-g1")
+      .in(kInputGroup)
+      .inConfig("clip", "columns")
+      .inHeader("columns")
+      .inReport("columns")
+      .namedIf([&table] { return !table.columns.empty(); });
+}
+
+/// What a robot's table does not say itself.
+void addTableSettings(Settings& settings, JointTableOptions& table) {
+  addColumns(settings, table);
+  Setting& rate = settings.number("--row-rate", "HZ", table.rateHz, kAboveZero, "",
+                                  "Rows per second of a robot's table without times");
+  rate.shown = [&table] { return table.rateHz ? numberText(*table.rateHz) : kAsFileSays; };
+  rate.in(kInputGroup)
+      .inConfig("clip", "row_rate")
+      .inHeader("row_rate")
+      .inReport("rows per second")
+      .namedIf([&table] { return table.rateHz.has_value(); });
+  Setting& order = settings.word<std::optional<QuaternionOrder>>(
+      "--quaternion", "ORDER", table.quaternion,
+      {{"xyzw", QuaternionOrder::Xyzw}, {"wxyz", QuaternionOrder::Wxyz}},
+      "Order of the root's quaternion in an npz, unless the array's name says it");
+  const auto shown = [&table]() -> std::string {
+    if (!table.quaternion) return kAsFileSays;
+    return *table.quaternion == QuaternionOrder::Xyzw ? "xyzw" : "wxyz";
+  };
+  order.shown = order.told = shown;
+  order.json = [shown] { return jsonString(shown()); };
+  order.in(kUnitsGroup)
+      .inConfig("clip", "quaternion")
+      .inHeader("quaternion")
+      .inReport("quaternions")
+      .namedIf([&table] { return table.quaternion.has_value(); });
+  settings
+      .word<bool>("--angles", "UNIT", table.isInDegrees, {{"radians", false}, {"degrees", true}},
+                  "Unit of the angles of a robot's table")
+      .in(kUnitsGroup)
+      .inConfig("clip", "angles")
+      .inHeader("angles")
+      .inReport("angles")
+      .namedIf([&table] { return table.isInDegrees; });
+  addUnit(settings, "--table-scale", table.metresPerUnit,
+          "Metres per unit of the lengths of a robot's table: 0.01 for centimetres")
+      .in(kUnitsGroup)
+      .inConfig("clip", "table_scale")
+      .inHeader("table_scale")
+      .inReport("table's unit")
+      .namedIf([&table] { return table.metresPerUnit.has_value(); });
+}
+
 void addSourceSettings(Settings& settings, ClipRequest& request) {
   settings
       .text("--animation", "NAME", request.animation,
@@ -104,6 +171,7 @@ void addSourceSettings(Settings& settings, ClipRequest& request) {
       .inHeader("robot")
       .inReport("robot")
       .namedIf([&request] { return !request.robotPath.empty(); });
+  addTableSettings(settings, request.table);
   settings
       .path("--map", "FILE", request.mapPath,
             R"(Joint names that differ: {"avatar joint": "clip joint"})")
