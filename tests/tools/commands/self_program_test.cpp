@@ -206,7 +206,8 @@ TEST(SelfReplay, RefusesByNameWhatCannotBeHonoured) {
   EXPECT_TRUE(holds(none.err, "--self: expected at least one pair of links to ask")) << none.err;
 }
 
-/// Two plates, 80 mm apart, on both ends of a pin that turns a little: the LSS around them overlap.
+/// Two plates, 80 mm apart, on both ends of a pin, and a knob on them: the LSS around the plates
+/// overlap.
 std::string platesUrdf() {
   const auto link = [](const std::string& name, const std::string& shape) {
     return "<link name=\"" + name + "\"><collision><geometry>" + shape +
@@ -220,7 +221,8 @@ std::string platesUrdf() {
   };
   const std::string plate = "<box size=\"0.4 0.4 0.02\"/>";
   return "<robot name=\"plates\">" + link("low", plate) + link("pin", "<sphere radius=\"0.01\"/>") +
-         link("high", plate) + turn("low", "pin") + turn("pin", "high") + "</robot>";
+         link("high", plate) + link("knob", "<sphere radius=\"0.01\"/>") + turn("high", "knob") +
+         turn("low", "pin") + turn("pin", "high") + "</robot>";
 }
 
 TEST(SelfReplay, HintsAtMeshesThatAreApartThoughTheirLssTouch) {
