@@ -76,9 +76,11 @@ std::optional<Error> readHeader(std::string_view line, std::int64_t number,
                                 const std::string& first, JointTable& table) {
   const auto names = cellsOf(line);
   if (!first.empty() && !isKeyword(names.front(), first.c_str())) {
+    const bool isNumber = readBvhNumber(names.front()).problem == nullptr;
     return bvhError(
         ErrorCode::Syntax, number,
-        "expected a header that begins with " + first + ", found " + inQuotes(names.front()));
+        "expected a header that begins with " + first + ", found " + inQuotes(names.front()) +
+            (isNumber ? "; of a table without one, say what its columns are called" : ""));
   }
   if ((!first.empty() && names.size() < 2) || names.size() > kMaxCells) {
     return bvhError(ErrorCode::OutOfRange, number,

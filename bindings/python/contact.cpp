@@ -76,6 +76,16 @@ py::object triangleOf(const Contact&, const LinkContact& c) {
   return py::int_(c.triangle);
 }
 
+/// Triangles have no inside.
+bool startsAtUnknownDepth(const LinkContact& contact) {
+  return contact.verdict == Verdict::StartsInContact && !(contact.penetration > 0.0);
+}
+
+py::object penetrationOf(const Contact&, const LinkContact& c) {
+  if (startsAtUnknownDepth(c)) return py::none();
+  return py::float_(c.penetration);
+}
+
 /// Both links, where they are named.
 std::string subjectOf(const Contact& contact, const LinkContact& c) {
   const std::string& link = contact.answers->avatar->skeleton().name(c.link);
@@ -107,15 +117,6 @@ const LinkContact& contactOf(const Contact& contact) {
 bool isTouching(const LinkContact& contact) {
   return contact.verdict == Verdict::Contact || contact.verdict == Verdict::StartsInContact;
 }
-
-namespace {
-
-/// Triangles have no inside.
-bool startsAtUnknownDepth(const LinkContact& contact) {
-  return contact.verdict == Verdict::StartsInContact && !(contact.penetration > 0.0);
-}
-
-}  // namespace
 
 std::string textOf(const Contact& contact) {
   const LinkContact& c = contactOf(contact);
@@ -163,12 +164,8 @@ void bindContact(py::module_& module) {
       .def_property_readonly(
           "separation", ofTouch([](const Contact&, const LinkContact& c) { return c.separation; }),
           "At toi, at most the tolerance.")
-      .def_property_readonly(
-          "penetration", ofTouch([](const Contact&, const LinkContact& c) -> py::object {
-            if (startsAtUnknownDepth(c)) return py::none();
-            return py::float_(c.penetration);
-          }),
-          "How deep it starts in contact; None if that is not known, as of triangles.")
+      .def_property_readonly("penetration", ofTouch(&penetrationOf),
+                             "How deep it starts; None if that is not known, as of triangles.")
       .def_property_readonly("point", pointOf(&LinkContact::p_WScene), "(3,), on the scene.")
       .def_property_readonly("on_link", pointOf(&LinkContact::p_WLink), "(3,), on the link.")
       .def_property_readonly("normal", pointOf(&LinkContact::nhat_SL_W),

@@ -6,21 +6,17 @@
 
 #include <fmt/format.h>
 
-#include "lss/index.h"
 #include "middleware/query/query.h"
 #include "tools/inputs/played_clip.h"
 
 namespace foretouch::tools {
 namespace {
 
-/// Poses that are looked at, evenly spread: each costs the meshes of the pairs in question.
-constexpr std::int64_t kLooks = 24;
-
 /// Pairs that are left out because their LSS touch, not because one moves the other.
-std::vector<LinkPair> leftOutByLss(const ReplayInputs& inputs) {
+std::vector<LinkPair> leftOutByLss(const QueryOptions& query) {
   std::vector<LinkPair> pairs;
-  const auto hasMesh = [&](LinkId link) { return !inputs.query.surface->triangles(link).empty(); };
-  for (const LeftOutPair& pair : inputs.query.self->leftOut()) {
+  const auto hasMesh = [&](LinkId link) { return !query.surface->triangles(link).empty(); };
+  for (const LeftOutPair& pair : query.self->leftOut()) {
     const bool isByLss =
         pair.reason == PairReason::RestOverlap || pair.reason == PairReason::Always;
     if (isByLss && hasMesh(pair.a) && hasMesh(pair.b)) pairs.push_back({pair.a, pair.b});
@@ -42,32 +38,24 @@ void dropTouching(const Query& query, const Pose& pose, std::vector<LinkPair>& p
 
 }  // namespace
 
-std::optional<std::string> remarkOnApartMeshes(const ReplayInputs& inputs) {
-  const bool asksMeshes = inputs.query.fidelity == Fidelity::Exact && inputs.query.surface &&
-                          inputs.query.self && inputs.request.pairsPath.empty();
-  if (!asksMeshes) return std::nullopt;
-  std::vector<LinkPair> pairs = leftOutByLss(inputs);
-  if (pairs.empty()) return std::nullopt;
+std::optional<std::string> remarkOnApartMeshes(const Avatar& avatar, const Scene& scene,
+                                               const QueryOptions& query,
+                                               const std::vector<Pose>& poses) {
+  if (query.fidelity != Fidelity::Exact || !query.surface || !query.self) return std::nullopt;
+  std::vector<LinkPair> pairs = leftOutByLss(query);
+  auto asking = PairRules::asking(avatar, pairs);  // an error if there are none
+  if (!asking.ok()) return std::nullopt;
   QueryOptions options;
   options.fidelity = Fidelity::Exact;
-  options.surface = inputs.query.surface;
-  auto asking = PairRules::asking(inputs.avatar, pairs);
-  if (!asking.ok()) return std::nullopt;
+  options.surface = query.surface;
   options.self = std::move(asking).value();
-  const auto query = Query::build(inputs.avatar, inputs.scene, options);
-  if (!query.ok()) return std::nullopt;
-  const std::int64_t looks = std::min(kLooks, inputs.steps.count + 1);
-  for (std::int64_t i = 0; i < looks && !pairs.empty(); ++i) {
-    const std::int64_t step = inputs.steps.count * i / std::max<std::int64_t>(1, looks - 1);
-    const auto pose = poseAtFrame(inputs, inputs.steps.frameOf(step));
-    if (!pose.ok()) return std::nullopt;  // the replay itself will say why
-    dropTouching(query.value(), pose.value(), pairs);
-  }
-  if (pairs.empty()) return std::nullopt;
+  const auto asked = Query::build(avatar, scene, options);
+  if (!asked.ok()) return std::nullopt;
+  for (const Pose& pose : poses) dropTouching(asked.value(), pose, pairs);
+  if (pairs.empty() || poses.empty()) return std::nullopt;
   std::vector<std::string> names;
   for (const LinkPair& pair : pairs) {
-    names.push_back(inputs.avatar.skeleton().name(pair.a) + ":" +
-                    inputs.avatar.skeleton().name(pair.b));
+    names.push_back(avatar.skeleton().name(pair.a) + ":" + avatar.skeleton().name(pair.b));
   }
   return fmt::format(
       "--self: {} left out because their LSS touch, though their meshes are apart at each of {} "
@@ -75,7 +63,7 @@ std::optional<std::string> remarkOnApartMeshes(const ReplayInputs& inputs) {
       "(-o), and give these as --pairs",
       pairs.size() == 1 ? "1 pair of own links is"
                         : fmt::format("{} pairs of own links are", pairs.size()),
-      looks, firstOf(names));
+      poses.size(), firstOf(names));
 }
 
 }  // namespace foretouch::tools

@@ -4,13 +4,20 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "tools/inputs/replay_inputs.h"
+#include "articulated/avatar.h"
+#include "articulated/skeleton.h"
+#include "middleware/query_options.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::tools {
 
-/// Of a replay at exact fidelity whose pair rules are derived: how many pairs these are, by some
-/// poses of the clip, and how to ask about them. Nothing if there are none.
-[[nodiscard]] std::optional<std::string> remarkOnApartMeshes(const ReplayInputs& inputs);
+/// Of a query at exact fidelity with derived pair rules: which pairs these are, by `poses` of the
+/// avatar, and how to ask about them. Nothing if there are none, or if it is no such query.
+[[nodiscard]] std::optional<std::string> remarkOnApartMeshes(const Avatar& avatar,
+                                                             const Scene& scene,
+                                                             const QueryOptions& query,
+                                                             const std::vector<Pose>& poses);
 
 }  // namespace foretouch::tools

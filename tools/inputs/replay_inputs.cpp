@@ -171,6 +171,19 @@ void addFrameRemarks(const ReplayInputs& inputs, std::vector<std::string>& remar
   if (lying) remarks.push_back(*lying);
 }
 
+/// Some poses that are played, evenly spread.
+std::vector<Pose> someOf(const ReplayInputs& inputs) {
+  constexpr std::int64_t kMost = 24;  // each costs the meshes that a remark is about
+  std::vector<Pose> poses;
+  const std::int64_t count = std::min(kMost, inputs.steps.count + 1);
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::int64_t step = inputs.steps.count * i / (count - 1);
+    auto pose = poseAtFrame(inputs, inputs.steps.frameOf(step));
+    if (pose.ok()) poses.push_back(std::move(pose).value());
+  }
+  return poses;
+}
+
 }  // namespace
 
 std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
@@ -185,7 +198,10 @@ std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
     remarks.push_back(remarkOnPairs(request, *inputs.query.self));
   }
   for (const auto& remark :
-       {remarkOnApartMeshes(inputs), remarkOnMeshes(inputs.query, request.avatarPath)}) {
+       {request.pairsPath.empty()
+            ? remarkOnApartMeshes(inputs.avatar, inputs.scene, inputs.query, someOf(inputs))
+            : std::nullopt,
+        remarkOnMeshes(inputs.query, request.avatarPath)}) {
     if (remark) remarks.push_back(*remark);
   }
   addFrameRemarks(inputs, remarks);
