@@ -1,5 +1,6 @@
 #include "tools/settings/clip_settings.h"
 
+#include <functional>
 #include <limits>
 
 #include <fmt/format.h>
@@ -112,17 +113,14 @@ void addColumns(Settings& settings, JointTableOptions& table) {
       .namedIf([&table] { return !table.columns.empty(); });
 }
 
-/// What a robot's table does not say itself.
-void addTableSettings(Settings& settings, JointTableOptions& table) {
-  addColumns(settings, table);
-  Setting& rate = settings.number("--row-rate", "HZ", table.rateHz, kAboveZero, "",
-                                  "Rows per second of a robot's table without times");
-  rate.shown = [&table] { return table.rateHz ? numberText(*table.rateHz) : kAsFileSays; };
-  rate.in(kInputGroup)
-      .inConfig("clip", "row_rate")
-      .inHeader("row_rate")
-      .inReport("rows per second")
-      .namedIf([&table] { return table.rateHz.has_value(); });
+/// Told, and in a first line, only if it `isGiven`.
+void tellIfGiven(Setting& setting, const char* key, const char* row,
+                 const std::function<bool()>& isGiven) {
+  setting.told = [isGiven, told = setting.told] { return isGiven() ? told() : std::string(); };
+  setting.inConfig("clip", key).inHeader(key).inReport(row).namedIf(isGiven);
+}
+
+void addQuaternionOrder(Settings& settings, JointTableOptions& table) {
   Setting& order = settings.word<std::optional<QuaternionOrder>>(
       "--quaternion", "ORDER", table.quaternion,
       {{"xyzw", QuaternionOrder::Xyzw}, {"wxyz", QuaternionOrder::Wxyz}},
@@ -133,26 +131,28 @@ void addTableSettings(Settings& settings, JointTableOptions& table) {
   };
   order.shown = order.told = shown;
   order.json = [shown] { return jsonString(shown()); };
-  order.in(kUnitsGroup)
-      .inConfig("clip", "quaternion")
-      .inHeader("quaternion")
-      .inReport("quaternions")
-      .namedIf([&table] { return table.quaternion.has_value(); });
-  settings
-      .word<bool>("--angles", "UNIT", table.isInDegrees, {{"radians", false}, {"degrees", true}},
-                  "Unit of the angles of a robot's table")
-      .in(kUnitsGroup)
-      .inConfig("clip", "angles")
-      .inHeader("angles")
-      .inReport("angles")
-      .namedIf([&table] { return table.isInDegrees; });
-  addUnit(settings, "--table-scale", table.metresPerUnit,
-          "Metres per unit of the lengths of a robot's table: 0.01 for centimetres")
-      .in(kUnitsGroup)
-      .inConfig("clip", "table_scale")
-      .inHeader("table_scale")
-      .inReport("table's unit")
-      .namedIf([&table] { return table.metresPerUnit.has_value(); });
+  tellIfGiven(order.in(kUnitsGroup), "quaternion", "quaternions",
+              [&table] { return table.quaternion.has_value(); });
+}
+
+/// What a robot's table does not say itself.
+void addTableSettings(Settings& settings, JointTableOptions& table) {
+  addColumns(settings, table);
+  Setting& rate = settings.number("--row-rate", "HZ", table.rateHz, kAboveZero, "",
+                                  "Rows per second of a robot's table without times");
+  rate.shown = [&table] { return table.rateHz ? numberText(*table.rateHz) : kAsFileSays; };
+  tellIfGiven(rate.in(kInputGroup), "row_rate", "rows per second",
+              [&table] { return table.rateHz.has_value(); });
+  addQuaternionOrder(settings, table);
+  Setting& angles = settings.word<bool>("--angles", "UNIT", table.isInDegrees,
+                                        {{"radians", false}, {"degrees", true}},
+                                        "Unit of the angles of a robot's table");
+  tellIfGiven(angles.in(kUnitsGroup), "angles", "angles", [&table] { return table.isInDegrees; });
+  Setting& scale =
+      addUnit(settings, "--table-scale", table.metresPerUnit,
+              "Metres per unit of the lengths of a robot's table: 0.01 for centimetres");
+  tellIfGiven(scale.in(kUnitsGroup), "table_scale", "table's unit",
+              [&table] { return table.metresPerUnit.has_value(); });
 }
 
 void addSourceSettings(Settings& settings, ClipRequest& request) {
