@@ -21,13 +21,14 @@ using test::Vector3d;
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-/// A pelvis with an arm that turns about x; z is up in its file.
+/// A pelvis with an arm that turns about x; z is up in its file. Where it has it, rows do not care.
 Model walker(bool floats = false) {
   Model model;
   model.frame.up = UpAxis::Z;
   std::int32_t base = -1;
   if (floats) base = addNode(model, "world", -1);
-  const auto pelvis = addNode(model, "pelvis", base);
+  const auto pelvis =
+      addNode(model, "pelvis", base, floats ? Vector3d(0, 0, 0) : Vector3d(7, 8, 9));
   const auto arm = addNode(model, "arm", pelvis, {0, 0, 0.5});
   for (const auto node : {pelvis, arm}) {
     model.nodes[at(node)].lss = {{{0, 0, 0}, {0, 0, 0.2}, 0.1}};
