@@ -58,24 +58,35 @@ Result<NpzArray> matrix(const NpzArrays& arrays, const std::string& name,
                                             shapeText(array));
 }
 
+Result<Done> checkDifferent(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  const auto same = std::adjacent_find(names.begin(), names.end());
+  if (same == names.end()) return Done{};
+  return Error::of(ErrorCode::DuplicateName, "two columns are called " + inQuotes(*same));
+}
+
 /// The names of the joints: the file's, or the options'.
 Result<Done> takeNames(const NpzArrays& arrays, const JointTableOptions& options,
                        JointTable& table) {
   FORETOUCH_TRY(const auto name, oneOf(arrays, {"joint_names", "dof_names"}));
   if (!name.empty()) {
     FORETOUCH_TRY(auto names, arrays.array(name));
+    if (!options.columns.empty()) {
+      return Error::of(ErrorCode::Mismatch,
+                       "has an array " + inQuotes(name) + ", so expected no --columns beside it");
+    }
     if (names.texts.empty()) {
       return Error::of(ErrorCode::Mismatch, "array " + inQuotes(name) + ": expected texts");
     }
     table.joints = std::move(names.texts);
-    return Done{};
+    return checkDifferent(table.joints);
   }
   const internal::TableLayout* const layout = internal::layoutIn(options);
   const auto& root = internal::rootColumns();
   for (const std::string& column : layout != nullptr ? layout->columns : options.columns) {
     if (std::count(root.begin(), root.end(), column) == 0) table.joints.push_back(column);
   }
-  if (!table.joints.empty()) return Done{};
+  if (!table.joints.empty()) return checkDifferent(table.joints);
   return Error::of(ErrorCode::Empty,
                    "expected an array 'joint_names', or to be told the names (--columns)");
 }

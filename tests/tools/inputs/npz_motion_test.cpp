@@ -76,6 +76,9 @@ TEST(NpzMotion, TakesFromTheOptionsWhatTheFileDoesNotSay) {
   ASSERT_FALSE(asked.ok());
   EXPECT_NE(describe(asked.error()).find("expected --quaternion to say"), std::string::npos);
   options.quaternion = QuaternionOrder::Xyzw;
+  const auto twice = tableFromNpz(npzOf(motion(), false), options);
+  ASSERT_FALSE(twice.ok());
+  EXPECT_NE(describe(twice.error()).find("expected no --columns beside it"), std::string::npos);
   const auto table = tableFromNpz(bytes, options);
   ASSERT_TRUE(table.ok()) << describe(table.error());
   EXPECT_EQ(table.value().roots[1].rotation.x(), 0.6);
