@@ -158,10 +158,10 @@ Command feetCommand() {
                         "laid on the ground")
       .in(kUnitsGroup);
   settings
-      .list(
-          "--foot", "LINK", request.feet,
-          "A link that is a foot, or a pattern of them (*ankle_roll_link), in place of those that are "
-          "called so; may be repeated")
+      .list("--foot", "LINK", request.feet,
+            "A link that is a foot, or a pattern of them (*ankle_roll_link), in place of those "
+            "that are "
+            "called so; may be repeated")
       .in(kInputGroup);
   settings
       .number("--tolerance", "M", request.tolerance, NumberRange{1e-6, 0.03, "metres", "m"},
