@@ -26,6 +26,10 @@ void writeContact(const LinkContact& contact, const ContactWords& words, JsonWri
     if (!isTold(field.use, contact)) continue;
     const std::string_view name = field.name;
     if (isOwn && (name == "object" || (name == "triangle" && contact.triangle < 0))) continue;
+    if (name == "penetration") {
+      writePenetration(contact.penetration, out);
+      continue;
+    }
     out.key(name);
     if (name == "link") {
       out.raw(words.link);

@@ -24,6 +24,13 @@ struct ContactWords {
 /// Writes the contact's fields by kContactFields into an open object. `contact` is not clear.
 void writeContact(const LinkContact& contact, const ContactWords& words, JsonWriter& out);
 
+/// How deep a start in contact is (m); null if that is not known, as of triangles, which have no
+/// inside.
+inline void writePenetration(double penetration, JsonWriter& out) {
+  out.key("penetration");
+  penetration > 0.0 ? out.value(penetration) : out.null();
+}
+
 /// Where and how hard a solid body is pushed, into an open object: of SolidContact, where what it
 /// meets stands still, and of SolidBodyContact, where that moves.
 template <typename Push>

@@ -15,6 +15,14 @@
 namespace foretouch {
 namespace {
 
+/// In lower case, with its dot.
+std::string endingOf(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
 Result<ClipFile> readModel(const std::string& path, const ClipFileOptions& options) {
   ModelImportOptions import;
   import.import = options.import;
@@ -23,7 +31,20 @@ Result<ClipFile> readModel(const std::string& path, const ClipFileOptions& optio
   return ClipFile{std::move(clip), true, model.frame};
 }
 
-Result<Model> readRobot(const ClipFileOptions& options) {
+Result<ClipFile> readTable(const std::string& path, const ClipFileOptions& options) {
+  if (endingOf(path) != ".csv") {
+    return Error::in(path, ErrorCode::Mismatch,
+                     "expected a table of joint positions as CSV (.csv)");
+  }
+  FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxJointTableBytes));
+  FORETOUCH_TRY(const auto robot, readRobotModel(options));
+  FORETOUCH_TRY(auto clip, inFile(clipFromJointPositions(robot, text, path, options.table), path));
+  return ClipFile{std::move(clip), true, robot.frame};
+}
+
+}  // namespace
+
+Result<Model> readRobotModel(const ClipFileOptions& options) {
   ModelImportOptions import;
   import.import = options.import;
   import.import.up = UpAxis::Z;  // as `avatar urdf` reads it
@@ -31,29 +52,18 @@ Result<Model> readRobot(const ClipFileOptions& options) {
   return importModel(options.robot, import);
 }
 
-Result<ClipFile> readTable(const std::string& path, const ClipFileOptions& options) {
-  FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxJointTableBytes));
-  FORETOUCH_TRY(const auto robot, readRobot(options));
-  FORETOUCH_TRY(auto clip, inFile(clipFromJointPositions(robot, text, path), path));
-  return ClipFile{std::move(clip), true, robot.frame};
-}
-
-}  // namespace
-
 ClipFormat clipFormatOf(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = endingOf(path);
   constexpr std::array kModels = {".glb", ".gltf", ".fbx", ".dae", ".x"};
   if (std::find(kModels.begin(), kModels.end(), extension) != kModels.end()) {
     return ClipFormat::Model;
   }
-  return extension == ".csv" ? ClipFormat::JointTable : ClipFormat::Bvh;
+  return extension == ".csv" || extension == ".npz" ? ClipFormat::JointTable : ClipFormat::Bvh;
 }
 
 Result<Clip> sampleRobotFile(const ClipFileOptions& options, std::int32_t samples,
                              std::uint64_t seed) {
-  FORETOUCH_TRY(const auto robot, readRobot(options));
+  FORETOUCH_TRY(const auto robot, readRobotModel(options));
   return inFile(clipFromSampledJoints(robot, samples, seed), options.robot);
 }
 

@@ -10,6 +10,8 @@
 #include "articulated/clip.h"
 #include "articulated/result.h"
 #include "assets/import/scene_import.h"
+#include "assets/model/model.h"
+#include "assets/model/table_options.h"
 
 namespace foretouch {
 
@@ -17,7 +19,8 @@ inline constexpr std::size_t kMaxJointTableBytes = std::size_t{256} << 20;
 
 enum class ClipFormat : std::uint8_t { Bvh, Model, JointTable };
 
-/// Every file that is neither a table nor a model format with animations counts as BVH, whose
+/// A table in numpy's format (.npz) counts as JointTable, but readClipFile() reads only CSV.
+/// Every other file that is neither a table nor a model format with animations counts as BVH, whose
 /// reader gives the best error.
 [[nodiscard]] ClipFormat clipFormatOf(const std::string& path);
 
@@ -29,6 +32,7 @@ struct ClipFileOptions {
   double rateHz = 30.0;                   ///< Sampling rate of a model's animation.
   std::string robot;                      ///< The URDF whose joints a table is about.
   std::vector<std::string> packagePaths;  ///< Folders of that URDF's packages.
+  JointTableOptions table;                ///< What a table does not say itself.
 };
 
 struct ClipFile {
@@ -42,6 +46,9 @@ struct ClipFile {
 /// Errors name the file. What the format does not need is ignored, but for a table's robot.
 [[nodiscard]] Result<ClipFile> readClipFile(const std::string& path,
                                             const ClipFileOptions& options = {});
+
+/// The robot that options.robot names, read as that of a table. Errors name the file.
+[[nodiscard]] Result<Model> readRobotModel(const ClipFileOptions& options);
 
 /// Of options.robot: clipFromSampledJoints(). Errors name the file.
 [[nodiscard]] Result<Clip> sampleRobotFile(const ClipFileOptions& options, std::int32_t samples,

@@ -68,9 +68,12 @@ class TableRobot {
   /// Sets the coordinates of a row; those without a column stay.
   void read(const std::vector<double>& row, std::vector<double>& q) const {
     for (std::size_t i = 0; i < row.size(); ++i) {
-      if (coordinates_[i] >= 0) q[slotOf(coordinates_[i])] = row[i];
+      if (coordinates_[i] >= 0) q[slotOf(coordinates_[i])] = row[i] * units_[i];
     }
   }
+  /// Places what the table's roots are about: at `root` in the frame of the robot's file.
+  void placeRoot(const RigidPose& root, Pose& pose) const;
+  [[nodiscard]] JointId base() const { return base_; }
   /// Raises what joints are beyond their limits by.
   void checkLimits(const std::vector<double>& q);
   [[nodiscard]] std::vector<std::string> notes(const JointTable& table) const;
@@ -82,11 +85,16 @@ class TableRobot {
  private:
   Result<Done> findColumns(const Model& model, const JointTable& table,
                            std::vector<RobotJoint>& joints);
+  Result<Done> findBase(const Model& model);
+  void findCoordinates(const JointTable& table);
 
   std::vector<LinkId> linkOfNode_;
   std::vector<Column> columns_;
   std::vector<std::int32_t> coordinates_;  // per column; -1: of a joint that does not move
+  std::vector<double> units_;              // per column: radians or metres per unit of it
   std::vector<bool> isNamed_;              // per link
+  JointId base_ = 0;                       // moves with the table's roots
+  RigidPose baseFrame_;                    // which they are in, in the base's parent's or W
   std::vector<double> worstExcess_;        // per link: past a limit, radians or metres
   std::shared_ptr<const Robot> robot_;
 };
@@ -107,7 +115,13 @@ Result<Done> TableRobot::findColumns(const Model& model, const JointTable& table
   for (const std::string& name : table.joints) {
     const auto found = known.find(name);
     if (found == known.end() || found->second.link == kNoParent) {
-      return Error::of(ErrorCode::UnknownName, "the robot has no joint " + inQuotes(name));
+      const bool isOfRoot =
+          std::count(internal::rootColumns().begin(), internal::rootColumns().end(), name) > 0;
+      return Error::of(ErrorCode::UnknownName,
+                       "the robot has no joint " + inQuotes(name) +
+                           (isOfRoot ? "; a root that moves has all of root_x, root_y, root_z, "
+                                       "root_qx, root_qy, root_qz, root_qw"
+                                     : ""));
     }
     const Column column = found->second;
     RobotJoint& joint = joints[slotOf(column.link)];
@@ -146,16 +160,52 @@ Result<TableRobot> TableRobot::of(const Model& model, const JointTable& table) {
   FORETOUCH_TRY(auto avatar, Avatar::build(std::move(links.skeleton), std::move(noShape)));
   FORETOUCH_TRY(auto robot, Robot::build(std::move(avatar), std::move(joints)));
   made.robot_ = std::make_shared<const Robot>(std::move(robot));
-  std::vector<std::int32_t> first(n, -1);
-  const auto& coordinates = made.robot_->coordinates();
+  made.findCoordinates(table);
+  if (!table.roots.empty()) FORETOUCH_CHECK(made.findBase(model));
+  return made;
+}
+
+void TableRobot::findCoordinates(const JointTable& table) {
+  std::vector<std::int32_t> first(robot_->joints().size(), -1);
+  const auto& coordinates = robot_->coordinates();
   for (std::size_t i = coordinates.size(); i-- > 0;) {
     first[slotOf(coordinates[i].joint)] = static_cast<std::int32_t>(i);
   }
-  for (const Column& column : made.columns_) {
+  for (const Column& column : columns_) {
     const std::int32_t own = first[slotOf(column.link)];
-    made.coordinates_.push_back(own < 0 ? -1 : own + column.number);
+    coordinates_.push_back(own < 0 ? -1 : own + column.number);
+    const bool isAngle = own < 0 || coordinates[slotOf(coordinates_.back())].isAngle;
+    units_.push_back(isAngle ? table.radiansPerUnit : table.metresPerUnit);
   }
-  return made;
+}
+
+Result<Done> TableRobot::findBase(const Model& model) {
+  const Skeleton& skeleton = robot_->avatar().skeleton();
+  if (model.frame.up == UpAxis::Z) {
+    constexpr double kHalf = 0.70710678118654752440;
+    baseFrame_.rotation = Quaternion(kHalf, -kHalf, 0.0, 0.0);  // z becomes y
+  }
+  std::size_t floating = 0;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const LinkId link = linkOfNode_[i];
+    const bool floats = model.nodes[i].joint == ModelJointType::Free && link != kNoParent &&
+                        skeleton.parent(link) != kNoParent;
+    if (!floats) continue;
+    ++floating;
+    base_ = link;
+    baseFrame_ = {skeleton.restRotation(link), skeleton.restOffset(link)};
+  }
+  if (floating <= 1) return Done{};
+  return Error::of(ErrorCode::BadHierarchy,
+                   "expected a robot with one floating joint at most, as one root moves, found " +
+                       std::to_string(floating));
+}
+
+void TableRobot::placeRoot(const RigidPose& root, Pose& pose) const {
+  const Eigen::Quaterniond frame(baseFrame_.rotation);
+  pose.rotations[slotOf(base_)] =
+      Quaternion((frame * Eigen::Quaterniond(root.rotation)).normalized());
+  pose.translations[slotOf(base_)] = frame * root.translation + baseFrame_.translation;
 }
 
 void TableRobot::checkLimits(const std::vector<double>& q) {
@@ -236,13 +286,25 @@ std::string noteOn(const Cut& cut) {
          " put between every two rows, so " + std::to_string(cut.parts) + " steps make up a row";
 }
 
+/// Where the root is on its way from one row to the next, as between any two poses.
+RigidPose between(const RigidPose& from, const RigidPose& to, double share) {
+  return {from.rotation.slerp(share, to.rotation),
+          from.translation + share * (to.translation - from.translation)};
+}
+
 Result<std::vector<Pose>> framesOf(TableRobot& of, const JointTable& table, const Cut& cut) {
   const Robot& robot = of.robot();
   std::vector<Pose> frames;
   frames.reserve((table.rows.size() - 1) * slotOf(cut.parts) + 1);
-  const auto add = [&](const std::vector<double>& q, std::size_t row) -> Result<Done> {
+  // Part `part` of the way to a row.
+  const auto add = [&](const std::vector<double>& q, std::size_t row, int part) -> Result<Done> {
     Pose pose;
     robot.poseAt(q.data(), pose);
+    if (!table.roots.empty()) {
+      const RigidPose& to = table.roots[row];
+      const double share = static_cast<double>(part) / cut.parts;
+      of.placeRoot(part == cut.parts ? to : between(table.roots[row - 1], to, share), pose);
+    }
     auto valid = validatedPose(robot.avatar().skeleton(), std::move(pose));
     if (!valid.ok()) {
       Error error = valid.error();
@@ -259,9 +321,9 @@ Result<std::vector<Pose>> framesOf(TableRobot& of, const JointTable& table, cons
     of.checkLimits(to);
     for (int part = 1; row > 0 && part < cut.parts; ++part) {
       robot.between(from.data(), to.data(), static_cast<double>(part) / cut.parts, q.data());
-      FORETOUCH_CHECK(add(q, row));
+      FORETOUCH_CHECK(add(q, row, part));
     }
-    FORETOUCH_CHECK(add(to, row));
+    FORETOUCH_CHECK(add(to, row, cut.parts));
   }
   return frames;
 }
@@ -281,7 +343,9 @@ Clip clipOf(const TableRobot& of, std::vector<Pose> frames, double frameTimeS, b
   return clip;
 }
 
-Result<Clip> clipOfTable(const Model& model, const JointTable& table) {
+}  // namespace
+
+Result<Clip> internal::clipOfTable(const Model& model, const JointTable& table) {
   FORETOUCH_TRY(auto of, TableRobot::of(model, table));
   FORETOUCH_TRY(const Cut cut, cutOf(of, table));
   FORETOUCH_TRY(auto frames, framesOf(of, table, cut));
@@ -290,15 +354,16 @@ Result<Clip> clipOfTable(const Model& model, const JointTable& table) {
   if (cut.parts > 1) clip.notes.push_back(noteOn(cut));
   clip.framesPerRow = cut.parts;
   clip.mostTurn = cut.mostTurn / cut.parts;
+  if (table.roots.empty()) return clip;
+  clip.hasRotation[slotOf(of.base())] = true;
+  clip.hasTranslation[slotOf(of.base())] = true;
   return clip;
 }
 
-}  // namespace
-
 Result<Clip> clipFromJointPositions(const Model& model, std::string_view csv,
-                                    const std::string& name) {
-  FORETOUCH_TRY(const auto table, inFile(internal::parseJointTable(csv), name));
-  return inFile(clipOfTable(model, table), name);
+                                    const std::string& name, const JointTableOptions& options) {
+  FORETOUCH_TRY(const auto table, inFile(internal::parseJointTable(csv, options), name));
+  return inFile(internal::clipOfTable(model, table), name);
 }
 
 Result<Clip> clipFromSampledJoints(const Model& model, std::int32_t samples, std::uint64_t seed) {

@@ -71,34 +71,37 @@ class Lines {
   std::int64_t number_ = 0;
 };
 
+/// `first`: what it begins with; empty: with anything.
 std::optional<Error> readHeader(std::string_view line, std::int64_t number,
                                 const std::string& first, JointTable& table) {
   const auto names = cellsOf(line);
-  if (!isKeyword(names.front(), first.c_str())) {
+  if (!first.empty() && !isKeyword(names.front(), first.c_str())) {
+    const bool isNumber = readBvhNumber(names.front()).problem == nullptr;
     return bvhError(
         ErrorCode::Syntax, number,
-        "expected a header that begins with " + first + ", found " + inQuotes(names.front()));
+        "expected a header that begins with " + first + ", found " + inQuotes(names.front()) +
+            (isNumber ? "; of a table without one, say what its columns are called" : ""));
   }
-  if (names.size() < 2 || names.size() > kMaxCells) {
+  if ((!first.empty() && names.size() < 2) || names.size() > kMaxCells) {
     return bvhError(ErrorCode::OutOfRange, number,
-                    "expected 1 to " + std::to_string(kMaxJoints) + " joints after " + first);
+                    "expected 1 to " + std::to_string(kMaxJoints) + " joints after " +
+                        (first.empty() ? "those of its root" : first));
   }
   std::unordered_set<std::string_view> seen;
-  for (std::size_t i = 1; i < names.size(); ++i) {
-    if (!seen.insert(names[i]).second) {
-      return bvhError(ErrorCode::DuplicateName, number,
-                      "two columns are called " + inQuotes(names[i]));
+  for (const std::string_view name : names) {
+    if (!seen.insert(name).second) {
+      return bvhError(ErrorCode::DuplicateName, number, "two columns are called " + inQuotes(name));
     }
-    table.joints.emplace_back(names[i]);
+    table.joints.emplace_back(name);
   }
   return std::nullopt;
 }
 
 std::optional<Error> readRow(std::string_view line, std::int64_t number, JointTable& table) {
   const auto cells = cellsOf(line);
-  if (cells.size() != table.joints.size() + 1) {
+  if (cells.size() != table.joints.size()) {
     return bvhError(ErrorCode::Syntax, number,
-                    "expected " + std::to_string(table.joints.size() + 1) + " cells, found " +
+                    "expected " + std::to_string(table.joints.size()) + " cells, found " +
                         (cells.size() > kMaxCells ? "more" : std::to_string(cells.size())));
   }
   if ((table.rows.size() + 1) * cells.size() > kMaxTableValues) {
@@ -114,8 +117,6 @@ std::optional<Error> readRow(std::string_view line, std::int64_t number, JointTa
     }
     row.push_back(value.value);
   }
-  table.timesS.push_back(row.front());
-  row.erase(row.begin());
   table.rows.push_back(std::move(row));
   table.lines.push_back(number);
   return std::nullopt;
@@ -146,24 +147,51 @@ std::optional<Error> findSpacing(JointTable& table) {
 
 }  // namespace
 
-Result<JointTable> parseTimedTable(std::string_view csv, const char* first) {
+Result<JointTable> parseTable(std::string_view csv, const std::vector<std::string>& columns,
+                              const std::string& first) {
   Lines lines(csv);
   JointTable table;
-  const auto header = lines.next();
-  if (!header)
-    return bvhError(ErrorCode::Empty, -1,
-                    "expected a header: " + std::string(first) + " and joint names");
-  if (auto error = readHeader(*header, lines.number(), first, table)) return *std::move(error);
+  table.joints = columns;
+  if (columns.empty()) {
+    const auto header = lines.next();
+    if (!header) {
+      return bvhError(
+          ErrorCode::Empty, -1,
+          "expected a header: " + (first.empty() ? "" : first + " and ") + "joint names");
+    }
+    if (auto error = readHeader(*header, lines.number(), first, table)) return *std::move(error);
+  }
   while (const auto line = lines.next()) {
     if (auto error = readRow(*line, lines.number(), table)) return *std::move(error);
   }
   return table;
 }
 
-Result<JointTable> parseJointTable(std::string_view csv) {
-  FORETOUCH_TRY(auto table, parseTimedTable(csv));
-  if (auto error = findSpacing(table)) return *std::move(error);
+Result<JointTable> parseTimedTable(std::string_view csv, const char* first) {
+  FORETOUCH_TRY(auto table, parseTable(csv, {}, first));
+  table.joints.erase(table.joints.begin());
+  for (std::vector<double>& row : table.rows) {
+    table.timesS.push_back(row.front());
+    row.erase(row.begin());
+  }
   return table;
+}
+
+Result<Done> settleTimes(JointTable& table, std::optional<double> rateHz) {
+  const bool hasTimes = !table.timesS.empty();
+  if (rateHz && hasTimes) {
+    return Error::of(ErrorCode::Mismatch,
+                     "has the times of its rows, so expected no rate beside them");
+  }
+  if (!rateHz && !hasTimes && !table.rows.empty()) {
+    return Error::of(ErrorCode::Empty,
+                     "expected a column time, or to be told how many rows a second there are");
+  }
+  for (std::size_t row = 0; rateHz && row < table.rows.size(); ++row) {
+    table.timesS.push_back(static_cast<double>(row) / *rateHz);
+  }
+  if (auto error = findSpacing(table)) return *std::move(error);
+  return Done{};
 }
 
 }  // namespace foretouch::internal

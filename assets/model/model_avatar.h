@@ -18,6 +18,7 @@
 #include "articulated/result.h"
 #include "articulated/robot.h"
 #include "assets/model/model.h"
+#include "assets/model/table_options.h"
 #include "lss/lss.h"
 
 namespace foretouch {
@@ -72,10 +73,13 @@ struct ModelClipOptions {
 /// and joint names, then one row per instant, equally spaced; radians or metres. From each row to
 /// the next the robot moves as EdgeQuery moves it: where a joint turns too far for the shorter arc,
 /// poses are put in between (Clip::framesPerRow). Joints that the table does not name stay at zero,
-/// or follow the one that they mimic; notes positions outside a joint's limits. Errors name `name`
-/// as the file. Safe on hostile text.
+/// or follow the one that they mimic; notes positions outside a joint's limits. With columns
+/// root_x, root_y, root_z (m), root_qx, root_qy, root_qz, root_qw the root moves, too, in the frame
+/// of the robot's file; or, where the root carries a floating joint, what hangs on it. Errors name
+/// `name` as the file. Safe on hostile text.
 [[nodiscard]] Result<Clip> clipFromJointPositions(const Model& model, std::string_view csv,
-                                                  const std::string& name);
+                                                  const std::string& name,
+                                                  const JointTableOptions& options = {});
 
 /// Poses at `samples` configurations of the robot `model`, drawn within its limits
 /// (Robot::sampledPoses()), as a clip whose frames have no order. All its joints are named.
@@ -95,6 +99,10 @@ struct ModelRobot {
                                                 const ModelAvatarOptions& options = {});
 
 namespace internal {
+
+struct JointTable;
+/// As clipFromJointPositions(). Errors name no file.
+[[nodiscard]] Result<Clip> clipOfTable(const Model& model, const JointTable& table);
 
 /// The joints of a model's links, link by link, with those that follow others. One that is free
 /// counts as fixed. `linkOfNode`: kNoParent, where a node is no link.

@@ -76,6 +76,16 @@ py::object triangleOf(const Contact&, const LinkContact& c) {
   return py::int_(c.triangle);
 }
 
+/// Triangles have no inside.
+bool startsAtUnknownDepth(const LinkContact& contact) {
+  return contact.verdict == Verdict::StartsInContact && !(contact.penetration > 0.0);
+}
+
+py::object penetrationOf(const Contact&, const LinkContact& c) {
+  if (startsAtUnknownDepth(c)) return py::none();
+  return py::float_(c.penetration);
+}
+
 /// Both links, where they are named.
 std::string subjectOf(const Contact& contact, const LinkContact& c) {
   const std::string& link = contact.answers->avatar->skeleton().name(c.link);
@@ -114,8 +124,12 @@ std::string textOf(const Contact& contact) {
   std::array<char, 96> numbers{};
   if (isTouching(c)) {
     const bool begins = c.verdict == Verdict::StartsInContact;
-    std::snprintf(numbers.data(), numbers.size(), " at t=%.6g, %.3g mm %s", c.toi,
-                  1e3 * (begins ? c.penetration : c.separation), begins ? "deep" : "apart");
+    if (startsAtUnknownDepth(c)) {
+      std::snprintf(numbers.data(), numbers.size(), " at t=%.6g", c.toi);
+    } else {
+      std::snprintf(numbers.data(), numbers.size(), " at t=%.6g, %.3g mm %s", c.toi,
+                    1e3 * (begins ? c.penetration : c.separation), begins ? "deep" : "apart");
+    }
     return subject + (begins ? " starts in contact with " : " meets ") + metBy(contact, c) +
            numbers.data() + endOf(contact, c);
   }
@@ -150,9 +164,8 @@ void bindContact(py::module_& module) {
       .def_property_readonly(
           "separation", ofTouch([](const Contact&, const LinkContact& c) { return c.separation; }),
           "At toi, at most the tolerance.")
-      .def_property_readonly("penetration", ofTouch([](const Contact&, const LinkContact& c) {
-                               return c.penetration;
-                             }))
+      .def_property_readonly("penetration", ofTouch(&penetrationOf),
+                             "How deep it starts; None if that is not known, as of triangles.")
       .def_property_readonly("point", pointOf(&LinkContact::p_WScene), "(3,), on the scene.")
       .def_property_readonly("on_link", pointOf(&LinkContact::p_WLink), "(3,), on the link.")
       .def_property_readonly("normal", pointOf(&LinkContact::nhat_SL_W),

@@ -43,6 +43,9 @@ TEST(FuzzCorpus, TextsOfPeopleKeepThePromises) {
   const CorpusCounts tables = replayCorpus("csv", feedJointTable, AlsoFeed::EveryBeginning);
   EXPECT_GE(tables.accepted, 3);
   EXPECT_GE(tables.refused, 4);
+  const CorpusCounts arrays = replayCorpus("npz", feedNpz, AlsoFeed::EveryBeginning);
+  EXPECT_GE(arrays.accepted, 2);
+  EXPECT_GE(arrays.refused, 2);
   const CorpusCounts maps = replayCorpus("joint_map", feedJointMap, AlsoFeed::EveryBeginning);
   EXPECT_GE(maps.accepted, 2);
   EXPECT_GE(maps.refused, 3);

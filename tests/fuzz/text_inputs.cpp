@@ -10,6 +10,7 @@
 #include "tests/fuzz/memory_file.h"
 #include "tests/fuzz/promise.h"
 #include "tools/inputs/joint_map.h"
+#include "tools/inputs/npz_motion.h"
 #include "tools/settings/clip_settings.h"
 #include "tools/settings/project_file.h"
 #include "tools/settings/serve_settings.h"
@@ -22,25 +23,39 @@ std::string textIn(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-}  // namespace
-
-bool feedJointTable(const std::uint8_t* data, std::size_t size) {
-  const auto table = internal::parseJointTable(textIn(data, size));
+bool keepsPromises(const Result<internal::JointTable>& table) {
   if (!table.ok()) {
     checkReason(table.error());
     return false;
   }
   const internal::JointTable& read = table.value();
+  require(read.rows.size() >= 2 && read.lines.size() == read.rows.size(), "every row has a line");
+  require(std::isfinite(read.frameTimeS) && read.frameTimeS > 0.0, "time goes on");
+  require(read.roots.empty() || read.roots.size() == read.rows.size(), "every row has a root");
+  for (const RigidPose& root : read.roots) {
+    require(root.translation.allFinite() && std::abs(root.rotation.norm() - 1.0) < 1e-9,
+            "a root is a rigid pose");
+  }
   require(
       std::set<std::string>(read.joints.begin(), read.joints.end()).size() == read.joints.size(),
       "names differ");
-  require(read.rows.size() >= 2 && read.lines.size() == read.rows.size(), "every row has a line");
-  require(std::isfinite(read.frameTimeS) && read.frameTimeS > 0.0, "time goes on");
   for (const std::vector<double>& row : read.rows) {
     require(row.size() == read.joints.size(), "every joint has a value");
     for (const double value : row) require(std::isfinite(value), "values are finite");
   }
   return true;
+}
+
+}  // namespace
+
+bool feedJointTable(const std::uint8_t* data, std::size_t size) {
+  return keepsPromises(internal::parseJointTable(textIn(data, size)));
+}
+
+bool feedNpz(const std::uint8_t* data, std::size_t size) {
+  JointTableOptions options;
+  options.quaternion = QuaternionOrder::Xyzw;
+  return keepsPromises(tools::tableFromNpz(textIn(data, size), options));
 }
 
 bool feedJointMap(const std::uint8_t* data, std::size_t size) {

@@ -9,6 +9,7 @@ namespace foretouch::fuzz {
 
 /// Joint positions as CSV.
 bool feedJointTable(const std::uint8_t* data, std::size_t size);
+bool feedNpz(const std::uint8_t* data, std::size_t size);
 
 /// The file of --map.
 bool feedJointMap(const std::uint8_t* data, std::size_t size);

@@ -52,9 +52,9 @@ void addInputSettings(Settings& settings, AskedReplay& asked) {
       .inConfig("avatar", "file")
       .required();
   addMotionSetting(settings, request, "--motion", "CLIP|LOG",
-                   "BVH clip, animated model (glb, gltf, fbx, dae, x), joint positions (csv), or "
-                   "event log (lcmlog)")
-      .files("bvh glb gltf fbx dae x csv lcmlog")
+                   "BVH clip, animated model (glb, gltf, fbx, dae, x), joint positions (csv, "
+                   "npz), or event log (lcmlog)")
+      .files("bvh glb gltf fbx dae x csv npz lcmlog")
       .required();
 }
 
@@ -117,8 +117,10 @@ void addClipOnlySettings(Settings& settings, AskedReplay& asked) {
   addRateSetting(settings, asked.job.request).ofClips();
   addClipSettings(settings, asked.job.request);
   addCutSettings(settings, asked.job.request);
-  for (const char* const option : {"--clip-scale", "--clip-up", "--place", "--map", "--animation",
-                                   "--robot", "--package", "--from", "--to", "--skip-t-pose"}) {
+  for (const char* const option :
+       {"--clip-scale", "--clip-up", "--place", "--map", "--animation", "--robot", "--package",
+        "--columns", "--row-rate", "--quaternion", "--angles", "--table-scale", "--from", "--to",
+        "--skip-t-pose"}) {
     settings.of(option).ofClips();
   }
 }

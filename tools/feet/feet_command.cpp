@@ -115,6 +115,7 @@ constexpr char kFeetExamples[] = R"(Examples:
   foretouch feet walk.bvh dancer.avatar.json room.obj --place 1.5,0,-2,90 \
       --output feet.csv --plot feet.html
   foretouch feet walk.bvh --skip-t-pose --ground fit --labels walk.npz
+  foretouch feet walk1_subject1.csv --robot g1.urdf --columns lafan1-g1
 
 Without a scene the ground is a plain floor at y = 0. A slide is the path along the ground of what
 touches it, while it neither comes down nor lifts by more than 0.05 m/s; a depth is along the
@@ -143,7 +144,8 @@ Command feetCommand() {
   Settings settings;
   addMotionSetting(settings, request, "--motion", "CLIP").required();
   addAvatarSetting(settings, request);
-  settings.of("--avatar").help = "Avatar file; of a BVH clip a body is made if there is none";
+  settings.of("--avatar").help =
+      "Avatar file; if there is none, a body is made of a BVH clip's bones, or it is the robot";
   addSceneSettings(settings, request);
   settings.of("--scene").help = "Scene to stand in; a plain floor at y = 0 if there is none";
   addRateSetting(settings, request);
@@ -155,6 +157,12 @@ Command feetCommand() {
                         "Where the clip's floor is: as placed, or found by its resting feet and "
                         "laid on the ground")
       .in(kUnitsGroup);
+  settings
+      .list("--foot", "LINK", request.feet,
+            "A link that is a foot, or a pattern of them (*ankle_roll_link), in place of those "
+            "that are "
+            "called so; may be repeated")
+      .in(kInputGroup);
   settings
       .number("--tolerance", "M", request.tolerance, NumberRange{1e-6, 0.03, "metres", "m"},
               "What is this near to the ground touches it (m)")

@@ -31,10 +31,11 @@ constexpr double kFloorMargin = 20.0;
 
 Result<PlayedClip> loadPlayed(const FeetRequest& request) {
   if (!request.avatarPath.empty()) return loadPlayedClip(request);
-  if (clipFormatOf(request.motionPath) == ClipFormat::Bvh) return loadClipAlone(request);
-  return Error::in("--avatar", ErrorCode::Empty,
-                   "expected the body's avatar file beside " + inQuotes(request.motionPath) +
-                       ": only of a BVH clip a body is made (foretouch avatar make)");
+  if (clipFormatOf(request.motionPath) != ClipFormat::Model) return loadClipAlone(request);
+  return Error::in(
+      "--avatar", ErrorCode::Empty,
+      "expected the body's avatar file beside " + inQuotes(request.motionPath) +
+          ": only of a BVH clip and of a robot a body is made (foretouch avatar make)");
 }
 
 Result<Level> sceneOf(const FeetRequest& request) {
@@ -52,13 +53,13 @@ Result<Level> plainFloor(const Eigen::AlignedBox3d& around) {
   return Level::build({{Triangle{{a, b, c}}, Triangle{{a, c, d}}}, {0, 0}, {"floor"}});
 }
 
-/// Around the clip's roots, wherever its placement and a fit turn them.
+/// Around the clip's roots and what floats, wherever its placement and a fit turn them.
 Eigen::AlignedBox3d boxOf(const FeetInputs& inputs) {
   const Clip& clip = inputs.played.clip;
   double reach = 0.0;
   for (const Pose& pose : clip.frames) {
     for (JointId joint = 0; joint < clip.skeleton.numJoints(); ++joint) {
-      if (clip.skeleton.parent(joint) != kNoParent) continue;
+      if (clip.skeleton.parent(joint) != kNoParent && !clip.hasTranslation[slotOf(joint)]) continue;
       reach = std::max(reach, pose.translations[slotOf(joint)].norm());
     }
   }
@@ -183,15 +184,13 @@ std::optional<GroundSurface> FeetInputs::groundBelow(const Vector3d& p_W) const 
 
 Result<FeetInputs> loadFeetInputs(const FeetRequest& request) {
   FORETOUCH_TRY(auto played, loadPlayed(request));
-  FORETOUCH_TRY(auto body,
-                inFile(restingBodyOf(played.avatar),
-                       request.avatarPath.empty() ? request.motionPath : request.avatarPath));
+  FORETOUCH_TRY(auto body, inFile(restingBodyOf(played.avatar, request.feet), request.bodyPath()));
   const bool isPlain = request.scenePath.empty();
   FORETOUCH_TRY(auto level,
                 isPlain ? plainFloor(Eigen::AlignedBox3d(Vector3d(0, 0, 0))) : sceneOf(request));
   FeetInputs inputs{request, std::move(played), std::move(body), std::move(level), isPlain, 0, {},
                     0.0};
-  if (request.avatarPath.empty()) FORETOUCH_CHECK(addHeels(inputs));
+  if (request.isMadeOfBones()) FORETOUCH_CHECK(addHeels(inputs));
   if (request.ground == GroundFrom::Fit) FORETOUCH_CHECK(fitGround(inputs));
   if (!isPlain) return inputs;
   FORETOUCH_TRY(inputs.level, plainFloor(boxOf(inputs)));
@@ -200,11 +199,9 @@ Result<FeetInputs> loadFeetInputs(const FeetRequest& request) {
 
 std::vector<std::string> remarksOn(const FeetInputs& inputs) {
   const FeetRequest& request = inputs.request;
-  const bool isMade = request.avatarPath.empty();
   const PlayedClip& played = inputs.played;
-  std::vector<std::string> remarks =
-      remarksOnClip(played.avatar, played.clip, played.match,
-                    isMade ? request.motionPath : request.avatarPath, request.motionPath);
+  std::vector<std::string> remarks = remarksOnClip(played.avatar, played.clip, played.match,
+                                                   request.bodyPath(), request.motionPath);
   if (const auto remark = remarkOnStature(inputs)) remarks.push_back(*remark);
   const auto first = inputs.poseAt(0);
   if (first.ok()) {
@@ -214,7 +211,7 @@ std::vector<std::string> remarksOn(const FeetInputs& inputs) {
   }
   const auto rate = remarkOnRate(played.steps, played.clip, request.rateHz);
   if (rate) remarks.push_back(*rate);
-  if (isMade) {
+  if (request.isMadeOfBones()) {
     remarks.push_back(
         request.motionPath +
         ": without --avatar, the body is made of the clip's bones: how thick its "

@@ -31,6 +31,15 @@ struct FeetRequest : ClipRequest, WorldRequest {
   GroundFrom ground = GroundFrom::Given;
   /// A part touches within this distance (m): hovering begins beyond it.
   double tolerance = 0.005;
+  std::vector<std::string> feet;  ///< Links that are feet; empty: those that are called so.
+
+  /// The body is made of a BVH clip's bones.
+  [[nodiscard]] bool isMadeOfBones() const { return avatarPath.empty() && robotPath.empty(); }
+  /// Whose names its links have.
+  [[nodiscard]] const std::string& bodyPath() const {
+    if (!avatarPath.empty()) return avatarPath;
+    return robotPath.empty() ? motionPath : robotPath;
+  }
 };
 
 /// A surface to stand on, flat around the point that asked.

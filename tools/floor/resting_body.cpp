@@ -4,9 +4,14 @@
 #include <limits>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
+
+#include "articulated/quoted.h"
 #include "articulated/try.h"
 #include "assets/bvh/bvh_roles.h"
+#include "assets/near_names.h"
 #include "lss/index.h"
+#include "tools/inputs/name_pattern.h"
 
 namespace foretouch::tools {
 namespace {
@@ -16,6 +21,21 @@ using internal::BodyRole;
 
 /// A foot shorter than this (m) has no heel and no ball of its own.
 constexpr double kShortestFoot = 0.02;
+
+/// Along which a foot is long; zero if it is a sphere.
+Vector3d lengthOf(const std::vector<Lss>& foot) {
+  if (foot.size() == 1) return foot.front().b - foot.front().a;
+  Vector3d mean = Vector3d::Zero();
+  for (const Lss& lss : foot) mean += lss.a + lss.b;
+  mean /= 2.0 * static_cast<double>(std::max<std::size_t>(1, foot.size()));
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Lss& lss : foot) {
+    for (const Vector3d& end : {lss.a, lss.b}) spread += (end - mean) * (end - mean).transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  const Vector3d longest = axes.eigenvectors().col(2);
+  return axes.eigenvalues()[2] > 0.0 ? longest : Vector3d(Vector3d::Zero());
+}
 
 /// The parts under construction.
 class Builder {
@@ -31,6 +51,7 @@ class Builder {
     }
   }
 
+  Result<Done> takeFeet(const std::vector<std::string>& feet);
   Result<RestingBody> build();
 
  private:
@@ -120,15 +141,17 @@ void Builder::addFoot(JointId ankle) {
     Vector3d forward = toes.empty() ? Vector3d::Zero() : restPlaceIn(ankle, toes.front());
     if (foot != ankle) forward = Vector3d::Zero();  // its frame may be turned
     double least = std::numeric_limits<double>::infinity(), most = -least;
-    if (forward.isZero(0.0)) {
-      for (const Lss& lss : avatar_.lss(foot)) {
-        if ((lss.b - lss.a).norm() > forward.norm()) forward = lss.b - lss.a;
-      }
-    }
+    const bool isGuessed = forward.isZero(0.0) && avatar_.lss(foot).size() > 1;
+    if (forward.isZero(0.0)) forward = lengthOf(avatar_.lss(foot));
     if (forward.norm() > 0.0) forward.normalize();
     for (const Lss& lss : avatar_.lss(foot)) {
       least = std::min({least, forward.dot(lss.a), forward.dot(lss.b)});
       most = std::max({most, forward.dot(lss.a), forward.dot(lss.b)});
+    }
+    if (isGuessed && least + most < 0.0) {
+      forward = -forward;
+      std::swap(least, most);
+      least = -least, most = -most;
     }
     if (most - least >= kShortestFoot) {
       addHalves(foot, limb, forward, 0.5 * (least + most));
@@ -146,6 +169,26 @@ void Builder::addHand(JointId hand) {
   const std::size_t limb = limbs_.size();
   limbs_.push_back({avatar_.skeleton().name(hand), true, hand, std::nullopt});
   for (const Lss& lss : avatar_.lss(hand)) put(partOf(PartOfLimb::Hand, limb, hand), hand, lss);
+}
+
+Result<Done> Builder::takeFeet(const std::vector<std::string>& feet) {
+  if (feet.empty()) return Done{};
+  std::vector<std::string> names;
+  for (JointId joint = 0; joint < avatar_.numLinks(); ++joint) {
+    names.push_back(avatar_.skeleton().name(joint));
+  }
+  for (BodyRole& role : roles_) {
+    if (role == BodyRole::Foot) role = BodyRole::Unknown;
+  }
+  for (const std::string& foot : feet) {
+    const auto found = matching(foot, names);
+    if (found.empty()) {
+      return Error::of(ErrorCode::UnknownName,
+                       "has no link " + inQuotes(foot) + didYouMean(foot, names));
+    }
+    for (const std::int32_t joint : found) roles_[slotOf(joint)] = BodyRole::Foot;
+  }
+  return Done{};
 }
 
 Result<RestingBody> Builder::build() {
@@ -198,8 +241,10 @@ Pose RestingBody::poseOf(Pose pose) const {
   return pose;
 }
 
-Result<RestingBody> restingBodyOf(const Avatar& avatar) {
-  return Builder(avatar).build();
+Result<RestingBody> restingBodyOf(const Avatar& avatar, const std::vector<std::string>& feet) {
+  Builder builder(avatar);
+  FORETOUCH_CHECK(builder.takeFeet(feet));
+  return builder.build();
 }
 
 LowestCorner lowestOf(const RestingPart& part, const std::vector<LinkState>& states,

@@ -46,7 +46,8 @@ struct RestingLimb {
 
 /// The avatar without all that does not rest. A foot's LSS are cut in the middle of its length: the
 /// rear half is its heel, the front half its ball; together they are what they were. A foot without
-/// length is one part.
+/// length is one part. Where toes do not say what is in front, the ball is what is farther from the
+/// ankle.
 struct RestingBody {
   Avatar avatar;  ///< The joints of the avatar that it is made of, then those of heels and balls.
   std::vector<RestingLimb> limbs;
@@ -59,8 +60,11 @@ struct RestingBody {
   [[nodiscard]] Pose poseOf(Pose pose) const;
 };
 
-/// Errors: no joint is called a foot; no foot has an LSS.
-[[nodiscard]] Result<RestingBody> restingBodyOf(const Avatar& avatar);
+/// `feet`: names of links that are feet, or patterns of them (tools/inputs/name_pattern.h), in
+/// place of those that are called so. Errors: no joint is called a foot, a name that is no link's;
+/// no foot has an LSS.
+[[nodiscard]] Result<RestingBody> restingBodyOf(const Avatar& avatar,
+                                                const std::vector<std::string>& feet = {});
 
 /// The lowest of a part along `up` (unit).
 struct LowestCorner {

@@ -1,10 +1,19 @@
 #include "tools/inputs/motion_file.h"
 
+#include <utility>
+
 #include "articulated/try.h"
 #include "tools/console.h"
+#include "tools/inputs/npz_motion.h"
 
 namespace foretouch::tools {
 namespace {
+
+/// A table by its ending, and not a CSV.
+bool isNpz(const std::string& path) {
+  return clipFormatOf(path) == ClipFormat::JointTable &&
+         (path[path.size() - 1] == 'z' || path[path.size() - 1] == 'Z');
+}
 
 Result<Done> checkOptions(const MotionRequest& request, ClipFormat format) {
   if (format != ClipFormat::Model && !request.animation.empty()) {
@@ -13,9 +22,18 @@ Result<Done> checkOptions(const MotionRequest& request, ClipFormat format) {
                          inQuotes(request.path));
   }
   if (format != ClipFormat::JointTable && !request.robot.empty()) {
-    return Error::in(
-        "--robot", ErrorCode::Mismatch,
-        "expected a table of joint positions (.csv) as --motion, found " + inQuotes(request.path));
+    return Error::in("--robot", ErrorCode::Mismatch,
+                     "expected a table of joint positions (.csv, .npz) as --motion, found " +
+                         inQuotes(request.path));
+  }
+  const JointTableOptions& table = request.table;
+  const bool saysColumns = !table.columns.empty() || table.rateHz || table.quaternion ||
+                           table.isInDegrees || table.metresPerUnit;
+  if (format != ClipFormat::JointTable && saysColumns) {
+    return Error::in("--columns, --row-rate, --quaternion, --angles, --table-scale",
+                     ErrorCode::Mismatch,
+                     "expected a table of joint positions (.csv, .npz) as --motion, found " +
+                         inQuotes(request.path));
   }
   if (format == ClipFormat::JointTable && request.robot.empty()) {
     return Error::in(request.path, ErrorCode::Mismatch,
@@ -34,12 +52,12 @@ MotionRequest motionRequestOf(const ClipRequest& request) {
   motion.animation = request.animation;
   motion.robot = request.robotPath;
   motion.packagePaths = request.packagePaths;
+  motion.table = request.table;
   motion.rateHz = request.rateHz.value_or(motion.rateHz);
   return motion;
 }
 
-Result<Motion> readMotion(const MotionRequest& request) {
-  FORETOUCH_CHECK(checkOptions(request, clipFormatOf(request.path)));
+ClipFileOptions clipFileOptionsOf(const MotionRequest& request) {
   ClipFileOptions options;
   options.import.scale = request.scale;
   options.import.up = request.up;
@@ -47,7 +65,17 @@ Result<Motion> readMotion(const MotionRequest& request) {
   options.rateHz = request.rateHz;
   options.robot = request.robot;
   options.packagePaths = request.packagePaths;
-  return readClipFile(request.path, options);
+  options.table = request.table;
+  return options;
+}
+
+Result<Motion> readMotion(const MotionRequest& request) {
+  FORETOUCH_CHECK(checkOptions(request, clipFormatOf(request.path)));
+  const ClipFileOptions options = clipFileOptionsOf(request);
+  if (!isNpz(request.path)) return readClipFile(request.path, options);
+  FORETOUCH_TRY(const auto robot, readRobotModel(options));
+  FORETOUCH_TRY(auto clip, clipFromNpz(robot, request.path, request.table));
+  return Motion{std::move(clip), true, robot.frame};
 }
 
 }  // namespace foretouch::tools

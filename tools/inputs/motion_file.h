@@ -19,10 +19,14 @@ struct MotionRequest {
   double rateHz = 30.0;                   ///< Sampling rate of a model's animation.
   std::string robot;                      ///< The URDF whose joints a table is about.
   std::vector<std::string> packagePaths;  ///< Folders of that URDF's packages.
+  JointTableOptions table;                ///< What that table does not say itself.
 };
 
 /// The motion of a command that plays a clip.
 [[nodiscard]] MotionRequest motionRequestOf(const ClipRequest& request);
+
+/// The same as the readers of files take it.
+[[nodiscard]] ClipFileOptions clipFileOptionsOf(const MotionRequest& request);
 
 using Motion = ClipFile;
 

@@ -9,6 +9,7 @@
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
 #include "assets/bvh/bvh_reader.h"
+#include "assets/model/model_avatar.h"
 #include "assets/text_file.h"
 #include "lss/index.h"
 #include "tools/console.h"
@@ -36,6 +37,14 @@ Result<StepSelection> stepsOf(const ClipRequest& request, const Clip& clip, bool
   return steps;
 }
 
+Result<Avatar> bodyOf(const ClipRequest& request, const Clip& clip) {
+  if (request.robotPath.empty()) return inFile(avatarFromClip(clip), request.motionPath);
+  FORETOUCH_TRY(const auto model, readRobotModel(clipFileOptionsOf(motionRequestOf(request))));
+  FORETOUCH_TRY(auto made, inFile(avatarFromModel(model), request.robotPath));
+  printNotes(request.robotPath, model.notes);
+  return std::move(made.avatar);
+}
+
 }  // namespace
 
 Result<PlayedClip> loadPlayedClip(const ClipRequest& request) {
@@ -52,7 +61,7 @@ Result<PlayedClip> loadPlayedClip(const ClipRequest& request) {
 Result<PlayedClip> loadClipAlone(const ClipRequest& request) {
   FORETOUCH_TRY(auto read, readMotion(motionRequestOf(request)));
   Clip& clip = read.clip;
-  FORETOUCH_TRY(auto avatar, inFile(avatarFromClip(clip), request.motionPath));
+  FORETOUCH_TRY(auto avatar, bodyOf(request, clip));
   FORETOUCH_TRY(auto match,
                 inFile(matchJoints(avatar.skeleton(), clip.skeleton), request.motionPath));
   FORETOUCH_TRY(const auto steps, stepsOf(request, clip, read.isUpright));

@@ -26,7 +26,7 @@ struct PlayedClip {
 
 /// Errors name the file or option.
 [[nodiscard]] Result<PlayedClip> loadPlayedClip(const ClipRequest& request);
-/// With a body that is made of the clip's own skeleton.
+/// With a body that is made of the clip's own skeleton; of a table, with the robot's.
 [[nodiscard]] Result<PlayedClip> loadClipAlone(const ClipRequest& request);
 
 /// Tolerated faults, joints without a match and signs of a wrong unit: one sentence each, bounded

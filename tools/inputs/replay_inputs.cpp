@@ -16,6 +16,7 @@
 #include "lss/index.h"
 #include "middleware/query_options.h"
 #include "tools/console.h"
+#include "tools/inputs/apart_meshes.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/first_pose.h"
 #include "tools/inputs/ignored_pairs.h"
@@ -170,6 +171,19 @@ void addFrameRemarks(const ReplayInputs& inputs, std::vector<std::string>& remar
   if (lying) remarks.push_back(*lying);
 }
 
+/// Some poses that are played, evenly spread.
+std::vector<Pose> someOf(const ReplayInputs& inputs) {
+  constexpr std::int64_t kMost = 24;  // each costs the meshes that a remark is about
+  std::vector<Pose> poses;
+  const std::int64_t count = std::min(kMost, inputs.steps.count + 1);
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::int64_t step = inputs.steps.count * i / (count - 1);
+    auto pose = poseAtFrame(inputs, inputs.steps.frameOf(step));
+    if (pose.ok()) poses.push_back(std::move(pose).value());
+  }
+  return poses;
+}
+
 }  // namespace
 
 std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
@@ -183,8 +197,13 @@ std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
   if (inputs.query.self && request.pairsPath.empty() && !inputs.query.self->leftOut().empty()) {
     remarks.push_back(remarkOnPairs(request, *inputs.query.self));
   }
-  const auto meshes = remarkOnMeshes(inputs.query, request.avatarPath);
-  if (meshes) remarks.push_back(*meshes);
+  for (const auto& remark :
+       {request.pairsPath.empty()
+            ? remarkOnApartMeshes(inputs.avatar, inputs.scene, inputs.query, someOf(inputs))
+            : std::nullopt,
+        remarkOnMeshes(inputs.query, request.avatarPath)}) {
+    if (remark) remarks.push_back(*remark);
+  }
   addFrameRemarks(inputs, remarks);
   return remarks;
 }

@@ -166,7 +166,7 @@ Command logConvertCommand() {
   const auto asked = std::make_shared<Conversion>();
   Settings settings;
   settings.path("INPUT", "", asked->input, "Event log, or a clip as foretouch publish reads it")
-      .files("lcmlog bvh glb gltf fbx dae x csv")
+      .files("lcmlog bvh glb gltf fbx dae x csv npz")
       .required("an event log or a clip");
   settings
       .output("-o,--output", "FILE", asked->output,

@@ -69,11 +69,12 @@ std::string headerLine(const ReplayInputs& inputs) {
   if (inputs.clip.framesPerRow > 1) out.field("frames_per_row", inputs.clip.framesPerRow);
   out.field("steps", inputs.steps.count);
   writeHeaderFields(settings,
-                    {"tolerance",     "fidelity",  "scale",  "motion_up",  "place",
-                     "scene_scale",   "up",        "ignore", "scope",      "pass_separating",
-                     "budget_us",     "policy",    "leaves", "skin",       "skin_scale",
-                     "skin_up",       "animation", "robot",  "ground",     "ground_angle",
-                     "ground_height", "from",      "to",     "skip_t_pose"},
+                    {"tolerance",     "fidelity",  "scale",       "motion_up",  "place",
+                     "scene_scale",   "up",        "ignore",      "scope",      "pass_separating",
+                     "budget_us",     "policy",    "leaves",      "skin",       "skin_scale",
+                     "skin_up",       "animation", "robot",       "columns",    "row_rate",
+                     "quaternion",    "angles",    "table_scale", "ground",     "ground_angle",
+                     "ground_height", "from",      "to",          "skip_t_pose"},
                     out);
   if (inputs.query.self) {
     writeSelf(*inputs.query.self, inputs.avatar.skeleton(), request.pairsPath, out);

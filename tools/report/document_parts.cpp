@@ -56,7 +56,8 @@ std::vector<ViewRow> clipSettings(ClipRequest request) {
   addClipSettings(settings, request);
   addCutSettings(settings, request);
   return rowsOf(settings, {"motion", "motion's unit", "motion's up axis", "placed at", "animation",
-                           "robot", "joint map", "from", "to", "T-pose left out"});
+                           "robot", "columns", "rows per second", "quaternions", "angles",
+                           "table's unit", "joint map", "from", "to", "T-pose left out"});
 }
 
 std::vector<std::vector<Triangle>> trianglesOf(const AvatarSurface& surface) {

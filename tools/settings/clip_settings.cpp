@@ -1,5 +1,6 @@
 #include "tools/settings/clip_settings.h"
 
+#include <functional>
 #include <limits>
 
 #include <fmt/format.h>
@@ -88,6 +89,72 @@ void addInstant(Settings& settings, const char* option, const char* key,
   });
 }
 
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : ",") + text;
+  return all;
+}
+
+void addColumns(Settings& settings, JointTableOptions& table) {
+  settings
+      .parsed(
+          "--columns", "NAMES",
+          [&table](const std::string& text) -> Result<Done> {
+            table.columns = splitAtCommas(text);
+            return Done{};
+          },
+          [&table] { return joined(table.columns); },
+          "Columns of a robot's table without a header: their names, or a layout: lafan1-g1, "
+          "bones-seed-g1")
+      .in(kInputGroup)
+      .inConfig("clip", "columns")
+      .inHeader("columns")
+      .inReport("columns")
+      .namedIf([&table] { return !table.columns.empty(); });
+}
+
+/// Told, and in a first line, only if it `isGiven`.
+void tellIfGiven(Setting& setting, const char* key, const char* row,
+                 const std::function<bool()>& isGiven) {
+  setting.told = [isGiven, told = setting.told] { return isGiven() ? told() : std::string(); };
+  setting.inConfig("clip", key).inHeader(key).inReport(row).namedIf(isGiven);
+}
+
+void addQuaternionOrder(Settings& settings, JointTableOptions& table) {
+  Setting& order = settings.word<std::optional<QuaternionOrder>>(
+      "--quaternion", "ORDER", table.quaternion,
+      {{"xyzw", QuaternionOrder::Xyzw}, {"wxyz", QuaternionOrder::Wxyz}},
+      "Order of the root's quaternion in an npz, unless the array's name says it");
+  const auto shown = [&table]() -> std::string {
+    if (!table.quaternion) return kAsFileSays;
+    return *table.quaternion == QuaternionOrder::Xyzw ? "xyzw" : "wxyz";
+  };
+  order.shown = order.told = shown;
+  order.json = [shown] { return jsonString(shown()); };
+  tellIfGiven(order.in(kUnitsGroup), "quaternion", "quaternions",
+              [&table] { return table.quaternion.has_value(); });
+}
+
+/// What a robot's table does not say itself.
+void addTableSettings(Settings& settings, JointTableOptions& table) {
+  addColumns(settings, table);
+  Setting& rate = settings.number("--row-rate", "HZ", table.rateHz, kAboveZero, "",
+                                  "Rows per second of a robot's table without times");
+  rate.shown = [&table] { return table.rateHz ? numberText(*table.rateHz) : kAsFileSays; };
+  tellIfGiven(rate.in(kInputGroup), "row_rate", "rows per second",
+              [&table] { return table.rateHz.has_value(); });
+  addQuaternionOrder(settings, table);
+  Setting& angles = settings.word<bool>("--angles", "UNIT", table.isInDegrees,
+                                        {{"radians", false}, {"degrees", true}},
+                                        "Unit of the angles of a robot's table");
+  tellIfGiven(angles.in(kUnitsGroup), "angles", "angles", [&table] { return table.isInDegrees; });
+  Setting& scale =
+      addUnit(settings, "--table-scale", table.metresPerUnit,
+              "Metres per unit of the lengths of a robot's table: 0.01 for centimetres");
+  tellIfGiven(scale.in(kUnitsGroup), "table_scale", "table's unit",
+              [&table] { return table.metresPerUnit.has_value(); });
+}
+
 void addSourceSettings(Settings& settings, ClipRequest& request) {
   settings
       .text("--animation", "NAME", request.animation,
@@ -104,6 +171,7 @@ void addSourceSettings(Settings& settings, ClipRequest& request) {
       .inHeader("robot")
       .inReport("robot")
       .namedIf([&request] { return !request.robotPath.empty(); });
+  addTableSettings(settings, request.table);
   settings
       .path("--map", "FILE", request.mapPath,
             R"(Joint names that differ: {"avatar joint": "clip joint"})")

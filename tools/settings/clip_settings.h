@@ -8,6 +8,7 @@
 
 #include "assets/avatar/joint_match.h"
 #include "assets/file_frame.h"
+#include "assets/model/table_options.h"
 #include "tools/settings/settings.h"
 
 namespace foretouch::tools {
@@ -34,14 +35,15 @@ struct ClipRequest {
   std::string animation;                  ///< For a motion that is a model.
   std::string robotPath;                  ///< For a motion that is a table of joint positions.
   std::vector<std::string> packagePaths;  ///< Folders of that robot's packages.
+  JointTableOptions table;                ///< What that table does not say itself.
   Placement placement;                    ///< The option sets its motionUpZ too, for BVH.
   ClipCut cut;                            ///< Of commands that have addCutSettings().
 };
 
 /// What readMotion() reads, for a shell that completes files.
-inline constexpr char kClipEndings[] = "bvh glb gltf fbx dae x csv";
+inline constexpr char kClipEndings[] = "bvh glb gltf fbx dae x csv npz";
 inline constexpr char kClipHelp[] =
-    "BVH clip, animated model (glb, gltf, fbx, dae, x) or joint positions (csv)";
+    "BVH clip, animated model (glb, gltf, fbx, dae, x) or joint positions (csv, npz)";
 
 /// "x,y,z" or "x,y,z,yaw": metres within kMaxCoordinate, and degrees. Errors name no option.
 [[nodiscard]] Result<Placement> placementFrom(const std::string& text);
@@ -61,8 +63,7 @@ Setting& addRateSetting(
     const char* help = "Poses per second to take from the clip; animations: 30 if all");
 
 /// How to read the motion and match it with the avatar: --clip-scale, --clip-up, --animation,
-/// --robot,
-/// --map and --package. `request` outlives the settings.
+/// --robot, those of a robot's table, --map and --package. `request` outlives the settings.
 void addClipReadingSettings(Settings& settings, ClipRequest& request);
 /// The same, and its placement: --place.
 void addClipSettings(Settings& settings, ClipRequest& request);

@@ -149,10 +149,11 @@ Result<std::string> SolidLines::header() {
   if (inputs_.steps.first > 0) out.field("first_frame", inputs_.steps.first);
   out.field("frame_time", inputs_.clip.frameTimeS);
   out.field("ticks", ticksOf(inputs_));
-  writeHeaderFields(settings,
-                    {"scale", "motion_up", "place", "scene_scale", "up", "ignore", "animation",
-                     "robot", "from", "to", "skip_t_pose"},
-                    out);
+  writeHeaderFields(
+      settings,
+      {"scale", "motion_up", "place", "scene_scale", "up", "ignore", "animation", "robot",
+       "columns", "row_rate", "quaternion", "angles", "table_scale", "from", "to", "skip_t_pose"},
+      out);
   writeOptions(options_, inputs_.avatar, out);
   if (options_.self) {
     out.rawField("self", nlohmann::json::parse(formatPairs(*options_.self, inputs_.avatar)).dump());

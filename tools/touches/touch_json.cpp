@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "tools/contact_json.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -18,7 +20,7 @@ void writeNature(const Touch& touch, JsonWriter& out) {
   out.field("ends", touch.isOpen ? "open" : "left");
   out.field("contacts", touch.contacts);
   out.field("separation", touch.separation);
-  if (touch.startsAtAPose) out.field("penetration", touch.penetration);
+  if (touch.startsAtAPose) writePenetration(touch.penetration, out);
   if (touch.isGround) out.field("ground", true);
   if (touch.isMissed) out.field("missed", true);
 }

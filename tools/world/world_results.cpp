@@ -1,6 +1,7 @@
 #include "tools/world/world_results.h"
 
 #include "lss/index.h"
+#include "tools/contact_json.h"
 #include "tools/replay/results_writer.h"
 #include "tools/touches/touch_json.h"
 
@@ -123,9 +124,7 @@ void writeWorldContact(const LoadedWorld& world, const WorldContact& contact, Js
   writeInstant(isTold ? "time" : "free_until", contact.time, out);
   if (isTold) {
     out.field("separation", contact.separation);
-    if (contact.verdict == Verdict::StartsInContact) {
-      out.field("penetration", contact.penetration);
-    }
+    if (contact.verdict == Verdict::StartsInContact) writePenetration(contact.penetration, out);
     out.field("normal", contact.nhat_BA_W);
   } else {
     out.field("reason", toString(contact.reason));

@@ -206,6 +206,44 @@ TEST(SelfReplay, RefusesByNameWhatCannotBeHonoured) {
   EXPECT_TRUE(holds(none.err, "--self: expected at least one pair of links to ask")) << none.err;
 }
 
+/// Two plates, 80 mm apart, on both ends of a pin, and a knob on them: the LSS around the plates
+/// overlap.
+std::string platesUrdf() {
+  const auto link = [](const std::string& name, const std::string& shape) {
+    return "<link name=\"" + name + "\"><collision><geometry>" + shape +
+           "</geometry></collision></link>";
+  };
+  const auto turn = [](const std::string& parent, const std::string& child) {
+    return "<joint name=\"to_" + child + "\" type=\"revolute\"><parent link=\"" + parent +
+           "\"/><child link=\"" + child +
+           "\"/><origin xyz=\"0 0 0.05\"/><axis xyz=\"0 0 1\"/><limit lower=\"-0.1\" "
+           "upper=\"0.1\" effort=\"1\" velocity=\"1\"/></joint>";
+  };
+  const std::string plate = "<box size=\"0.4 0.4 0.02\"/>";
+  return "<robot name=\"plates\">" + link("low", plate) + link("pin", "<sphere radius=\"0.01\"/>") +
+         link("high", plate) + link("knob", "<sphere radius=\"0.01\"/>") + turn("high", "knob") +
+         turn("low", "pin") + turn("pin", "high") + "</robot>";
+}
+
+TEST(SelfReplay, HintsAtMeshesThatAreApartThoughTheirLssTouch) {
+  const SmallWorld world;
+  const TempFolder& folder = world.folder;
+  folder.write("plates.urdf", platesUrdf());
+  folder.write("turn.csv", "time,to_high\n0,0\n1,0.1\n");
+  const Ended made =
+      runForetouch({"avatar", "urdf", folder / "plates.urdf", "-o", folder / "plates.json"});
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  std::vector<std::string> exact =
+      world.replay({"--self", "--fidelity", "exact", "--robot", folder / "plates.urdf", "--output",
+                    folder / "out.jsonl"},
+                   "wall.obj", "plates.json", "turn.csv");
+  const Ended ended = runForetouch(exact);
+  EXPECT_TRUE(holds(ended.err,
+                    "--self: 1 pair of own links is left out because their LSS touch, though "
+                    "their meshes are apart at each of 2 poses: 'low:high'; to ask"))
+      << ended.err;
+}
+
 TEST(AvatarPairs, ListsEveryHoleWithItsReason) {
   const Hands world;
   const Ended ended = runForetouch({"avatar", "pairs", world.folder / "hands.json"});

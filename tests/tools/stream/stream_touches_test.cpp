@@ -117,7 +117,7 @@ TEST(StreamTouches, AreLinesOfJsonWithTheClockOfTheStream) {
   EXPECT_EQ(json::parse(line), json::parse(R"({"touch":{"avatar":1,"session":1700000000000000,
     "link":"LeftHand","object":"table","utime":[1700000000005000,1700000000020000],
     "sequence":[1,2],"begins":"contact","ends":"left","contacts":2,"separation":0.0,
-    "penetration":0.0,"ground":true}})"));
+    "penetration":null,"ground":true}})"));
   EXPECT_EQ(begun["utime"], json({1700000000005000, 1700000000005000}));
   EXPECT_EQ(begun["sequence"], json({1, 1}));
   EXPECT_EQ(begun["contacts"], 1);

@@ -97,7 +97,7 @@ def touches_of(pair, rows, steps, by_object):
                      ends="open" if state(after) == UNKNOWN else "left", contacts=len(group),
                      separation=min(c["separation"] for _, c in group))
         if starts:
-            touch["penetration"] = max(c.get("penetration", 0) for _, c in group)
+            touch["penetration"] = max(c.get("penetration") or 0 for _, c in group) or None
         # None: the next answer does not say whether the pose after it was free.
         seen_free = after == last + 1 and state(after) == FREE
         touch["missed"] = False if starts else True if seen_free else None
