@@ -7,7 +7,8 @@ void addBenchCommands(CLI::App& program, ExitCode& exit) {
        {latencyCommand, scalingCommand,   performanceCommand, instructionsCommand, memoryCommand,
         compareCommand, leafCommand,      peersCommand,       extremesCommand,     streamCommand,
         soakCommand,    viewBenchCommand, deadlineCommand,    cageCommand,         treesCommand,
-        trustCommand,   tradeCommand,     solidBenchCommand,  worldBenchCommand,   tuneCommand}) {
+        trustCommand,   tradeCommand,     solidBenchCommand,  worldBenchCommand,   tuneCommand,
+        bodyCommand}) {
     addCommand(program, command(), exit);
   }
 }

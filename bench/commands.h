@@ -5,6 +5,7 @@
 
 namespace foretouch::tools {
 
+[[nodiscard]] Command bodyCommand();
 [[nodiscard]] Command cageCommand();
 [[nodiscard]] Command compareCommand();
 [[nodiscard]] Command deadlineCommand();

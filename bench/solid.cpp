@@ -1,7 +1,6 @@
 #include "bench/solid.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,95 +8,15 @@
 #include "articulated/try.h"
 #include "bench/machine.h"
 #include "bench/solid/busy_places.h"
+#include "bench/solid/cast.h"
 #include "bench/solid/feel.h"
 #include "bench/solid/feel_tables.h"
 #include "bench/solid/figure.h"
 #include "bench/solid/followers.h"
-#include "tools/inputs/example_folder.h"
 #include "tools/progress.h"
 
 namespace foretouch::tools {
 namespace {
-
-struct StageFile {
-  const char* name;
-  const char* file;
-  bool isUpZ;
-};
-/// Units are metres in all; the office says itself that z is up.
-constexpr StageFile kStageFiles[] = {{"kitchen", "scenes/kitchen_fatihrmutfak.ply", true},
-                                     {"office", "scenes/cpr_office.dae", false},
-                                     {"collision-world", "scenes/collision-world.glb", false},
-                                     {"undulating", "scenes/undulating.obj", false}};
-constexpr const char* kClips[] = {"bandai1_kick_normal_001.bvh",
-                                  "bandai1_punch_normal_001.bvh",
-                                  "bandai1_dance-short_normal_001.bvh",
-                                  "cmu_01_01_playground_jumps.bvh",
-                                  "fair_dab.bvh",
-                                  "cmu_jumping_jacks.bvh"};
-
-struct Cast {
-  std::vector<SolidActor> actors;
-  std::vector<SolidStage> stages;
-  std::vector<std::string> leftOut;
-};
-
-bool isThere(const std::string& path) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(path, ignored);
-}
-
-Result<std::string> stagePath(const SolidBenchRequest& request, const std::string& name,
-                              bool& isUpZ) {
-  isUpZ = false;
-  if (name == "room") {
-    FORETOUCH_TRY(const auto folder, exampleFolder());
-    return folder + "/room.obj";
-  }
-  for (const StageFile& stage : kStageFiles) {
-    if (name != stage.name) continue;
-    isUpZ = stage.isUpZ;
-    return request.dataFolder + "/" + stage.file;
-  }
-  return Error::in("--scenes", ErrorCode::UnknownName,
-                   "expected kitchen, office, collision-world, undulating or room, found " + name);
-}
-
-Result<Cast> loadCast(const SolidBenchRequest& request) {
-  Cast cast;
-  std::vector<std::string> scenes = request.scenes, clips;
-  if (scenes.empty()) scenes = {"kitchen", "office", "room"};
-  for (const std::string& name : scenes) {
-    bool isUpZ = false;
-    FORETOUCH_TRY(const auto path, stagePath(request, name, isUpZ));
-    if (!isThere(path)) {
-      cast.leftOut.push_back(name);
-      continue;
-    }
-    FORETOUCH_TRY(auto stage, loadStage(name, path, isUpZ));
-    cast.stages.push_back(std::move(stage));
-  }
-  for (const std::string& name : request.clips) {
-    clips.push_back(isThere(name) ? name : request.dataFolder + "/mocap/" + name);
-  }
-  if (request.clips.empty()) {
-    for (const char* name : kClips) clips.push_back(request.dataFolder + "/mocap/" + name);
-  }
-  for (const std::string& path : clips) {
-    if (!isThere(path)) {
-      cast.leftOut.push_back(path);
-      continue;
-    }
-    FORETOUCH_TRY(auto actor, loadActor(path));
-    cast.actors.push_back(std::move(actor));
-  }
-  if (cast.actors.empty()) {
-    FORETOUCH_TRY(const auto folder, exampleFolder());
-    FORETOUCH_TRY(auto actor, loadActor(folder + "/dancer.bvh"));
-    cast.actors.push_back(std::move(actor));
-  }
-  return cast;
-}
 
 /// Keeps what another follower shows.
 class Recorder final : public Follower {
@@ -166,12 +85,6 @@ class SceneRun {
   int places_ = 0;
 };
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 /// The tables of scenes: what they have in common over all of them.
 class SceneTables {
  public:
@@ -199,7 +112,7 @@ class SceneTables {
 };
 
 Result<Done> measureScenes(const SolidBenchRequest& request, SolidBench& bench) {
-  FORETOUCH_TRY(const auto cast, loadCast(request));
+  FORETOUCH_TRY(const auto cast, loadCast(request.dataFolder, request.scenes, request.clips));
   SceneTables tables;
   ProgressBar progress("solid", static_cast<std::int64_t>(cast.stages.size() * cast.actors.size() *
                                                           request.ratesHz.size()));

@@ -229,6 +229,25 @@ bool take(const LinkBound& said, int rank, Ranks& ranks, LinkBound& bound) {
   return isAny;
 }
 
+std::string formatEntry(const BoundEntry& entry) {
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  if (!entry.link.empty()) out.field("link", entry.link);
+  if (!entry.part.empty()) out.field("part", entry.part);
+  if (entry.model) out.field("model", toString(*entry.model));
+  if (entry.rateHz > 0.0) out.field("rate_hz", entry.rateHz);
+  for (const BoundField& field : kBoundFields) {
+    if (isSet(entry.bound, field)) out.field(field.key, entry.bound.*field.place);
+  }
+  if (entry.count > 0) {
+    out.field("quantile", entry.quantile);
+    out.field("count", entry.count);
+  }
+  out.endObject();
+  return text;
+}
+
 /// The models and rates that there are, for an error.
 std::string kindsOf(const BoundsFile& file) {
   std::set<std::string> kinds;
@@ -271,6 +290,10 @@ Result<BoundsFile> readBoundsFile(const std::string& path) {
 }
 
 std::string formatBounds(const BoundsFile& file) {
+  std::string entries;
+  for (const BoundEntry& entry : file.entries) {
+    entries += (entries.empty() ? "\n  " : ",\n  ") + formatEntry(entry);
+  }
   std::string text;
   JsonWriter out(text);
   out.beginObject();
@@ -278,26 +301,7 @@ std::string formatBounds(const BoundsFile& file) {
   out.field("version", 1);
   if (!file.name.empty()) out.field("name", file.name);
   if (!file.source.empty()) out.field("source", file.source);
-  out.list("bounds", file.entries, [&](const BoundEntry& entry) {
-    text += "\n";
-    out.beginObject();
-    if (!entry.link.empty()) out.field("link", entry.link);
-    if (!entry.part.empty()) out.field("part", entry.part);
-    if (entry.model) out.field("model", toString(*entry.model));
-    if (entry.rateHz > 0.0) out.field("rate_hz", entry.rateHz);
-    const LinkBound none;
-    for (const BoundField& field : kBoundFields) {
-      const double value = entry.bound.*field.place;
-      const bool isFollow =
-          std::isfinite(entry.bound.followFloor) && field.place == &LinkBound::followShare;
-      if (value != none.*field.place || isFollow) out.field(field.key, value);
-    }
-    if (entry.count > 0) {
-      out.field("quantile", entry.quantile);
-      out.field("count", entry.count);
-    }
-    out.endObject();
-  });
+  out.rawField("bounds", "[" + entries + "\n]");
   out.endObject();
   return text + "\n";
 }
@@ -322,9 +326,9 @@ Result<LinkBounds> boundsOf(const BoundsFile& file, const Skeleton& skeleton, Mo
   for (std::size_t i = 0; i < file.entries.size(); ++i) {
     const BoundEntry& entry = file.entries[i];
     if (!entry.link.empty() && !skeleton.find(entry.link)) {
-      return Error::in(fmt::format("bounds[{}]", i), ErrorCode::UnknownName,
-                       "expected a link of the avatar, found " + inQuotes(entry.link) +
-                           didYouMean(entry.link, names));
+      return Error::of(ErrorCode::UnknownName,
+                       fmt::format("bounds[{}]: expected a link of the avatar, found {}{}", i,
+                                   inQuotes(entry.link), didYouMean(entry.link, names)));
     }
     if (!isAbout(entry, model, rateHz)) continue;
     isAny = true;
@@ -336,9 +340,8 @@ Result<LinkBounds> boundsOf(const BoundsFile& file, const Skeleton& skeleton, Mo
     }
   }
   if (!isAny) {
-    return Error::in("bounds", ErrorCode::Mismatch,
-                     fmt::format("expected bounds for {} at {:g} Hz, found {}", toString(model),
-                                 rateHz, kindsOf(file)));
+    return Error::of(ErrorCode::Mismatch, fmt::format("expected bounds for {} at {:g} Hz, found {}",
+                                                      toString(model), rateHz, kindsOf(file)));
   }
   return bounds;
 }

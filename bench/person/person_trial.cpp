@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 
 #include "bench/person/held_back.h"
+#include "bench/solid/plain_body.h"
 #include "lss/index.h"
 #include "middleware/query/query.h"
 
 namespace foretouch::tools {
 namespace {
-
 
 /// The judge rounds (m), and looks at some instants: bounds hold in between with this much more.
 constexpr double kJudgeRounding = 1e-8, kBetween = 1.01, kBetweenM = 1e-6;

@@ -379,12 +379,12 @@ Result<Done> runReplay(
       FORETOUCH_CHECK(touches.finish());
       glb.add(touches.begun());
       summary.add(touches);
-      file.write(touches.lines());
       if (job.person.isAsked()) {
         FORETOUCH_TRY(const auto answer, personTouches(inputs, job.person));
         file.write(personLines(inputs, job.person, answer));
         person = personText(inputs, job.person, answer);
       }
+      file.write(touches.lines());
       FORETOUCH_CHECK(file.commit());
       FORETOUCH_CHECK(writeGlb(glb, touches, job.glb.path));
     }

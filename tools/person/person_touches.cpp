@@ -1,6 +1,7 @@
 #include "tools/person/person_touches.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <utility>
 
@@ -194,13 +195,66 @@ Result<BracketQuery> queryOf(const ReplayInputs& inputs) {
   return BracketQuery::build(inputs.avatar, inputs.scene, options);
 }
 
-void writeTimes(const char* name, const PersonTouch& touch, const double (&times)[2],
-                JsonWriter& out) {
+/// Earlier first; what is not certain has one of the two.
+void writeBracket(const char* name, double possible, double certain, bool isCertain,
+                  bool isCertainFirst, JsonWriter& out) {
+  const auto writeCertain = [&] { isCertain ? out.value(certain) : out.null(); };
   out.key(name);
   out.beginArray();
-  out.value(times[0]);
-  touch.isCertain ? out.value(times[1]) : out.null();
+  if (isCertainFirst) writeCertain();
+  out.value(possible);
+  if (!isCertainFirst) writeCertain();
   out.endArray();
+}
+
+std::string lineOf(const ReplayInputs& inputs, const PersonTouch& touch) {
+  const Skeleton& skeleton = inputs.avatar.skeleton();
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.key("person_touch");
+  out.beginObject();
+  out.field("link", skeleton.name(touch.link));
+  if (touch.other != kNoParent) out.field("other", skeleton.name(touch.other));
+  if (touch.triangle >= 0) {
+    out.field("object", inputs.scene.objectNames()[slotOf(inputs.scene.object(touch.triangle))]);
+    out.field("triangle", touch.triangle);
+  }
+  out.field("verdict", touch.isCertain ? "certain" : "possible");
+  writeBracket("begins_s", touch.beginsS[0], touch.beginsS[1], touch.isCertain, false, out);
+  writeBracket("ends_s", touch.endsS[1], touch.endsS[0], touch.isCertain, true, out);
+  if (touch.beginsBefore) out.field("begins_before", true);
+  if (touch.endsAfter) out.field("ends_after", true);
+  out.endObject();
+  out.endObject();
+  return text + "\n";
+}
+
+std::string lineOf(const ReplayInputs& inputs, const PersonRequest& request,
+                   const PersonAnswer& answer) {
+  const PersonCounts& counts = answer.counts;
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.key("person");
+  out.beginObject();
+  out.field("bounds", std::filesystem::path(request.boundsPath).filename().string());
+  out.field("between", toString(request.model));
+  out.field("rate_hz", answer.rateHz);
+  out.field("link_steps", counts.intervals);
+  out.field("excluded", counts.excluded);
+  out.field("possible", counts.possible);
+  out.field("certain", counts.certain);
+  out.field("unclaimed", counts.unclaimed);
+  out.field("bounds_broken", counts.broken);
+  if (counts.broken > 0) {
+    out.field("worst_link", inputs.avatar.skeleton().name(counts.worstLink));
+    out.field("worst_s", counts.worstS);
+    out.field("worst_m", counts.worstM);
+  }
+  out.endObject();
+  out.endObject();
+  return text + "\n";
 }
 
 }  // namespace
@@ -233,52 +287,9 @@ Result<PersonAnswer> personTouches(const ReplayInputs& inputs, const PersonReque
 
 std::string personLines(const ReplayInputs& inputs, const PersonRequest& request,
                         const PersonAnswer& answer) {
-  const Skeleton& skeleton = inputs.avatar.skeleton();
   std::string text;
-  JsonWriter out(text);
-  for (const PersonTouch& touch : answer.touches) {
-    out.beginObject();
-    out.key("person_touch");
-    out.beginObject();
-    out.field("link", skeleton.name(touch.link));
-    if (touch.other != kNoParent) out.field("other", skeleton.name(touch.other));
-    if (touch.triangle >= 0) {
-      out.field("object", inputs.scene.objectNames()[slotOf(inputs.scene.object(touch.triangle))]);
-      out.field("triangle", touch.triangle);
-    }
-    out.field("verdict", touch.isCertain ? "certain" : "possible");
-    writeTimes("begins_s", touch, touch.beginsS, out);
-    out.key("ends_s");
-    out.beginArray();
-    touch.isCertain ? out.value(touch.endsS[0]) : out.null();
-    out.value(touch.endsS[1]);
-    out.endArray();
-    if (touch.beginsBefore) out.field("begins_before", true);
-    if (touch.endsAfter) out.field("ends_after", true);
-    out.endObject();
-    out.endObject();
-    text += "\n";
-  }
-  const PersonCounts& counts = answer.counts;
-  out.beginObject();
-  out.key("person");
-  out.beginObject();
-  out.field("between", toString(request.model));
-  out.field("rate_hz", answer.rateHz);
-  out.field("link_steps", counts.intervals);
-  out.field("excluded", counts.excluded);
-  out.field("possible", counts.possible);
-  out.field("certain", counts.certain);
-  out.field("unclaimed", counts.unclaimed);
-  out.field("bounds_broken", counts.broken);
-  if (counts.broken > 0) {
-    out.field("worst_link", skeleton.name(counts.worstLink));
-    out.field("worst_s", counts.worstS);
-    out.field("worst_m", counts.worstM);
-  }
-  out.endObject();
-  out.endObject();
-  return text + "\n";
+  for (const PersonTouch& touch : answer.touches) text += lineOf(inputs, touch);
+  return text + lineOf(inputs, request, answer);
 }
 
 std::string personText(const ReplayInputs& inputs, const PersonRequest& request,

@@ -1,0 +1,149 @@
+#include "bench/person.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "articulated/try.h"
+#include "bench/machine.h"
+#include "bench/person/person_trial.h"
+#include "bench/solid/busy_places.h"
+#include "bench/solid/cast.h"
+#include "bench/solid/cells.h"
+#include "tools/progress.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// Rates that leave less than one frame out judge nothing.
+constexpr double kMostRateShare = 0.51;
+
+/// What is asked, the rate, the model.
+using Kind = std::tuple<bool, double, MotionModel>;
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+/// The clip's part at a place.
+SolidActor partOf(const SolidActor& actor, const BusyPlace& place, double seconds) {
+  SolidActor part = actor;
+  auto& frames = part.clip.frames;
+  const double frameTimeS = part.clip.frameTimeS;
+  const auto from = static_cast<std::ptrdiff_t>(place.fromS / frameTimeS);
+  frames.erase(frames.begin(), frames.begin() + from);
+  frames.resize(std::min(frames.size(), static_cast<std::size_t>(seconds / frameTimeS) + 1));
+  return part;
+}
+
+class PersonTable {
+ public:
+  PersonTable()
+      : table_{"oracle",
+               "Brackets of persons whose poses are held back, by the bounds that hold on the clip",
+               {{"asked", "asked"},
+                {"rate_hz", "Hz", 0},
+                {"between", "between"},
+                {"intervals", "links and steps"},
+                {"missed", "missed"},
+                {"lied", "lied"},
+                {"undecided_percent", "undecided %", 2},
+                {"fresh", "began"},
+                {"missed_by_poses", "of them no pose shows"},
+                {"certain_percent", "certain %", 1},
+                {"width_p50_ms", "bracket p50 ms", 2},
+                {"width_p90_ms", "p90 ms", 1},
+                {"growth_p50_mm", "bound p50 mm", 2},
+                {"pieces", "pieces", 1},
+                {"cost", "times a plain step", 1}},
+               {}} {}
+
+  void add(const Kind& kind, const PersonTally& t) {
+    const auto& [isOwn, rateHz, model] = kind;
+    const double steps = static_cast<double>(std::max<std::uint64_t>(t.steps, 1));
+    table_.rows.push_back(
+        {std::string(isOwn ? "own links" : "scene"), rateHz, std::string(toString(model)),
+         cell(t.intervals), cell(t.missed), cell(t.lied), percent(t.possible, t.intervals),
+         cell(t.fresh), cell(t.missedByPoses), percent(t.freshCertain, t.fresh),
+         quantile(t.widthsMs, 0.5), quantile(t.widthsMs, 0.9), quantile(t.growthsMm, 0.5),
+         static_cast<double>(t.pieces) / steps, t.plainS > 0.0 ? t.bracketS / t.plainS : 0.0});
+  }
+  [[nodiscard]] const BenchTable& table() const { return table_; }
+
+ private:
+  BenchTable table_;
+};
+
+class PersonRuns {
+ public:
+  PersonRuns(const PersonBenchRequest& request, const SolidStage& stage)
+      : request_(request), stage_(stage) {}
+
+  void add(const SolidActor& actor, std::map<Kind, PersonTally>& tallies) const {
+    BusyPlaceRequest places;
+    places.count = request_.places;
+    places.seconds = std::min(request_.seconds, actor.clip.durationS());
+    places.seed = request_.seed;
+    for (const BusyPlace& place : busyPlaces(stage_, actor, places)) {
+      const SolidActor part = partOf(actor, place, places.seconds);
+      for (const double rateHz : request_.ratesHz) {
+        if (rateHz * actor.clip.frameTimeS > kMostRateShare) continue;
+        for (const MotionModel model : request_.models) {
+          for (const bool isOwn : {false, true}) {
+            const PersonTrial trial{rateHz,           model, true, isOwn, request_.boundShare,
+                                    request_.instants};
+            tallies[{isOwn, -rateHz, model}].add(judgePerson(stage_, part, place.placement, trial));
+          }
+        }
+      }
+    }
+  }
+
+ private:
+  const PersonBenchRequest& request_;
+  const SolidStage& stage_;
+};
+
+}  // namespace
+
+Result<PersonBench> measurePerson(const PersonBenchRequest& request) {
+  FORETOUCH_TRY(const auto cast, loadCast(request.dataFolder, request.scenes, request.clips));
+  PersonBench bench;
+  BenchReport& report = bench.report;
+  report.kind = "body";
+  report.title = "What the person touched, who is not the model";
+  report.command = request.command;
+  report.date = dateNow();
+  report.machine = machineFacts();
+  std::map<Kind, PersonTally> tallies;
+  ProgressBar progress("body", static_cast<std::int64_t>(cast.stages.size() * cast.actors.size()));
+  std::int64_t done = 0;
+  for (const SolidStage& stage : cast.stages) {
+    for (const SolidActor& actor : cast.actors) {
+      PersonRuns(request, stage).add(actor, tallies);
+      progress.advanceTo(++done);
+    }
+  }
+  PersonTable table;
+  for (const auto& [kind, tally] : tallies) {
+    const auto& [isOwn, rateHz, model] = kind;
+    table.add({isOwn, -rateHz, model}, tally);
+    bench.violations += tally.missed + tally.lied;
+    for (const std::string& finding : tally.findings) report.notes.push_back(finding);
+  }
+  report.tables.push_back(table.table());
+  std::vector<std::string> clips;
+  for (const SolidActor& actor : cast.actors) clips.push_back(actor.name);
+  report.workload.emplace_back("clips", listed(clips));
+  if (!cast.leftOut.empty()) report.workload.emplace_back("absent", listed(cast.leftOut));
+  return bench;
+}
+
+}  // namespace foretouch::tools

@@ -1,0 +1,27 @@
+// bench/solid/cast.h: who plays where: clips and scenes by name, those that are there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "articulated/result.h"
+#include "bench/solid/stage.h"
+
+namespace foretouch::tools {
+
+struct Cast {
+  std::vector<SolidActor> actors;
+  std::vector<SolidStage> stages;
+  std::vector<std::string> leftOut;  ///< Which are not there, or have no two frames.
+};
+
+/// `dataFolder`: with mocap/ and scenes/. `scenes`: kitchen, office, collision-world, undulating,
+/// room; kitchen, office and room if there are none. `clips`: of mocap/, or paths; "all"; six if
+/// there are none. Without any clip, the bundled dancer.
+[[nodiscard]] Result<Cast> loadCast(const std::string& dataFolder, std::vector<std::string> scenes,
+                                    const std::vector<std::string>& clips);
+
+/// With commas.
+[[nodiscard]] std::string listed(const std::vector<std::string>& names);
+
+}  // namespace foretouch::tools
