@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -15,6 +17,7 @@
 #include "bench/solid/busy_places.h"
 #include "bench/solid/cast.h"
 #include "bench/solid/cells.h"
+#include "tools/person/learn_bounds.h"
 #include "tools/progress.h"
 
 namespace foretouch::tools {
@@ -45,9 +48,11 @@ SolidActor partOf(const SolidActor& actor, const BusyPlace& place, double second
 
 class PersonTable {
  public:
-  PersonTable()
-      : table_{"oracle",
-               "Brackets of persons whose poses are held back, by the bounds that hold on the clip",
+  explicit PersonTable(double learned)
+      : table_{learned > 0.0 ? "strangers" : "oracle",
+               learned > 0.0
+                   ? fmt::format("Brackets by bounds of strangers, at the quantile {:g}", learned)
+                   : "Brackets of persons whose poses are held back, by the bounds of their clip",
                {{"asked", "asked"},
                 {"rate_hz", "Hz", 0},
                 {"between", "between"},
@@ -81,16 +86,50 @@ class PersonTable {
   BenchTable table_;
 };
 
+/// The names of clips begin with who made them.
+std::string makerOf(const SolidActor& actor) {
+  return actor.name.substr(0, actor.name.find('_'));
+}
+
+/// Bounds of strangers, for one actor.
+class Strangers {
+ public:
+  Strangers(const PersonBenchRequest& request, const std::vector<SolidActor>& actors,
+            const SolidActor& actor)
+      : skeleton_(actor.avatar.skeleton()) {
+    LearnRequest learn;
+    learn.models = request.models;
+    learn.ratesHz = request.ratesHz;
+    learn.quantile = request.learned;
+    BoundsLearner learner(learn);
+    for (const SolidActor& other : actors) {
+      if (makerOf(other) != makerOf(actor)) (void)learner.learn(other.clip, other.avatar);
+    }
+    file_ = learner.bounds();
+  }
+  /// None if nobody else has this rate.
+  [[nodiscard]] std::vector<LinkBound> of(MotionModel model, double rateHz) const {
+    auto bounds = boundsOf(file_, skeleton_, model, rateHz);
+    return bounds.ok() ? std::move(bounds).value().bounds : std::vector<LinkBound>{};
+  }
+
+ private:
+  const Skeleton& skeleton_;
+  BoundsFile file_;
+};
+
 class PersonRuns {
  public:
-  PersonRuns(const PersonBenchRequest& request, const SolidStage& stage)
-      : request_(request), stage_(stage) {}
+  PersonRuns(const PersonBenchRequest& request, const SolidStage& stage, const Cast& cast)
+      : request_(request), stage_(stage), cast_(cast) {}
 
   void add(const SolidActor& actor, std::map<Kind, PersonTally>& tallies) const {
     BusyPlaceRequest places;
     places.count = request_.places;
     places.seconds = std::min(request_.seconds, actor.clip.durationS());
     places.seed = request_.seed;
+    std::optional<Strangers> strangers;
+    if (request_.learned > 0.0) strangers.emplace(request_, cast_.actors, actor);
     for (const BusyPlace& place : busyPlaces(stage_, actor, places)) {
       const SolidActor part = partOf(actor, place, places.seconds);
       for (const double rateHz : request_.ratesHz) {
@@ -109,6 +148,7 @@ class PersonRuns {
  private:
   const PersonBenchRequest& request_;
   const SolidStage& stage_;
+  const Cast& cast_;
 };
 
 }  // namespace
@@ -127,14 +167,15 @@ Result<PersonBench> measurePerson(const PersonBenchRequest& request) {
   std::int64_t done = 0;
   for (const SolidStage& stage : cast.stages) {
     for (const SolidActor& actor : cast.actors) {
-      PersonRuns(request, stage).add(actor, tallies);
+      PersonRuns(request, stage, cast).add(actor, tallies);
       progress.advanceTo(++done);
     }
   }
-  PersonTable table;
+  PersonTable table(request.learned);
   for (const auto& [kind, tally] : tallies) {
     const auto& [isOwn, rateHz, model] = kind;
     table.add({isOwn, -rateHz, model}, tally);
+    if (request.learned > 0.0) continue;
     bench.violations += tally.missed + tally.lied;
     for (const std::string& finding : tally.findings) report.notes.push_back(finding);
   }

@@ -23,6 +23,9 @@ struct PersonBenchRequest {
   int instants = 3;         ///< That the judge looks at per frame.
   double boundShare = 1.0;  ///< Of the bounds that hold: below 1 to see them found out.
   std::uint64_t seed = 1;   ///< Of the places.
+  /// Above 0: bounds are learned at this quantile, on all clips of other makers than the judged
+  /// one's; touches that are missed or invented are then counted, and no violation.
+  double learned = 0.0;
   std::string command;
 };
 

@@ -62,6 +62,8 @@ Command bodyCommand() {
   settings.whole("--seed", "N", request.seed, 1, kMostSeed, "Of the places");
   settings.number("--bound-share", "X", request.boundShare, kAboveZero,
                   "Of the bounds that hold: below 1, touches are missed");
+  settings.number("--learned", "Q", request.learned, NumberRange{0.0, 1.0},
+                  "Instead by bounds of the clips of other makers, learned at this quantile");
   addFigures(settings, asked->json, asked->csv, "Also write the table to a file");
   Command command{"body",
                   "What brackets say of persons whose poses are held back; exit code 1 where a "

@@ -60,7 +60,7 @@ class Trial {
     }
     query_ = BracketQuery::build(avatar_, stage.scene, options).value();
     plain_ = Query::build(avatar_, stage.scene, plain).value();
-    bounds_ = learn();
+    bounds_ = trial.bounds.empty() ? learn() : trial.bounds;
   }
 
   PersonTally run() {

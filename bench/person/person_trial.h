@@ -17,8 +17,9 @@ struct PersonTrial {
   MotionModel model = MotionModel::CubicLate;
   bool isFollowed = true;  ///< Bounds follow how the poses bend, too.
   bool asksOwnLinks = false;
-  double boundShare = 1.0;  ///< Of the bounds that hold: below 1 for planted faults.
-  int instants = 4;         ///< That are looked at per frame of the clip.
+  double boundShare = 1.0;             ///< Of the bounds that hold: below 1 for planted faults.
+  int instants = 4;                    ///< That are looked at per frame of the clip.
+  std::vector<LinkBound> bounds = {};  ///< One per link; empty: those that hold on the clip.
 };
 
 struct PersonTally {

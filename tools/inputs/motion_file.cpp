@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "articulated/quoted.h"
 #include "articulated/try.h"
 #include "tools/console.h"
 #include "tools/inputs/npz_motion.h"
