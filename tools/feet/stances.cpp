@@ -29,7 +29,8 @@ constexpr double kAsLow = 0.001;
 struct OpenStance {
   FootStance stance;
   SlidePath path;
-  std::vector<Lss> deepest_W;  ///< The part's LSS at the greatest depth.
+  std::optional<Vector3d> from_W;  ///< Where what touches began to rest.
+  std::vector<Lss> deepest_W;      ///< The part's LSS at the greatest depth.
 };
 
 /// What a part's lowest sphere does, above a surface.
@@ -50,7 +51,7 @@ class Walk {
         cursor_(parts_.size(), 0),
         field_(countFeet(), inputs.stepS()) {
     for (const PartContact& contact : contacts_.contacts)
-      open_.push_back({stanceOf(contact), SlidePath(kSlideRuler), {}});
+      open_.push_back({stanceOf(contact), SlidePath(kSlideRuler), {}, {}});
     for (std::size_t part = 0, i = 0; part < parts_.size(); ++part) {
       cursor_[part] = i;
       while (i < open_.size() && open_[i].stance.part == part) ++i;
@@ -276,7 +277,13 @@ void Walk::lookBetween(std::int64_t step, double t, double lengthS) {
       deepen(*open, parts_[part], -surface->heightOf(motion.p_W), timeS);
     }
     if (std::abs(motion.normalSpeed) > kRestNormalSpeed) continue;
-    if (open->path.add(lengthS * motion.slide_W)) open->stance.trace_W.push_back(motion.p_W);
+    // From one point on: another one that touches later adds its way, not how far away it is.
+    if (!open->from_W) open->from_W = motion.p_W;
+    if (open->path.add(lengthS * motion.slide_W)) {
+      std::vector<Vector3d>& trace_W = open->stance.trace_W;
+      if (trace_W.empty()) trace_W.push_back(*open->from_W);
+      trace_W.emplace_back(*open->from_W + open->path.needle());
+    }
     PartSample& sample = answer_.samples[answer_.samples.size() - parts_.size() + part];
     sample.slide += static_cast<float>(motion.slide_W.norm() * lengthS / inputs_.stepS());
   }
