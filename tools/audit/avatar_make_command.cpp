@@ -1,5 +1,6 @@
 #include "tools/audit/avatar_make_command.h"
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -23,7 +24,6 @@
 #include "tools/results_output.h"
 #include "tools/settings/frame_settings.h"
 #include "tools/settings/world_settings.h"
-#include "tools/setup/body_offer.h"
 
 namespace foretouch::tools {
 namespace {
@@ -58,7 +58,8 @@ Result<Avatar> withHeels(const AskedOfClip& asked, const Clip& clip, const Avata
   FORETOUCH_TRY(const auto match,
                 inFile(matchJoints(avatar.skeleton(), clip.skeleton), asked.clip));
   Placement upright;
-  upright.motionUpZ = upAxisOf(clip, false).value == UpAxis::Z;
+  const auto stance = stanceOf(clip.skeleton, clip.frames.front());
+  upright.motionUpZ = stance && stance->headFromFeet.z() > std::abs(stance->headFromFeet.y());
   const PlacedClip placed{avatar, clip, match, upright, false, asked.clip};
   FORETOUCH_TRY(auto body, inFile(restingBodyOf(avatar), asked.clip));
   const RestingPoses poses = [&](std::int64_t frame) -> Result<Pose> {

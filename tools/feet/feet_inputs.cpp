@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -97,15 +98,19 @@ RestingPoses restPoses(const FeetInputs& inputs) {
   };
 }
 
-Result<std::vector<FootRest>> restsOf(const FeetInputs& inputs) {
+/// Of the clip's begin, at most so long (s).
+Result<std::vector<FootRest>> restsOf(const FeetInputs& inputs,
+                                      double mostS = std::numeric_limits<double>::infinity()) {
   const std::int64_t stride = restStride(inputs);
-  return footRestsOf(inputs.body, inputs.steps() / stride,
+  const double most = mostS / inputs.stepS(), all = static_cast<double>(inputs.steps());
+  return footRestsOf(inputs.body, static_cast<std::int64_t>(std::min(most, all)) / stride,
                      static_cast<double>(stride) * inputs.stepS(), restPoses(inputs));
 }
 
 /// A body that is made of the clip's bones gets heels; an avatar that was given stays as it is.
 Result<Done> addHeels(FeetInputs& inputs) {
-  FORETOUCH_TRY(const auto rests, restsOf(inputs));
+  constexpr double kUsualWayS = 600.0;  // how somebody stands shows in ten minutes
+  FORETOUCH_TRY(const auto rests, restsOf(inputs, kUsualWayS));
   std::size_t lowered = 0;
   FORETOUCH_TRY(auto body, withHeelsDown(inputs.body, rests, restPoses(inputs), &lowered));
   const bool isMade = inputs.request.avatarPath.empty();

@@ -86,7 +86,9 @@ class Walk {
   std::vector<std::size_t> cursor_;  ///< Per part: the first contact that may not be over.
   std::vector<std::optional<GroundSurface>> below_;  ///< Per part, at the last pose.
   Pose to_;                                          ///< At the end of the step.
-  std::vector<LinkState> states_;                    ///< At the instant that is looked at.
+  ChainMotion motion_;                               ///< The step's.
+  MotionEvaluator evaluator_;
+  std::vector<LinkState> states_;  ///< At the instant that is looked at.
   Scratch scratch_;
   NearFeatures features_;
   FieldMeter field_;
@@ -313,16 +315,17 @@ Result<Done> Walk::step(std::int64_t step) {
   if (step < inputs_.steps()) {
     FORETOUCH_TRY(to_, inputs_.poseAt(step + 1));
   }
-  const ChainMotion motion(inputs_.body.avatar.skeleton(), from, to_);
-  motion.statesAt(0.0, states_);
+  motion_.assign(inputs_.body.avatar.skeleton(), from, to_);
+  evaluator_.reset(motion_);
+  evaluator_.statesAt(0.0, states_);
   samplePose(step);
-  motion.statesAt(0.5, states_);
+  evaluator_.statesAt(0.5, states_);
   sampleSpeeds();
   if (step == inputs_.steps()) return Done{};
   const auto looks = static_cast<int>(std::max(1.0, std::ceil(inputs_.stepS() * kLooksHz)));
   for (int i = 0; i < looks; ++i) {
     const double t = (i + 0.5) / looks;
-    motion.statesAt(t, states_);
+    evaluator_.statesAt(t, states_);
     lookBetween(step, t, inputs_.stepS() / looks);
   }
   return Done{};

@@ -62,6 +62,10 @@ struct RestingBody {
 /// Errors: no joint is called a foot; no foot has an LSS.
 [[nodiscard]] Result<RestingBody> restingBodyOf(const Avatar& avatar);
 
+/// Where links are in a pose, by plain forward kinematics, which is quicker than a motion; their
+/// velocities are 0.
+void placeLinks(const Skeleton& skeleton, const Pose& pose, std::vector<LinkState>& states);
+
 /// The lowest of a part along `up` (unit).
 struct LowestCorner {
   double height = 0.0;     ///< Of its sphere's lowest point along `up`.
