@@ -222,6 +222,26 @@ void writeLimb(const FeetInputs& inputs, std::size_t limb, const LimbTotals& of,
   out.endObject();
 }
 
+/// Of all feet together, without hands.
+void writeFeet(const FeetInputs& inputs, const std::vector<LimbTotals>& totals, JsonWriter& out) {
+  std::size_t touches = 0, slides = 0, sinks = 0;
+  double worstSlide = 0.0, deepest = 0.0;
+  for (std::size_t limb = 0; limb < totals.size(); ++limb) {
+    if (inputs.body.limbs[limb].isHand) continue;
+    const LimbTotals& of = totals[limb];
+    touches += of.touches;
+    slides += of.slides;
+    sinks += of.sinks;
+    if (of.worstSlide != nullptr) worstSlide = std::max(worstSlide, of.worstSlide->slide);
+    if (of.deepest != nullptr) deepest = std::max(deepest, of.deepest->depth);
+  }
+  out.field("touches", touches);
+  out.field("slides", slides);
+  writeShort("worst_slide", worstSlide, out);
+  out.field("sinks", sinks);
+  writeShort("deepest", deepest, out);
+}
+
 }  // namespace
 
 std::string fitText(const FeetInputs& inputs) {
@@ -299,6 +319,7 @@ std::string feetJson(const FeetInputs& inputs, const FeetAnswer& answer) {
   out.field("tolerance", inputs.request.tolerance);
   if (inputs.fit) writeFit(inputs, out);
   const std::vector<LimbTotals> totals = totalsOf(inputs, answer);
+  writeFeet(inputs, totals, out);
   out.key("limbs");
   out.beginArray();
   for (std::size_t limb = 0; limb < totals.size(); ++limb) {
