@@ -22,10 +22,13 @@ std::vector<LinkId> linksWith(const std::vector<BodyRole>& roles,
 
 }  // namespace
 
+std::vector<LinkId> namedTrunkOf(const Skeleton& skeleton) {
+  return linksWith(internal::bodyRoles(skeleton),
+                   {BodyRole::Pelvis, BodyRole::Torso, BodyRole::Neck, BodyRole::Head});
+}
+
 std::vector<LinkId> trunkOf(const Skeleton& skeleton) {
-  std::vector<LinkId> trunk =
-      linksWith(internal::bodyRoles(skeleton),
-                {BodyRole::Pelvis, BodyRole::Torso, BodyRole::Neck, BodyRole::Head});
+  std::vector<LinkId> trunk = namedTrunkOf(skeleton);
   if (trunk.empty()) {
     for (LinkId link = 0; link < skeleton.numJoints(); ++link) trunk.push_back(link);
   }

@@ -8,6 +8,9 @@
 
 namespace foretouch {
 
+/// Pelvis, torso, neck and head, by their names. None if the names show none of them.
+[[nodiscard]] std::vector<LinkId> namedTrunkOf(const Skeleton& skeleton);
+
 /// Pelvis, torso, neck and head: what stays free where a person goes. All links if the names show
 /// none of them.
 [[nodiscard]] std::vector<LinkId> trunkOf(const Skeleton& skeleton);

@@ -104,7 +104,7 @@ TEST(BoundsFile, RefusesWhatItCannotMean) {
   refuses(R"({"format": "foretouch-bounds", "version": 2, "bounds": []})", "version");
   refuses(fileWith(""), "not empty");
   refuses(fileWith(R"({"acceleration_m_s2": 1})"), "either \"link\" or \"part\"");
-  refuses(fileWith(R"({"part": "hnad"})"), "did you mean 'hand'");
+  refuses(fileWith(R"({"part": "hnad"})"), "did you mean 'head', 'hand'");
   refuses(fileWith(R"({"part": "all", "aceleration_m_s2": 1})"), "unknown key");
   refuses(fileWith(R"({"part": "all", "error_m": -1})"), "bounds[0]: expected a number");
   refuses(fileWith(R"({"part": "all", "error_m": "1"})"), "expected a number");

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { expectSameContact, readEveryContact } from "./contact_check.mjs";
 import { unreachableControls, sidewaysScroll } from "./controls.mjs";
 import { coloursOf, countAround, differenceAt, isAvatarColour, isContactColour, linkPlaces, pixelsOf } from "./pixels.mjs";
-import { reportOf } from "./programs.mjs";
+import { clips, reportOf, run } from "./programs.mjs";
 import { shownNumbers } from "./shown_numbers.mjs";
 import { clickBars } from "./timeline_clicks.mjs";
 import { documentIn } from "./view_document.mjs";
@@ -19,6 +19,7 @@ export async function* casesOf(context) {
     yield [`${name}: the chosen contact is marked where it is`, () => report.markers()];
     yield [`${name}: scrubbing moves the avatar on the screen`, () => report.scrubbing()];
     yield [`${name}: a click on the timeline goes there`, () => report.timeline()];
+    yield [`${name}: feet stand, slide and sink in as foretouch feet says`, () => report.feet()];
     yield [`${name}: keys go from contact to contact`, () => report.keys()];
     yield [`${name}: the check of the poses counts as the document and the summary do`, () => report.discreteCheck()];
     yield [`${name}: the histogram's percentiles are the summary's`, () => report.percentiles()];
@@ -117,6 +118,32 @@ class OpenedReport {
   async timeline() {
     const clicked = await clickBars(this.page);
     return `${clicked} bars clicked`;
+  }
+
+  /** The same count in the card and in the other command; a click on the worst shows it. */
+  async feet() {
+    const { page } = this, words = await clips[this.name](this.setting, this.folder);
+    const told = JSON.parse(await run(this.setting.program, ["feet", ...words.scene, ...words.played, "--json", "--quiet"]));
+    const shown = await page.evaluate(() => window.foretouch.feet().map(({ link, stances }) => ({ name: window.foretouch.linkName(link), stances })));
+    const limbs = told.limbs.filter(({ name }) => shown.some((foot) => foot.name === name));
+    assert.equal(limbs.length, shown.length);
+    for (const { name, touches, worst_slide: slide, deepest } of limbs) {
+      const met = shown.find((foot) => foot.name === name).stances.filter(({ kind }) => kind !== "hovers");
+      assert.equal(met.length, touches, `${name} touches`);
+      const most = (of) => met.reduce((a, b) => Math.max(a, of(b)), 0);
+      assert.ok(Math.abs(most((stance) => stance.slide) - slide) < 1e-6, `${name} slides ${slide}`);
+      assert.ok(Math.abs(most((stance) => stance.depth) - deepest) < 1e-6, `${name} is ${deepest} deep`);
+      await page.getByText(new RegExp(`^${name}: ${touches === 0 ? "touches nothing" : `${touches} touch`}`)).waitFor();
+    }
+    const all = shown.flatMap(({ stances }) => stances);
+    await page.locator(".feet tbody button").first().click();
+    const badness = ({ slide, depth, hover }) => Math.max(slide, depth, hover), chosen = await page.evaluate(() => window.foretouch.selectedStance());
+    const standing = all.filter(({ begin, end }) => end - begin >= 0.1);
+    assert.equal(badness(chosen), Math.max(...(standing.length > 0 ? standing : all).map(badness)), "the worst is the first");
+    const { time } = await page.evaluate(() => window.foretouch.state());
+    assert.ok(time >= chosen.begin && time <= chosen.end, "the place that is shown is the place that is said");
+    await this.pixels.whole(page, this.shot("feet"));
+    return `${all.length} stances`;
   }
 
   async keys() {

@@ -12,8 +12,8 @@ export async function clickBars(page) {
   await page.getByLabel("Rows of the timeline").selectOption("link");
   const axis = await axisOf(page);
   const touches = await page.evaluate(() => Array.from({ length: window.foretouch.state().touches }, (_, index) => {
-    const { link, avatar, begin, end, rows } = window.foretouch.touch(index);
-    return { index, row: 1e6 * avatar + link, begin, end, at: rows.length > 0 ? window.foretouch.contact(rows[0]).at : begin };
+    const { link, avatar, begin, end, moment } = window.foretouch.touch(index);
+    return { index, row: 1e6 * avatar + link, begin, end, at: moment >= 0 ? window.foretouch.contact(moment).at : begin };
   }));
   const rows = [...new Set(touches.map(({ row }) => row))].sort((a, b) => a - b);
   const middleOf = ({ begin, end }) => 0.5 * (begin + end);

@@ -1,5 +1,6 @@
 #include "tools/audit/avatar_make_command.h"
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -16,6 +17,8 @@
 #include "tools/audit/audits.h"
 #include "tools/audit/avatar_files.h"
 #include "tools/audit/surface_audit.h"
+#include "tools/floor/heels.h"
+#include "tools/inputs/clip_pose.h"
 #include "tools/inputs/first_pose.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/results_output.h"
@@ -30,6 +33,7 @@ struct AskedOfClip {
   std::string clip, output;
   BvhOptions reading;
   BvhAvatarOptions making;
+  bool heels = false;
 };
 struct AskedOfModel {
   std::string model, output;
@@ -49,12 +53,40 @@ void tell(const Avatar& avatar, const std::string& output, const std::string& mo
   for (const std::string& doubt : doubtsAbout(audit, unitOption)) printNote(output + ": " + doubt);
 }
 
+/// The avatar with heels as the feet stand when they rest in the clip.
+Result<Avatar> withHeels(const AskedOfClip& asked, const Clip& clip, const Avatar& avatar) {
+  FORETOUCH_TRY(const auto match,
+                inFile(matchJoints(avatar.skeleton(), clip.skeleton), asked.clip));
+  Placement upright;
+  const auto stance = stanceOf(clip.skeleton, clip.frames.front());
+  upright.motionUpZ = stance && stance->headFromFeet.z() > std::abs(stance->headFromFeet.y());
+  const PlacedClip placed{avatar, clip, match, upright, false, asked.clip};
+  FORETOUCH_TRY(auto body, inFile(restingBodyOf(avatar), asked.clip));
+  const RestingPoses poses = [&](std::int64_t frame) -> Result<Pose> {
+    FORETOUCH_TRY(auto pose, poseAtFrame(placed, frame));
+    return body.poseOf(std::move(pose));
+  };
+  const auto steps = static_cast<std::int64_t>(clip.frames.size()) - 1;
+  FORETOUCH_TRY(const auto rests, footRestsOf(body, steps, clip.frameTimeS, poses));
+  std::size_t lowered = 0;
+  FORETOUCH_TRY(const auto down, withHeelsDown(body, rests, poses, &lowered));
+  if (lowered == 0) {
+    printNote(asked.clip +
+              ": --heels: no foot gets a heel, as none that is a bone with length rests in the "
+              "clip, in one usual way to stand");
+    return avatar;
+  }
+  return avatarWithHeels(avatar, down);
+}
+
 ExitCode makeFromBvh(const AskedOfClip& asked) {
   FORETOUCH_CHECK_OR(failed, checkIsNoInput(asked.output, {asked.clip}));
   FORETOUCH_TRY_OR(failed, const auto clip, readBvhFile(asked.clip, asked.reading));
   for (const std::string& note : clip.notes) printNote(asked.clip + ": " + note);
-  FORETOUCH_TRY_OR(failed, const auto avatar,
-                   inFile(avatarFromClip(clip, asked.making), asked.clip));
+  FORETOUCH_TRY_OR(failed, auto avatar, inFile(avatarFromClip(clip, asked.making), asked.clip));
+  if (asked.heels) {
+    FORETOUCH_TRY_OR(failed, avatar, withHeels(asked, clip, avatar));
+  }
   FORETOUCH_CHECK_OR(failed, writeAvatarFile(avatar, asked.output));
   tell(avatar, asked.output, "", "--clip-scale");
   return ExitCode::Done;
@@ -141,6 +173,8 @@ Command avatarBvhCommand() {
       .formerly("--scale");
   settings.number("--radius-scale", "S", asked->making.radiusScale, kAboveZero,
                   "Multiplies every radius");
+  settings.flag("--heels", asked->heels,
+                "Let the heels down to the level of the balls, as the feet rest in the clip");
   Command command{
       "bvh", "Make an avatar from a clip's skeleton, an LSS a bone",
       "Example:\n  foretouch avatar bvh walk.bvh --clip-scale 0.01 -o walker.avatar.json",

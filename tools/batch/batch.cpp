@@ -48,7 +48,7 @@ class BatchRun {
            const std::function<bool()>& stop)
       : manifest_(manifest),
         plan_(plan),
-        folder_(plan.results),
+        folder_(plan.results, endingOf(manifest.kind)),
         scratch_(scratch),
         stop_(stop),
         marks_(manifest.folder),
@@ -70,6 +70,10 @@ class BatchRun {
   JobEnd keep(std::size_t number, JobRecord record, const ChildEnd& end);
   JobEnd failJob(std::size_t number, const std::string& name, const std::string& why);
   [[nodiscard]] ChildPlan childFor(const BatchJob& job, const std::string& name) const;
+  /// Plots of feet are small, and what a ranking leads to.
+  [[nodiscard]] bool makesPages() const {
+    return plan_.makesReports || manifest_.kind == BatchKind::Feet;
+  }
   bool move(const std::string& name, const char* ending);
   void stopWith(const Error& error);
   void tell(std::size_t number, const std::string& why);
@@ -130,15 +134,19 @@ void BatchRun::count(JobEnd end) {
 }
 
 ChildPlan BatchRun::childFor(const BatchJob& job, const std::string& name) const {
-  ChildPlan child{plan_.program, {"replay"}, manifest_.folder, plan_.jobSeconds};
+  const bool isOfFeet = manifest_.kind == BatchKind::Feet;
+  ChildPlan child{plan_.program, {commandOf(manifest_.kind)}, manifest_.folder, plan_.jobSeconds};
   const std::vector<std::string> words = job.words();
   child.words.insert(child.words.end(), words.begin(), words.end());
   const std::string results = scratch_ + "/" + name;
   for (const std::string& word : {std::string("--quiet"), std::string("--json"),
-                                  std::string("--threads=1"), "--output=" + results + ".jsonl"}) {
+                                  "--output=" + results + endingOf(manifest_.kind)}) {
     child.words.push_back(word);
   }
-  if (plan_.makesReports) child.words.push_back("--report=" + results + ".html");
+  if (!isOfFeet) child.words.emplace_back("--threads=1");
+  if (makesPages()) {
+    child.words.push_back((isOfFeet ? "--plot=" : "--report=") + results + ".html");
+  }
   return child;
 }
 
@@ -154,7 +162,7 @@ bool BatchRun::move(const std::string& name, const char* ending) {
 /// Results first, then the record that tells of them.
 JobEnd BatchRun::keep(std::size_t number, JobRecord record, const ChildEnd& end) {
   const auto summary = lastingSummary(end.out);
-  const std::string results = scratch_ + "/" + record.name + ".jsonl";
+  const std::string results = scratch_ + "/" + record.name + endingOf(manifest_.kind);
   const auto mark = markOfFile(results);
   if (!summary || !mark.ok()) {
     return failJob(number, record.name, "expected results and their summary, found none");
@@ -162,8 +170,8 @@ JobEnd BatchRun::keep(std::size_t number, JobRecord record, const ChildEnd& end)
   record.summary = *summary;
   record.mark = mark.value();
   record.isDone = true;
-  if (!move(record.name, ".jsonl")) return JobEnd::Stopped;
-  if (plan_.makesReports && !move(record.name, ".html")) return JobEnd::Stopped;
+  if (!move(record.name, endingOf(manifest_.kind))) return JobEnd::Stopped;
+  if (makesPages() && !move(record.name, ".html")) return JobEnd::Stopped;
   const auto put = folder_.put(record, scratch_);
   if (put.ok()) return JobEnd::Done;
   stopWith(put.error());

@@ -35,7 +35,7 @@ struct AskedBatch {
   int threads = 0;  ///< 0: one per processor.
   std::optional<double> jobSeconds;
   std::string program;  ///< Empty: this one.
-  bool makesReports = false, lists = false, merges = false, asJson = false;
+  bool ofFeet = false, makesReports = false, lists = false, merges = false, asJson = false;
   std::string table, report;
 };
 
@@ -69,6 +69,8 @@ void addRunSettings(Settings& settings, AskedBatch& asked) {
       .number("--job-seconds", "S", asked.jobSeconds, {0.0, kMostJobSeconds, "seconds", "s"},
               "none", "A job that takes longer fails")
       .in(kEffortGroup);
+  settings.flag("--feet", asked.ofFeet,
+                "Each job is foretouch feet: its stances, its plot, and one ranking of all clips");
   settings.flag("--reports", asked.makesReports, "Also a report of each job, for a browser")
       .in(kOutputGroup);
   settings
@@ -138,14 +140,16 @@ std::string tallyLine(std::size_t jobs, std::size_t done, std::size_t kept, std:
 }
 
 ExitCode merge(const AskedBatch& asked, const BatchManifest& manifest, const BatchPlan& plan) {
-  const std::string table = asked.table.empty() ? plan.results + "/table.csv" : asked.table;
-  const std::string report = asked.report.empty() ? plan.results + "/report.html" : asked.report;
-  const BatchTable all = gatherBatch(manifest, plan.version, ResultFolder(plan.results));
+  const std::string lead = plan.results + (asked.ofFeet ? "/feet_" : "/");
+  const std::string table = asked.table.empty() ? lead + "table.csv" : asked.table;
+  const std::string report = asked.report.empty() ? lead + "report.html" : asked.report;
+  const BatchTable all =
+      gatherBatch(manifest, plan.version, ResultFolder(plan.results, endingOf(manifest.kind)));
   const bool isJson = fs::path(table).extension() == ".jsonl";
   FORETOUCH_CHECK_OR(failed, writeAll(table, isJson ? jsonLinesOf(all) : csvOf(all)));
   const BatchReportPlaces places{fs::path(manifest.path).filename().string(),
                                  folderSeenFrom(report, plan.results)};
-  FORETOUCH_CHECK_OR(failed, writeAll(report, batchReport(all, places)));
+  FORETOUCH_CHECK_OR(failed, writeAll(report, batchReport(all, places, manifest.kind)));
   if (asked.table != kStandardOutput && asked.report != kStandardOutput) {
     printOut(asked.asJson
                  ? tallyLine(all.rows.size(), all.done, 0, 0, all.failed, all.absent)
@@ -192,6 +196,7 @@ Result<BatchPlan> planFor(const AskedBatch& asked) {
   plan.program = asked.program.empty() ? fs::read_symlink("/proc/self/exe", failure).string()
                                        : fs::absolute(asked.program, failure).string();
   FORETOUCH_TRY(plan.version, versionOf(plan.program));
+  if (asked.ofFeet) plan.version += " feet";  // the same clip has other results
   plan.results = fs::absolute(asked.results, failure).lexically_normal().string();
   while (plan.results.size() > 1 && plan.results.back() == '/') plan.results.pop_back();
   const int cores = static_cast<int>(
@@ -209,9 +214,12 @@ Result<BatchPlan> planFor(const AskedBatch& asked) {
   return plan;
 }
 
-ExitCode run(const AskedBatch& asked, const std::function<Command()>& replay) {
-  Command command = replay();
-  FORETOUCH_TRY_OR(failed, const auto manifest, readManifest(asked.manifest, command.settings));
+ExitCode run(const AskedBatch& asked, const std::function<Command()>& replay,
+             const std::function<Command()>& feet) {
+  Command command = asked.ofFeet ? feet() : replay();
+  FORETOUCH_TRY_OR(failed, const auto manifest,
+                   readManifest(asked.manifest, command.settings,
+                                asked.ofFeet ? BatchKind::Feet : BatchKind::Replays));
   FORETOUCH_TRY_OR(failed, const auto plan, planFor(asked));
   if (asked.lists) return list(manifest, plan);
   return asked.merges ? merge(asked, manifest, plan) : doJobs(asked, manifest, plan);
@@ -221,6 +229,8 @@ constexpr char kBatchExamples[] = R"(Examples:
   foretouch batch dances.batch --output results
   foretouch batch dances.batch --output results --shard 3/16 --threads 4
   foretouch batch dances.batch --output results --merge --table dances.csv
+  foretouch batch walks.batch --output feet --feet
+  foretouch batch walks.batch --output feet --feet --merge
 
 A manifest is a text; each job takes the options of foretouch replay:
   foretouch-batch 1
@@ -233,12 +243,12 @@ folder that cannot be written. What is done is not done again: run the same once
 
 }  // namespace
 
-Command batchCommand(std::function<Command()> replay) {
+Command batchCommand(std::function<Command()> replay, std::function<Command()> feet) {
   const auto asked = std::make_shared<AskedBatch>();
   Command command{"batch", "Replay many clips, on one machine or on many", kBatchExamples,
                   batchSettings(*asked)};
-  command.run = [asked, replay = std::move(replay)](const Settings&) {
-    return run(*asked, replay);
+  command.run = [asked, replay = std::move(replay), feet = std::move(feet)](const Settings&) {
+    return run(*asked, replay, feet);
   };
   return command;
 }

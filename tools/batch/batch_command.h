@@ -7,7 +7,7 @@
 
 namespace foretouch::tools {
 
-/// `replay`: makes that command, whose options a job takes.
-[[nodiscard]] Command batchCommand(std::function<Command()> replay);
+/// `replay`, `feet`: make these commands, whose options a job takes.
+[[nodiscard]] Command batchCommand(std::function<Command()> replay, std::function<Command()> feet);
 
 }  // namespace foretouch::tools

@@ -45,9 +45,42 @@ double shareOf(const BatchRow& row) {
 }
 
 /// Less: earlier on the page.
-auto rankOf(const BatchRow& row) {
+auto rankOf(const BatchRow& row, BatchKind kind) {
   const int group = !row.record ? 1 : (row.record->isDone ? 2 : 0);
-  return std::make_tuple(group, -touchesOf(row), -shareOf(row), -row.numberOf("kept"), row.number);
+  const bool isOfFeet = kind == BatchKind::Feet;
+  const double worst = std::max(row.numberOf("worst_slide"), row.numberOf("deepest"));
+  return std::make_tuple(group, isOfFeet ? -worst : -touchesOf(row),
+                         isOfFeet ? -row.numberOf("slides") : -shareOf(row), -row.numberOf("kept"),
+                         row.number);
+}
+
+/// A column of numbers: what it is called, and where it is in the summary.
+struct Column {
+  const char *title, *key;
+  double factor = 1.0;  ///< Other than 1: metres, told in millimetres.
+};
+
+const std::vector<Column>& columnsOf(BatchKind kind) {
+  static const std::vector<Column> replays{{"steps", "steps"},
+                                           {"with contact", "steps_with_contact"},
+                                           {"touches", "touches"},
+                                           {"missed by poses", "touches_missed"},
+                                           {"of the ground", "touches_ground"},
+                                           {"start in contact", "starts_in_contact"},
+                                           {"undecided", "undecided"}};
+  static const std::vector<Column> feet{{"poses", "poses"},
+                                        {"touches", "touches"},
+                                        {"slide", "slides"},
+                                        {"worst slide, mm", "worst_slide", 1e3},
+                                        {"sink in", "sinks"},
+                                        {"deepest, mm", "deepest", 1e3},
+                                        {"skating ratio", "skating_ratio"}};
+  return kind == BatchKind::Feet ? feet : replays;
+}
+
+std::string cellOf(const BatchRow& row, const Column& column) {
+  if (column.factor == 1.0) return forPage(row.value(column.key));
+  return fmt::format("{:.1f}", column.factor * row.numberOf(column.key));
 }
 
 std::string fileOfOption(const BatchRow& row, const char* name) {
@@ -73,43 +106,43 @@ std::string linkTo(const BatchRow& row, const BatchReportPlaces& places, const c
                      ResultFolder::placeOf(row.name, ending), word);
 }
 
-std::string rowOf(const BatchRow& row, const BatchReportPlaces& places) {
+std::string rowOf(const BatchRow& row, const BatchReportPlaces& places, BatchKind kind) {
   const bool isDone = row.record && row.record->isDone;
   std::string text =
       fmt::format("<tr class=\"{}\"><td class=\"n\">{}</td><td>{}</td><td>{}</td><td>{}</td>",
                   row.state(), row.number, forPage(fileOfOption(row, "--motion")),
                   forPage(fileOfOption(row, "--scene")), forPage(fileOfOption(row, "--avatar")));
   if (isDone) {
-    for (const char* const name : {"steps", "steps_with_contact", "touches", "touches_missed",
-                                   "touches_ground", "starts_in_contact", "undecided"}) {
-      text += fmt::format("<td class=\"n\">{}</td>", forPage(row.value(name)));
+    for (const Column& column : columnsOf(kind)) {
+      text += fmt::format("<td class=\"n\">{}</td>", cellOf(row, column));
     }
   } else {
     text += fmt::format("<td colspan=\"7\">{}</td>",
                         forPage(row.record ? row.record->error : std::string("not done")));
   }
   text += fmt::format("<td class=\"o\">{}</td><td>", forPage(otherOptions(row)));
-  if (isDone) text += linkTo(row, places, ".jsonl", "results");
-  if (row.hasReport) text += " " + linkTo(row, places, ".html", "report");
+  if (isDone) text += linkTo(row, places, endingOf(kind), "results");
+  if (row.hasReport)
+    text += " " + linkTo(row, places, ".html", kind == BatchKind::Feet ? "plot" : "report");
   return text + "</td></tr>\n";
 }
 
 }  // namespace
 
-std::string batchReport(const BatchTable& table, const BatchReportPlaces& places) {
+std::string batchReport(const BatchTable& table, const BatchReportPlaces& places, BatchKind kind) {
   std::vector<const BatchRow*> rows;
   for (const BatchRow& row : table.rows) rows.push_back(&row);
-  std::sort(rows.begin(), rows.end(),
-            [](const BatchRow* x, const BatchRow* y) { return rankOf(*x) < rankOf(*y); });
+  std::sort(rows.begin(), rows.end(), [&](const BatchRow* x, const BatchRow* y) {
+    return rankOf(*x, kind) < rankOf(*y, kind);
+  });
   std::string page = fmt::format(kHead, forPage(places.manifest), rows.size(), table.done,
                                  table.failed, table.absent);
-  page +=
-      "<table><thead><tr><th class=\"n\">job</th><th>motion</th><th>scene</th><th>avatar</th>"
-      "<th class=\"n\">steps</th><th class=\"n\">with contact</th><th class=\"n\">touches</th>"
-      "<th class=\"n\">missed by poses</th><th class=\"n\">of the ground</th>"
-      "<th class=\"n\">start in contact</th><th class=\"n\">undecided</th><th>options</th>"
-      "<th></th></tr></thead><tbody>\n";
-  for (const BatchRow* const row : rows) page += rowOf(*row, places);
+  page += "<table><thead><tr><th class=\"n\">job</th><th>motion</th><th>scene</th><th>avatar</th>";
+  for (const Column& column : columnsOf(kind)) {
+    page += fmt::format("<th class=\"n\">{}</th>", column.title);
+  }
+  page += "<th>options</th><th></th></tr></thead><tbody>\n";
+  for (const BatchRow* const row : rows) page += rowOf(*row, places, kind);
   return page + "</tbody></table></body></html>\n";
 }
 

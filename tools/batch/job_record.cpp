@@ -81,7 +81,7 @@ std::optional<JobRecord> ResultFolder::find(const std::string& name) const {
   if (!line.ok()) return std::nullopt;
   auto record = parseRecord(line.value(), name);
   if (!record || !record->isDone) return record;
-  const auto mark = markOfFile(fileOf(name, ".jsonl"));
+  const auto mark = markOfFile(fileOf(name, ending_));
   if (!mark.ok() || mark.value() != record->mark) return std::nullopt;
   return record;
 }

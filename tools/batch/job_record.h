@@ -29,7 +29,9 @@ struct JobRecord {
 /// Where the results of all jobs are.
 class ResultFolder {
  public:
-  explicit ResultFolder(std::string path) : path_(std::move(path)) {}
+  /// `ending`: of the files with the results.
+  explicit ResultFolder(std::string path, const char* ending = ".jsonl")
+      : path_(std::move(path)), ending_(ending) {}
 
   [[nodiscard]] const std::string& path() const { return path_; }
   /// "4f/4f0c....jsonl" for ".jsonl".
@@ -47,6 +49,7 @@ class ResultFolder {
 
  private:
   std::string path_;
+  const char* ending_;
 };
 
 }  // namespace foretouch::tools

@@ -16,11 +16,16 @@ namespace {
 
 constexpr char kBatchFormat[] = "foretouch-batch";
 constexpr char kBatchVersion[] = "1";
+/// What the batch itself says to each job, or takes the place of.
+constexpr const char* kOfBatch[] = {"--output", "--report",        "--json",  "--glb",
+                                    "--bvh",    "--glb-triangles", "--quiet", "--labels",
+                                    "--plot",   "--threads"};
+
 /// Each job needs these.
-constexpr const char* kNeeded[] = {"--scene", "--avatar", "--motion"};
-/// What the batch itself says to each replay, or takes the place of.
-constexpr const char* kOfBatch[] = {"--output", "--report",  "--json",          "--glb",
-                                    "--bvh",    "--threads", "--glb-triangles", "--quiet"};
+std::vector<const char*> neededBy(BatchKind kind) {
+  if (kind == BatchKind::Feet) return {"--motion"};
+  return {"--scene", "--avatar", "--motion"};
+}
 
 /// An option on a line: each choice makes jobs of its own.
 struct GivenOption {
@@ -35,11 +40,12 @@ bool isListOption(const Setting& setting) {
 
 class ManifestReading {
  public:
-  ManifestReading(const std::string& path, Settings& replay) {
+  ManifestReading(const std::string& path, Settings& settings, BatchKind kind) {
     manifest_.path = path;
+    manifest_.kind = kind;
     manifest_.folder = std::filesystem::path(path).parent_path().string();
     if (manifest_.folder.empty()) manifest_.folder = ".";
-    for (Setting& setting : replay) addNames(setting);
+    for (Setting& setting : settings) addNames(setting);
   }
 
   Result<BatchManifest> read(std::string_view text);
@@ -103,7 +109,8 @@ Result<Done> ManifestReading::readFormat(const std::vector<std::string>& words) 
 Result<const ManifestReading::Known*> ManifestReading::known(const std::string& option) const {
   const auto found = byName_.find(option);
   if (found == byName_.end() || option.rfind('-', 0) != 0) {
-    return wrong(ErrorCode::UnknownName, "expected an option of foretouch replay, found " +
+    return wrong(ErrorCode::UnknownName, std::string("expected an option of foretouch ") +
+                                             commandOf(manifest_.kind) + ", found " +
                                              inQuotes(option) + didYouMean(option, names_));
   }
   const Known& known = known_[found->second];
@@ -220,7 +227,7 @@ Result<Done> ManifestReading::addJobs(const std::vector<GivenOption>& own) {
     BatchJob job;
     job.line = line_;
     for (auto& [place, option] : inOrder) job.options.push_back(std::move(option));
-    for (const char* const needed : kNeeded) {
+    for (const char* const needed : neededBy(manifest_.kind)) {
       if (job.find(needed) != nullptr) continue;
       return wrong(ErrorCode::Empty, std::string("expected ") + needed + " in each job");
     }
@@ -294,14 +301,22 @@ std::vector<std::string> BatchJob::words() const {
   return all;
 }
 
-Result<BatchManifest> parseManifest(std::string_view text, const std::string& path,
-                                    Settings& replay) {
-  return ManifestReading(path, replay).read(text);
+const char* commandOf(BatchKind kind) {
+  return kind == BatchKind::Feet ? "feet" : "replay";
 }
 
-Result<BatchManifest> readManifest(const std::string& path, Settings& replay) {
+const char* endingOf(BatchKind kind) {
+  return kind == BatchKind::Feet ? ".csv" : ".jsonl";
+}
+
+Result<BatchManifest> parseManifest(std::string_view text, const std::string& path,
+                                    Settings& settings, BatchKind kind) {
+  return ManifestReading(path, settings, kind).read(text);
+}
+
+Result<BatchManifest> readManifest(const std::string& path, Settings& settings, BatchKind kind) {
   FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxManifestBytes));
-  return parseManifest(text, path, replay);
+  return parseManifest(text, path, settings, kind);
 }
 
 }  // namespace foretouch::tools

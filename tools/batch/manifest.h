@@ -18,7 +18,14 @@ inline constexpr std::size_t kMaxManifestBytes = std::size_t{64} << 20;
 inline constexpr std::size_t kMaxManifestLine = std::size_t{64} << 10;
 inline constexpr std::size_t kMaxBatchJobs = 1'000'000;
 
-/// An option of `replay` with its value, legal by itself.
+/// What each job is.
+enum class BatchKind : std::uint8_t { Replays, Feet };
+/// "replay", "feet".
+[[nodiscard]] const char* commandOf(BatchKind kind);
+/// Of the file with a job's results: ".jsonl", ".csv".
+[[nodiscard]] const char* endingOf(BatchKind kind);
+
+/// An option of that command with its value, legal by itself.
 struct JobOption {
   std::string name;                ///< "--scene"
   std::vector<std::string> texts;  ///< None for a flag; several for an option that is a list.
@@ -42,12 +49,15 @@ struct BatchManifest {
   std::string path;
   std::string folder;  ///< Its own, to which its paths are relative; never empty.
   std::vector<BatchJob> jobs;
+  BatchKind kind = BatchKind::Replays;
 };
 
-/// `replay`: the settings of that command, whose values change. Expands patterns of files and
-/// lists, so it looks into folders; files that are named need not exist. Errors name the line.
+/// `settings`: of the command that the jobs are of, whose values change. Expands patterns of files
+/// and lists, so it looks into folders; files that are named need not exist. Errors name the line.
 [[nodiscard]] Result<BatchManifest> parseManifest(std::string_view text, const std::string& path,
-                                                  Settings& replay);
-[[nodiscard]] Result<BatchManifest> readManifest(const std::string& path, Settings& replay);
+                                                  Settings& settings,
+                                                  BatchKind kind = BatchKind::Replays);
+[[nodiscard]] Result<BatchManifest> readManifest(const std::string& path, Settings& settings,
+                                                 BatchKind kind = BatchKind::Replays);
 
 }  // namespace foretouch::tools

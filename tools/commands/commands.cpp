@@ -48,7 +48,7 @@ std::vector<Command> allCommands() {
   add("Start here", viewCommand());
   add("Ask", replayCommand());
   add("Ask", feetCommand());
-  add("Ask", batchCommand(replayCommand));
+  add("Ask", batchCommand(replayCommand, feetCommand));
   add("Ask", worldCommand());
   add("Ask", sweepCommand());
   add("Ask", certifyCommand());

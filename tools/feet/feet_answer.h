@@ -53,7 +53,7 @@ struct FootStance {
   double leastWay = 0.0;
   double underS = 0.0;                   ///< As PartContact.
   double hover = 0.0;                    ///< Mean height above the ground, of Hovers.
-  std::vector<Eigen::Vector3d> trace_W;  ///< Of the point that touches, as it slid.
+  std::vector<Eigen::Vector3d> trace_W;  ///< The way that it slid, from where it began.
 
   [[nodiscard]] double durationS() const { return toS - fromS; }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -98,17 +99,24 @@ RestingPoses restPoses(const FeetInputs& inputs) {
   };
 }
 
-Result<std::vector<FootRest>> restsOf(const FeetInputs& inputs) {
+/// Of the clip's begin, at most so long (s).
+Result<std::vector<FootRest>> restsOf(const FeetInputs& inputs,
+                                      double mostS = std::numeric_limits<double>::infinity()) {
   const std::int64_t stride = restStride(inputs);
-  return footRestsOf(inputs.body, inputs.steps() / stride,
+  const double most = mostS / inputs.stepS(), all = static_cast<double>(inputs.steps());
+  return footRestsOf(inputs.body, static_cast<std::int64_t>(std::min(most, all)) / stride,
                      static_cast<double>(stride) * inputs.stepS(), restPoses(inputs));
 }
 
-/// A body that is made of the clip's bones gets heels.
+/// A body that is made of the clip's bones gets heels; an avatar that was given stays as it is.
 Result<Done> addHeels(FeetInputs& inputs) {
-  FORETOUCH_TRY(const auto rests, restsOf(inputs));
-  const RestingBody body = inputs.body;
-  FORETOUCH_TRY(inputs.body, withHeelsDown(body, rests, restPoses(inputs), &inputs.heelsMade));
+  constexpr double kUsualWayS = 600.0;  // how somebody stands shows in ten minutes
+  FORETOUCH_TRY(const auto rests, restsOf(inputs, kUsualWayS));
+  std::size_t lowered = 0;
+  FORETOUCH_TRY(auto body, withHeelsDown(inputs.body, rests, restPoses(inputs), &lowered));
+  const bool isMade = inputs.request.avatarPath.empty();
+  if (isMade) inputs.body = std::move(body);
+  (isMade ? inputs.heelsMade : inputs.heelsMissing) = lowered;
   return Done{};
 }
 
@@ -134,19 +142,6 @@ Result<Done> fitGround(FeetInputs& inputs) {
   inputs.correction = fit.levelledTo(fit.height - *above);
   inputs.fit = fit;
   return Done{};
-}
-
-/// People of this height (m) are believed.
-constexpr double kShortest = 0.5, kTallest = 3.0;
-
-std::optional<std::string> remarkOnStature(const FeetInputs& inputs) {
-  const auto stature = statureOf(inputs.played.avatar.skeleton());
-  if (!stature || (*stature >= kShortest && *stature <= kTallest)) return std::nullopt;
-  return fmt::format(
-      "{}: the body is {:.3g} m tall, by the length of its legs, and all thresholds are for "
-      "people: "
-      "is the unit (--clip-scale) right?",
-      inputs.request.motionPath, *stature);
 }
 
 }  // namespace
@@ -188,37 +183,13 @@ Result<FeetInputs> loadFeetInputs(const FeetRequest& request) {
   const bool isPlain = request.scenePath.empty();
   FORETOUCH_TRY(auto level,
                 isPlain ? plainFloor(Eigen::AlignedBox3d(Vector3d(0, 0, 0))) : sceneOf(request));
-  FeetInputs inputs{request, std::move(played), std::move(body), std::move(level), isPlain, 0, {},
-                    0.0};
-  if (request.isMadeOfBones()) FORETOUCH_CHECK(addHeels(inputs));
+  FeetInputs inputs{
+      request, std::move(played), std::move(body), std::move(level), isPlain, 0, 0, {}, 0.0};
+  if (request.robotPath.empty()) FORETOUCH_CHECK(addHeels(inputs));
   if (request.ground == GroundFrom::Fit) FORETOUCH_CHECK(fitGround(inputs));
   if (!isPlain) return inputs;
   FORETOUCH_TRY(inputs.level, plainFloor(boxOf(inputs)));
   return inputs;
-}
-
-std::vector<std::string> remarksOn(const FeetInputs& inputs) {
-  const FeetRequest& request = inputs.request;
-  const PlayedClip& played = inputs.played;
-  std::vector<std::string> remarks = remarksOnClip(played.avatar, played.clip, played.match,
-                                                   request.bodyPath(), request.motionPath);
-  if (const auto remark = remarkOnStature(inputs)) remarks.push_back(*remark);
-  const auto first = inputs.poseAt(0);
-  if (first.ok()) {
-    const auto lying =
-        remarkOnFirstPose(inputs.body.avatar, first.value(), played.frame, request.motionPath);
-    if (lying) remarks.push_back(*lying);
-  }
-  const auto rate = remarkOnRate(played.steps, played.clip, request.rateHz);
-  if (rate) remarks.push_back(*rate);
-  if (request.isMadeOfBones()) {
-    remarks.push_back(
-        request.motionPath +
-        ": without --avatar, the body is made of the clip's bones: how thick its "
-        "soles are is an estimate, which --ground fit takes out" +
-        (inputs.heelsMade > 0 ? "; its heels are let down to the level of its balls" : ""));
-  }
-  return remarks;
 }
 
 }  // namespace foretouch::tools

@@ -56,9 +56,10 @@ struct FeetInputs {
   RestingBody body;
   Level level;  ///< The scene; without one, a floor at y = 0.
   bool isPlain = false;
-  std::size_t heelsMade = 0;    ///< Of a body that is made of bones (tools/floor/heels.h).
-  std::optional<FloorFit> fit;  ///< Of GroundFrom::Fit.
-  double fitShift = 0.0;        ///< What the fit raised the clip by, at the fit's middle (m).
+  std::size_t heelsMade = 0;     ///< Of a body that is made of bones (tools/floor/heels.h).
+  std::size_t heelsMissing = 0;  ///< Of an avatar that was given: bones without a heel below them.
+  std::optional<FloorFit> fit;   ///< Of GroundFrom::Fit.
+  double fitShift = 0.0;         ///< What the fit raised the clip by, at the fit's middle (m).
   Eigen::Isometry3d correction = Eigen::Isometry3d::Identity();  ///< The fit's, of W.
 
   [[nodiscard]] std::int64_t steps() const { return played.steps.count; }

@@ -20,8 +20,8 @@ constexpr double kMapWidth = 1100.0, kMapLeast = 160.0, kMapMost = 520.0, kMapMa
 constexpr double kDeepest = 0.05;
 /// Samples drawn in a lane at most: more than pixels.
 constexpr std::int64_t kMostDrawn = 2200;
-/// Slides named on the map.
-constexpr std::size_t kNamed = 8;
+/// Slides that have a number on the map, and a line below it.
+constexpr std::size_t kNamed = 12;
 
 constexpr char kPageHead[] = R"page(<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>Feet of {0}</title>
@@ -29,13 +29,15 @@ constexpr char kPageHead[] = R"page(<!doctype html>
 body {{ font: 15px/1.45 system-ui, sans-serif; margin: 2em auto; max-width: 72em; padding: 0 1em;
 color: #1c2430; background: #fff; --ink: #1c2430; --grid: #d5d9e0; --ok: #7fa8d9; --slide: #d9541e;
 --hover: #9a7bd0; --under: #7a1f1f; --deep: #b3202c; }}
-svg {{ width: 100%; height: auto; font: 13px system-ui, sans-serif; }}
+.wide {{ overflow-x: auto; }}
+svg {{ width: 100%; min-width: 44em; height: auto; font: 13px system-ui, sans-serif; }}
 svg text {{ fill: var(--ink); }} .grid {{ stroke: var(--grid); }}
 .name {{ paint-order: stroke; stroke: #fff; stroke-width: 3px; }}
 .deep {{ fill: none; stroke: var(--deep); stroke-width: 1.4; }}
 .trace {{ fill: none; stroke: var(--slide); stroke-width: 2.2; }}
 .path {{ fill: none; stroke: var(--grid); stroke-width: 1.2; }}
-pre {{ overflow-x: auto; font-size: 12px; line-height: 1.35; white-space: pre-wrap; }}
+h1, p, li {{ overflow-wrap: anywhere; }}
+pre {{ overflow-x: auto; font-size: 12px; line-height: 1.35; }}
 .key span {{ display: inline-block; margin-right: 1.4em; }} .key i {{ display: inline-block;
 width: 1.2em; height: .8em; margin-right: .4em; }}
 @media (prefers-color-scheme: dark) {{ body {{ color: #e6e6e6; background: #16181c; --ink: #e6e6e6;
@@ -93,8 +95,8 @@ class Lanes {
     addAxis(height - 36.0);
     for (std::size_t part = 0; part < parts; ++part) addLane(part);
     return fmt::format(
-        "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Parts of feet over "
-        "time\">\n{}</svg>\n",
+        "<div class=\"wide\"><svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Parts of feet "
+        "over time\">\n{}</svg></div>\n",
         kWidth, height, svg_);
   }
 
@@ -187,15 +189,17 @@ class SlideMap {
   }
 
   std::string svg() {
-    for (std::size_t i = 0; i < slides_.size(); ++i) add(*slides_[i], i < kNamed);
+    for (const FootStance* const slide : slides_) add(*slide);
+    for (std::size_t i = 0; i < std::min(kNamed, slides_.size()); ++i) addNumber(i);
     addScale();
     const std::string length = stretch_ > 1.0
                                    ? fmt::format("Drawn {:g} times as long as they are.", stretch_)
                                    : std::string("As long as they are.");
     return fmt::format(
-        "<p>{}</p>\n<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" "
-        "aria-label=\"Slides on the ground, from above\">\n{}</svg>\n",
-        length, kMapWidth, height_, svg_);
+        "<p>{} Numbered by length: point at one to see it in words.</p>\n<div class=\"wide\"><svg "
+        "viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"Slides on the ground, from "
+        "above\">\n{}</svg></div>\n<ol>{}</ol>\n",
+        length, kMapWidth, height_, svg_, list_);
   }
 
  private:
@@ -205,8 +209,8 @@ class SlideMap {
     const Eigen::Vector2d turned = isTurned_ ? Eigen::Vector2d(at.y(), -at.x()) : at;
     return turned + 0.5 * Eigen::Vector2d(kMapWidth, height_);
   }
-  void add(const FootStance& slide, bool isNamed);
-  void addName(const FootStance& slide, Eigen::Vector2d at);
+  void add(const FootStance& slide);
+  void addNumber(std::size_t rank);
   void addScale();
 
   const FeetInputs& inputs_;
@@ -214,11 +218,11 @@ class SlideMap {
   Eigen::AlignedBox2d box_;
   bool isTurned_ = false;
   double scale_ = 1.0, height_ = 0.0, stretch_ = 1.0;
-  std::vector<Eigen::Vector2d> names_;  ///< Where names stand.
-  std::string svg_;
+  std::vector<Eigen::Vector2d> numbers_;  ///< Where they stand.
+  std::string svg_, list_;
 };
 
-void SlideMap::add(const FootStance& slide, bool isNamed) {
+void SlideMap::add(const FootStance& slide) {
   const Eigen::Vector2d from = flat(slide.trace_W.front());
   std::string points;
   for (const auto& p : slide.trace_W) {
@@ -230,24 +234,25 @@ void SlideMap::add(const FootStance& slide, bool isNamed) {
       "<g><title>{}</title><polyline class=\"trace\" points=\"{}\"/><circle cx=\"{:.1f}\" "
       "cy=\"{:.1f}\" r=\"3\" fill=\"var(--slide)\"/></g>\n",
       inHtml(titleOf(inputs_, slide)), points, at.x(), at.y());
-  if (isNamed) addName(slide, at);
 }
 
-/// Below those that stand there.
-void SlideMap::addName(const FootStance& slide, Eigen::Vector2d at) {
-  constexpr double kNameWidth = 190.0, kNameHeight = 16.0;
-  const auto overlaps = [&](const Eigen::Vector2d& name) {
-    return std::abs(name.x() - at.x()) < kNameWidth && std::abs(name.y() - at.y()) < kNameHeight;
+/// Beside its begin, below those that stand there.
+void SlideMap::addNumber(std::size_t rank) {
+  const FootStance& slide = *slides_[rank];
+  constexpr double kWide = 24.0, kHigh = 16.0;
+  Eigen::Vector2d at = place(flat(slide.trace_W.front())) + Eigen::Vector2d(6.0, 4.0);
+  const auto overlaps = [&](const Eigen::Vector2d& number) {
+    return std::abs(number.x() - at.x()) < kWide && std::abs(number.y() - at.y()) < kHigh;
   };
-  while (std::any_of(names_.begin(), names_.end(), overlaps)) at.y() += kNameHeight;
-  names_.push_back(at);
-  const bool isRight = at.x() > kMapWidth - kNameWidth;
+  while (std::any_of(numbers_.begin(), numbers_.end(), overlaps)) at.y() += kHigh;
+  numbers_.push_back(at);
+  height_ = std::max(height_, at.y() + kMapMargin);
+  const std::string title = inHtml(titleOf(inputs_, slide));
   svg_ += fmt::format(
-      "<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}: {:.1f} mm, frame "
-      "{}</text>\n",
-      at.x() + (isRight ? -8.0 : 8.0), at.y() + 4.0, isRight ? "end" : "start",
-      inHtml(inputs_.body.nameOf(inputs_.body.parts[slide.part])), kFeetMm * slide.slide,
-      slide.fromFrame);
+      "<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\" font-weight=\"bold\">{}<title>{}</title>"
+      "</text>\n",
+      at.x(), at.y(), rank + 1, title);
+  list_ += "<li>" + title + "</li>\n";
 }
 
 void SlideMap::addScale() {
@@ -272,9 +277,12 @@ std::string mapOf(const FeetInputs& inputs, const FeetAnswer& answer) {
 
 std::string feetPage(const FeetInputs& inputs, const FeetAnswer& answer) {
   std::string page = fmt::format(kPageHead, shortName(inputs.request.motionPath));
+  for (const std::string& sentence : feetSentences(inputs, answer)) {
+    page += "<p>" + inHtml(sentence) + "</p>\n";
+  }
   page += kKey + Lanes(inputs, answer).svg();
   page += "<h2>Slides on the ground, from above</h2>\n" + mapOf(inputs, answer);
-  page += "<h2>In words</h2>\n<pre>" + inHtml(feetText(inputs, answer)) + "</pre>\n";
+  page += "<h2>In figures</h2>\n<pre>" + inHtml(feetTables(inputs, answer)) + "</pre>\n";
   return page + "</body></html>\n";
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "assets/json_writer.h"
 #include "lss/index.h"
 #include "tools/csv_cell.h"
+#include "tools/feet/foot_touches.h"
 #include "tools/feet/rest_runs.h"
 
 namespace foretouch::tools {
@@ -69,7 +71,7 @@ std::string millimetres(double metres, bool isTold = true) {
 
 /// Of the column with the names of feet and hands.
 std::size_t nameWidth(const FeetInputs& inputs) {
-  std::size_t width = 12;
+  std::size_t width = 20;
   for (const RestingLimb& limb : inputs.body.limbs) width = std::max(width, limb.name.size());
   return width;
 }
@@ -91,8 +93,8 @@ std::string table(const FeetInputs& inputs, const FeetAnswer& answer) {
   if (worst.empty()) return "\nNo part of a foot or hand touches or hovers: it is never there\n";
   std::string text =
       fmt::format("\n{:<{}} {:<5} {:<8}{:>8}{:>9}{:>7} {:<7}{:>7}{:>8}{:>8}{:>9}{:>8}\n",
-                  "worst first", nameWidth(inputs), "part", "", "from s", "to s", "frames", "",
-                  "slide", "moved", "deep", "at s", "above");
+                  "stances, worst first", nameWidth(inputs), "part", "", "from s", "to s", "frames",
+                  "", "slide", "moved", "deep", "at s", "above");
   for (std::size_t i = 0; i < std::min(worst.size(), kMostRows); ++i) {
     text += rowOf(inputs, *worst[i]);
   }
@@ -102,29 +104,47 @@ std::string table(const FeetInputs& inputs, const FeetAnswer& answer) {
   return text + "slide, moved, deep and above are millimetres\n";
 }
 
-/// Of one foot or hand.
+/// Of one foot or hand, by its touches.
 struct LimbTotals {
   std::size_t touches = 0, slides = 0, sinks = 0;
-  double slide = 0.0, hoverS = 0.0, underS = 0.0;
+  double hoverS = 0.0, underS = 0.0;
   const FootStance *worstSlide = nullptr, *deepest = nullptr;
 
+  void add(const FootTouch& touch) {
+    ++touches;
+    slides += touch.slide >= kSlides ? 1 : 0;
+    sinks += touch.depth >= kSinks ? 1 : 0;
+    if (worstSlide == nullptr || touch.slide > worstSlide->slide) worstSlide = touch.worstSlide;
+    if (deepest == nullptr || touch.depth > deepest->depth) deepest = touch.deepest;
+  }
   void add(const FootStance& stance) {
     if (stance.kind == StanceKind::Hovers) hoverS += stance.durationS();
     underS += stance.underS;
-    if (deepest == nullptr || stance.depth > deepest->depth) deepest = &stance;
-    sinks += stance.depth >= kSinks ? 1 : 0;
-    if (stance.kind == StanceKind::Hovers) return;
-    ++touches;
-    slides += stance.slide >= kSlides ? 1 : 0;
-    slide += stance.slide;
-    if (worstSlide == nullptr || stance.slide > worstSlide->slide) worstSlide = &stance;
   }
 };
 
 std::vector<LimbTotals> totalsOf(const FeetInputs& inputs, const FeetAnswer& answer) {
   std::vector<LimbTotals> totals(inputs.body.limbs.size());
   for (const FootStance& stance : answer.stances) totals[partOf(inputs, stance).limb].add(stance);
+  for (const FootTouch& touch : footTouchesOf(inputs, answer)) totals[touch.limb].add(touch);
   return totals;
+}
+
+std::string slidesInWords(const FeetInputs& inputs, const LimbTotals& of) {
+  if (of.slides == 0) return fmt::format("none slides {:g} mm", kFeetMm * kSlides);
+  return fmt::format("{} {} {:g} mm or more, the worst {:.1f} mm ({} from frame {}, {:.2f} s)",
+                     of.slides, of.slides == 1 ? "slides" : "slide", kFeetMm * kSlides,
+                     kFeetMm * of.worstSlide->slide, toString(partOf(inputs, *of.worstSlide).part),
+                     of.worstSlide->fromFrame, of.worstSlide->fromS);
+}
+
+std::string sinksInWords(const FeetInputs& inputs, const LimbTotals& of) {
+  if (of.sinks == 0) return fmt::format("none sinks in {:g} mm", kFeetMm * kSinks);
+  return fmt::format("{} {} in {:g} mm or more, the deepest {:.1f} mm ({} at frame {}, {:.2f} s)",
+                     of.sinks, of.sinks == 1 ? "sinks" : "sink", kFeetMm * kSinks,
+                     kFeetMm * of.deepest->depth, toString(partOf(inputs, *of.deepest).part),
+                     std::llround(of.deepest->depthAtS / inputs.played.clip.frameTimeS),
+                     of.deepest->depthAtS);
 }
 
 std::string sentenceOf(const FeetInputs& inputs, std::size_t limb, const LimbTotals& of) {
@@ -132,19 +152,8 @@ std::string sentenceOf(const FeetInputs& inputs, std::size_t limb, const LimbTot
   if (of.touches == 0) {
     text += "touches nothing";
   } else {
-    text += fmt::format("{} {}; ", of.touches, of.touches == 1 ? "touch" : "touches");
-    text += of.slides == 0
-                ? fmt::format("none slides {:g} mm", kFeetMm * kSlides)
-                : fmt::format("{} {} {:g} mm or more, the worst {:.1f} mm ({} at {:.2f} s)",
-                              of.slides, of.slides == 1 ? "slides" : "slide", kFeetMm * kSlides,
-                              kFeetMm * of.worstSlide->slide,
-                              toString(partOf(inputs, *of.worstSlide).part), of.worstSlide->fromS);
-  }
-  if (of.sinks > 0) {
-    text +=
-        fmt::format("; {} {} in {:g} mm or more, the deepest {:.1f} mm (frame {})", of.sinks,
-                    of.sinks == 1 ? "sinks" : "sink", kFeetMm * kSinks, kFeetMm * of.deepest->depth,
-                    std::llround(of.deepest->depthAtS / inputs.played.clip.frameTimeS));
+    text += fmt::format("{} {}; {}; {}", of.touches, of.touches == 1 ? "touch" : "touches",
+                        slidesInWords(inputs, of), sinksInWords(inputs, of));
   }
   if (of.hoverS > 0.0) text += fmt::format("; hovers for {:.2f} s", of.hoverS);
   if (of.underS > 0.0) text += fmt::format("; parts are below the ground for {:.2f} s", of.underS);
@@ -181,14 +190,20 @@ std::string curveText(const FeetInputs& inputs, const FeetAnswer& answer) {
   return raised + "\n" + touches + "\n" + seconds + "\n";
 }
 
+/// Of metres, seconds and shares: measured in floats, which know no more digits.
+void writeShort(const char* name, double value, JsonWriter& out) {
+  constexpr double kDigits = 1e7;
+  out.field(name, std::round(value * kDigits) / kDigits);
+}
+
 void writeFit(const FeetInputs& inputs, JsonWriter& out) {
   const FloorFit& fit = *inputs.fit;
   out.key("ground_fit");
   out.beginObject();
-  out.field("raised_by", inputs.fitShift);
-  out.field("tilt_deg", kDegrees * fit.tilt);
-  out.field("uncertainty", fit.uncertainty);
-  out.field("spread", fit.spread);
+  writeShort("raised_by", inputs.fitShift, out);
+  writeShort("tilt_deg", kDegrees * fit.tilt, out);
+  writeShort("uncertainty", fit.uncertainty, out);
+  writeShort("spread", fit.spread, out);
   out.field("rests", fit.rests);
   out.field("rests_on_floor", fit.onFloor);
   out.endObject();
@@ -199,12 +214,32 @@ void writeLimb(const FeetInputs& inputs, std::size_t limb, const LimbTotals& of,
   out.field("name", inputs.body.limbs[limb].name);
   out.field("touches", of.touches);
   out.field("slides", of.slides);
-  out.field("worst_slide", of.worstSlide == nullptr ? 0.0 : of.worstSlide->slide);
+  writeShort("worst_slide", of.worstSlide == nullptr ? 0.0 : of.worstSlide->slide, out);
   out.field("sinks", of.sinks);
-  out.field("deepest", of.deepest == nullptr ? 0.0 : of.deepest->depth);
-  out.field("hovers_s", of.hoverS);
-  out.field("under_s", of.underS);
+  writeShort("deepest", of.deepest == nullptr ? 0.0 : of.deepest->depth, out);
+  writeShort("hovers_s", of.hoverS, out);
+  writeShort("under_s", of.underS, out);
   out.endObject();
+}
+
+/// Of all feet together, without hands.
+void writeFeet(const FeetInputs& inputs, const std::vector<LimbTotals>& totals, JsonWriter& out) {
+  std::size_t touches = 0, slides = 0, sinks = 0;
+  double worstSlide = 0.0, deepest = 0.0;
+  for (std::size_t limb = 0; limb < totals.size(); ++limb) {
+    if (inputs.body.limbs[limb].isHand) continue;
+    const LimbTotals& of = totals[limb];
+    touches += of.touches;
+    slides += of.slides;
+    sinks += of.sinks;
+    if (of.worstSlide != nullptr) worstSlide = std::max(worstSlide, of.worstSlide->slide);
+    if (of.deepest != nullptr) deepest = std::max(deepest, of.deepest->depth);
+  }
+  out.field("touches", touches);
+  out.field("slides", slides);
+  writeShort("worst_slide", worstSlide, out);
+  out.field("sinks", sinks);
+  writeShort("deepest", deepest, out);
 }
 
 }  // namespace
@@ -223,9 +258,22 @@ std::string fitText(const FeetInputs& inputs) {
               ? std::string("; its floor is level")
               : fmt::format("; its floor was tilted by {:.2f} degrees, and is level now",
                             kDegrees * fit.tilt);
-  return text + fmt::format(". The height alone: --place {:.4g},{:.4f},{:.4g},{:g}\n", origin.x(),
+  return text + fmt::format(". The height alone: --place {},{:.4f},{},{}\n", origin.x(),
                             origin.y() + inputs.fitShift, origin.z(),
                             inputs.request.placement.yawDeg);
+}
+
+std::vector<std::string> feetSentences(const FeetInputs& inputs, const FeetAnswer& answer) {
+  std::istringstream text(sentences(inputs, answer) + fitText(inputs) + head(inputs));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) {
+    if (!line.empty()) lines.push_back(line);
+  }
+  return lines;
+}
+
+std::string feetTables(const FeetInputs& inputs, const FeetAnswer& answer) {
+  return table(inputs, answer) + curveText(inputs, answer) + fieldText(answer.field);
 }
 
 std::string feetText(const FeetInputs& inputs, const FeetAnswer& answer) {
@@ -271,6 +319,7 @@ std::string feetJson(const FeetInputs& inputs, const FeetAnswer& answer) {
   out.field("tolerance", inputs.request.tolerance);
   if (inputs.fit) writeFit(inputs, out);
   const std::vector<LimbTotals> totals = totalsOf(inputs, answer);
+  writeFeet(inputs, totals, out);
   out.key("limbs");
   out.beginArray();
   for (std::size_t limb = 0; limb < totals.size(); ++limb) {
@@ -279,16 +328,16 @@ std::string feetJson(const FeetInputs& inputs, const FeetAnswer& answer) {
   out.endArray();
   out.list("sensitivity", sensitivityOf(inputs, answer), [&](const Sensitivity& at) {
     out.beginObject();
-    out.field("raise", at.raise);
+    writeShort("raise", at.raise, out);
     out.field("touches", at.touches);
-    out.field("touch_s", at.touchS);
+    writeShort("touch_s", at.touchS, out);
     out.endObject();
   });
-  out.field("skating_ratio", answer.field.skatingRatio);
-  out.field("mean_penetration", answer.field.meanPenetration);
-  out.field("greatest_penetration", answer.field.mostPenetration);
-  out.field("mean_floating", answer.field.meanFloating);
-  out.field("unresolved_s", answer.unresolvedS);
+  writeShort("skating_ratio", answer.field.skatingRatio, out);
+  writeShort("mean_penetration", answer.field.meanPenetration, out);
+  writeShort("greatest_penetration", answer.field.mostPenetration, out);
+  writeShort("mean_floating", answer.field.meanFloating, out);
+  writeShort("unresolved_s", answer.unresolvedS, out);
   out.endObject();
   return text + "\n";
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tools/feet/feet_answer.h"
 #include "tools/feet/feet_inputs.h"
@@ -9,6 +10,12 @@
 namespace foretouch::tools {
 
 [[nodiscard]] std::string feetText(const FeetInputs& inputs, const FeetAnswer& answer);
+
+/// What each foot does, what a fit did and what was asked: sentences, what matters first.
+[[nodiscard]] std::vector<std::string> feetSentences(const FeetInputs& inputs,
+                                                     const FeetAnswer& answer);
+/// The tables of feetText(), in fixed columns.
+[[nodiscard]] std::string feetTables(const FeetInputs& inputs, const FeetAnswer& answer);
 
 /// One line per stance, in time's order of each part: docs/formats.md, "How feet rest".
 [[nodiscard]] std::string feetCsv(const FeetInputs& inputs, const FeetAnswer& answer);

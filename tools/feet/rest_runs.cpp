@@ -4,6 +4,8 @@
 #include <limits>
 #include <optional>
 
+#include "tools/feet/foot_touches.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -129,9 +131,22 @@ class RaisedFoot {
 }  // namespace
 
 std::vector<Sensitivity> sensitivityOf(const FeetInputs& inputs, const FeetAnswer& answer) {
+  const auto asItIs = [&] {
+    Sensitivity at;
+    for (const FootTouch& touch : footTouchesOf(inputs, answer)) {
+      if (inputs.body.limbs[touch.limb].isHand) continue;
+      ++at.touches;
+      at.touchS += touch.durationS();
+    }
+    return at;
+  };
   constexpr double kRaises[] = {-0.03, -0.02, -0.01, -0.005, 0.0, 0.005, 0.01, 0.02, 0.03};
   std::vector<Sensitivity> curve;
   for (const double raise : kRaises) {
+    if (raise == 0.0) {
+      curve.push_back(asItIs());
+      continue;
+    }
     Sensitivity at{raise, 0, 0.0};
     for (std::size_t limb = 0; limb < inputs.body.limbs.size(); ++limb) {
       if (!inputs.body.limbs[limb].isHand) RaisedFoot(inputs, answer, limb).addTo(at);

@@ -22,7 +22,8 @@ struct Sensitivity {
   std::int64_t touches = 0;
   double touchS = 0.0;
 };
-/// Of some heights from 30 mm lower to 30 mm higher, by poses.
+/// Of some heights from 30 mm lower to 30 mm higher, by poses; of the body as it is, the proven
+/// touches (foot_touches.h).
 [[nodiscard]] std::vector<Sensitivity> sensitivityOf(const FeetInputs& inputs,
                                                      const FeetAnswer& answer);
 

@@ -24,6 +24,8 @@ class SlidePath {
     return true;
   }
 
+  /// Where the divider stands, from where the way began.
+  [[nodiscard]] const Eigen::Vector3d& needle() const { return needle_; }
   /// What is left below the opening counts where there was more before it.
   [[nodiscard]] double length() const {
     return length_ > 0.0 ? length_ + (at_ - needle_).norm() : 0.0;

@@ -29,7 +29,8 @@ constexpr double kAsLow = 0.001;
 struct OpenStance {
   FootStance stance;
   SlidePath path;
-  std::vector<Lss> deepest_W;  ///< The part's LSS at the greatest depth.
+  std::optional<Vector3d> from_W;  ///< Where what touches began to rest.
+  std::vector<Lss> deepest_W;      ///< The part's LSS at the greatest depth.
 };
 
 /// What a part's lowest sphere does, above a surface.
@@ -50,7 +51,7 @@ class Walk {
         cursor_(parts_.size(), 0),
         field_(countFeet(), inputs.stepS()) {
     for (const PartContact& contact : contacts_.contacts)
-      open_.push_back({stanceOf(contact), SlidePath(kSlideRuler), {}});
+      open_.push_back({stanceOf(contact), SlidePath(kSlideRuler), {}, {}});
     for (std::size_t part = 0, i = 0; part < parts_.size(); ++part) {
       cursor_[part] = i;
       while (i < open_.size() && open_[i].stance.part == part) ++i;
@@ -85,7 +86,9 @@ class Walk {
   std::vector<std::size_t> cursor_;  ///< Per part: the first contact that may not be over.
   std::vector<std::optional<GroundSurface>> below_;  ///< Per part, at the last pose.
   Pose to_;                                          ///< At the end of the step.
-  std::vector<LinkState> states_;                    ///< At the instant that is looked at.
+  ChainMotion motion_;                               ///< The step's.
+  MotionEvaluator evaluator_;
+  std::vector<LinkState> states_;  ///< At the instant that is looked at.
   Scratch scratch_;
   NearFeatures features_;
   FieldMeter field_;
@@ -276,7 +279,13 @@ void Walk::lookBetween(std::int64_t step, double t, double lengthS) {
       deepen(*open, parts_[part], -surface->heightOf(motion.p_W), timeS);
     }
     if (std::abs(motion.normalSpeed) > kRestNormalSpeed) continue;
-    if (open->path.add(lengthS * motion.slide_W)) open->stance.trace_W.push_back(motion.p_W);
+    // From one point on: another one that touches later adds its way, not how far away it is.
+    if (!open->from_W) open->from_W = motion.p_W;
+    if (open->path.add(lengthS * motion.slide_W)) {
+      std::vector<Vector3d>& trace_W = open->stance.trace_W;
+      if (trace_W.empty()) trace_W.push_back(*open->from_W);
+      trace_W.emplace_back(*open->from_W + open->path.needle());
+    }
     PartSample& sample = answer_.samples[answer_.samples.size() - parts_.size() + part];
     sample.slide += static_cast<float>(motion.slide_W.norm() * lengthS / inputs_.stepS());
   }
@@ -306,16 +315,17 @@ Result<Done> Walk::step(std::int64_t step) {
   if (step < inputs_.steps()) {
     FORETOUCH_TRY(to_, inputs_.poseAt(step + 1));
   }
-  const ChainMotion motion(inputs_.body.avatar.skeleton(), from, to_);
-  motion.statesAt(0.0, states_);
+  motion_.assign(inputs_.body.avatar.skeleton(), from, to_);
+  evaluator_.reset(motion_);
+  evaluator_.statesAt(0.0, states_);
   samplePose(step);
-  motion.statesAt(0.5, states_);
+  evaluator_.statesAt(0.5, states_);
   sampleSpeeds();
   if (step == inputs_.steps()) return Done{};
   const auto looks = static_cast<int>(std::max(1.0, std::ceil(inputs_.stepS() * kLooksHz)));
   for (int i = 0; i < looks; ++i) {
     const double t = (i + 0.5) / looks;
-    motion.statesAt(t, states_);
+    evaluator_.statesAt(t, states_);
     lookBetween(step, t, inputs_.stepS() / looks);
   }
   return Done{};

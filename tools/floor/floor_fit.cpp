@@ -262,7 +262,7 @@ Result<std::vector<FootRest>> footRestsOf(const RestingBody& body, std::int64_t 
   for (std::int64_t step = 0; step <= steps; ++step) {
     FORETOUCH_TRY(const auto pose, poses(step));
     before.swap(now);
-    ChainMotion(body.avatar.skeleton(), pose, pose).statesAt(0.0, now);
+    placeLinks(body.avatar.skeleton(), pose, now);
     if (step > 0) finder.add(step, before, now);
   }
   finder.finish();

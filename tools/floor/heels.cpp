@@ -17,6 +17,8 @@ using Eigen::Vector3d;
 /// Up in a foot's frame differs by less than this between its rests (cosine of 15 degrees, of the
 /// mean): who walks on tiptoe and on the heels has no usual way to stand.
 constexpr double kAlike = 0.966;
+/// A bone begins at its joint, up to rounding (m).
+constexpr double kAtAnkle = 1e-9;
 /// No heel is farther below its ankle (m).
 constexpr double kFarthestDown = 0.15;
 
@@ -70,12 +72,12 @@ Result<RestingBody> withHeelsDown(RestingBody body, const std::vector<FootRest>&
   for (std::size_t limb = 0; limb < body.limbs.size(); ++limb) {
     const RestingPart* const heel = partOf(body, limb, PartOfLimb::Heel);
     const RestingPart* const ball = partOf(body, limb, PartOfLimb::Ball);
-    // Of one LSS, whose rear end is the ankle: more of them have a heel already.
-    const bool isBone = heel != nullptr && ball != nullptr && heel->links.size() == 1 &&
-                        lss[slotOf(heel->links.front())].size() == 1;
-    if (!isBone) continue;
-    FORETOUCH_TRY(const auto up_L, usualUp(body, limb, rests, poses));
+    const bool isOne = heel != nullptr && ball != nullptr && heel->links.size() == 1 &&
+                       lss[slotOf(heel->links.front())].size() == 1;
+    if (!isOne) continue;
     Lss& only = lss[slotOf(heel->links.front())].front();
+    if (!only.a.isZero(kAtAnkle)) continue;  // no bone: it has a heel already
+    FORETOUCH_TRY(const auto up_L, usualUp(body, limb, rests, poses));
     if (!up_L || !letDown(only, bottomOf(*ball, *up_L), *up_L)) continue;
     body.parts[static_cast<std::size_t>(heel - body.parts.data())].corners = {
         {heel->links.front(), only.a, only.radius}, {heel->links.front(), only.b, only.radius}};
@@ -84,6 +86,23 @@ Result<RestingBody> withHeelsDown(RestingBody body, const std::vector<FootRest>&
   if (lowered != nullptr) *lowered = count;
   FORETOUCH_TRY(body.avatar, Avatar::build(body.avatar.skeleton(), std::move(lss)));
   return body;
+}
+
+Result<Avatar> avatarWithHeels(const Avatar& avatar, const RestingBody& body) {
+  std::vector<std::vector<Lss>> lss = avatar.lss();
+  for (const RestingPart& heel : body.parts) {
+    if (heel.part != PartOfLimb::Heel) continue;
+    std::vector<Lss>& foot = lss[slotOf(heel.joint)];
+    foot.clear();
+    for (const RestingPart& part : body.parts) {
+      if (part.limb != heel.limb || part.joint != heel.joint) continue;
+      for (const LinkId link : part.links) {
+        const std::vector<Lss>& more = body.avatar.lss(link);
+        foot.insert(foot.end(), more.begin(), more.end());
+      }
+    }
+  }
+  return Avatar::build(avatar.skeleton(), std::move(lss));
 }
 
 }  // namespace foretouch::tools

@@ -19,4 +19,7 @@ namespace foretouch::tools {
                                                 const RestingPoses& poses,
                                                 std::size_t* lowered = nullptr);
 
+/// The avatar that `body` was made of, with the body's heels and balls in place of its feet.
+[[nodiscard]] Result<Avatar> avatarWithHeels(const Avatar& avatar, const RestingBody& body);
+
 }  // namespace foretouch::tools

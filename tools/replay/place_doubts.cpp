@@ -12,6 +12,7 @@ namespace foretouch::tools {
 PlaceDoubts::PlaceDoubts(const Skeleton& skeleton, bool asksSelf)
     : isTrunk_(countOf(skeleton.numJoints()), false), asksSelf_(asksSelf) {
   for (const LinkId link : trunkOf(skeleton)) isTrunk_[slotOf(link)] = true;
+  knowsTrunk_ = !namedTrunkOf(skeleton).empty();
 }
 
 void PlaceDoubts::add(const StepAnswer& answer) {
@@ -28,9 +29,10 @@ std::vector<std::string> PlaceDoubts::remarks() const {
   std::vector<std::string> remarks;
   if (2 * trunkSteps_ > steps_) {
     remarks.push_back(fmt::format(
-        "the trunk starts in contact in {} of {} steps: does the body stand in a wall or in the "
-        "floor? foretouch view says where it stands, and where it could",
-        trunkSteps_, steps_));
+        "{} starts in contact in {} of {} steps: does the body stand in a wall or in the floor? "
+        "foretouch view says where it stands, and where it could",
+        knowsTrunk_ ? "the trunk" : "a link (no name tells which are its trunk)", trunkSteps_,
+        steps_));
   }
   if (steps_ > 0 && !cameNear_ && !asksSelf_) {
     remarks.push_back(

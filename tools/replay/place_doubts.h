@@ -23,7 +23,8 @@ class PlaceDoubts {
   [[nodiscard]] std::vector<std::string> remarks() const;
 
  private:
-  std::vector<bool> isTrunk_;  ///< Per link.
+  std::vector<bool> isTrunk_;
+  bool knowsTrunk_ = false;  ///< Per link.
   bool asksSelf_ = false;
   std::size_t steps_ = 0, trunkSteps_ = 0;
   bool cameNear_ = false;

@@ -169,14 +169,16 @@ std::string ReplaySummary::verdicts() const {
   for (LinkId link = 0; link < inputs_.avatar.numLinks(); ++link) {
     links += inputs_.avatar.lss(link).empty() ? 0 : 1;
   }
-  std::string text = row("steps", steps_);
+  std::string text = "step by step, where a touch has a contact in each step that it lasts:\n";
+  text += row("steps", steps_);
   text += row("link-steps", steps_ * links, fmt::format("{} links with an LSS", links));
   text += row("steps with contact", stepsWithContact_, shareOf(stepsWithContact_, steps_));
   text += row("contacts", total_.contacts);
   text += row("starts in contact", total_.startsInContact);
   text += row("undecided", total_.undecided);
   text += fmt::format(
-      "\nof {} contacts, {} ({}) touch nothing at either pose: a discrete check misses them\n",
+      "\nof {} contacts, {} ({}) touch nothing at either pose of their step; touches are counted "
+      "above\n",
       total_.contacts, total_.missedByPoses, shareOf(total_.missedByPoses, total_.contacts));
   return text;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "tools/report/view_feet.h"
 #include "tools/report/view_touches.h"
 
 namespace foretouch::tools {
@@ -71,9 +72,9 @@ std::vector<ViewRow> ReplayReport::rowsOf(const ReplaySummary& summary) {
   const std::vector<ViewRow> ofSteps{
       {"steps", text(summary.steps()), ""},
       {"steps with contact", text(summary.stepsWithContact()), ""},
-      {"contacts", text(total.contacts), ""},
+      {"contacts", text(total.contacts), "of single steps: a touch has many, also of the ground"},
       {"missed by poses", text(total.missedByPoses),
-       "contacts that touch nothing at either pose: a discrete check misses them"},
+       "of these contacts: they touch nothing at either pose of their step"},
       {"starts in contact", text(total.startsInContact), ""},
       {"undecided", text(total.undecided), ""},
       {"latency of a step",
@@ -150,6 +151,8 @@ Result<ViewDocument> ReplayReport::document(const ReplaySummary& summary,
       shown.touch.contacts = static_cast<std::int64_t>(shown.rows.size());
     }
   }
+  document.frameTimeS = inputs_.clip.frameTimeS * static_cast<double>(inputs_.clip.framesPerRow);
+  addFeet(inputs_, static_cast<std::int64_t>(latenciesUs_.size()), document);
   addScene(inputs_.scene, request.scenePath, options_.maxTriangles, action, document);
   addSwept({}, document, progress);
   return document;

@@ -150,6 +150,21 @@ struct ViewStay {
   bool isUnresolved = false;
 };
 
+/// What a foot does from when to when: a touch of the whole foot, or that it hovers.
+struct ViewStance {
+  std::string kind;  ///< As StanceKind's words.
+  double beginS = 0.0, endS = 0.0;
+  bool beganBefore = false, goesOn = false;  ///< The clip begins, or ends, in it.
+  double slide = 0.0, depth = 0.0, depthAtS = 0.0, hover = 0.0;
+  std::string slides, deepest;           ///< The part that does so most: "heel".
+  std::vector<Eigen::Vector3d> trace_W;  ///< Of its slide, if it is one.
+};
+
+struct ViewFoot {
+  LinkId link = 0;  ///< The ankle, of the only avatar.
+  std::vector<ViewStance> stances;
+};
+
 struct ViewDocument {
   ViewKind kind = ViewKind::Replay;
   std::string title;
@@ -160,6 +175,8 @@ struct ViewDocument {
   std::vector<ViewAvatar> avatars;
   std::optional<std::vector<ViewTouch>> touches;  ///< Of what was asked, in listed order.
   std::vector<ViewStay> stays;                    ///< By begin.
+  double frameTimeS = 0.0;     ///< Of the clip's frames, the first at 0 s; 0: no frames are known.
+  std::vector<ViewFoot> feet;  ///< Of a replay.
 };
 
 }  // namespace foretouch::tools

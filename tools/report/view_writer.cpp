@@ -306,6 +306,36 @@ void write(const ViewStay& stay, Writer& out) {
   out.handOnPieces();
 }
 
+void write(const ViewStance& stance, Writer& out) {
+  out.beginObject();
+  out.field("kind", stance.kind);
+  out.field("begin", stance.beginS);
+  out.field("end", stance.endS);
+  if (stance.beganBefore) out.field("began_before", true);
+  if (stance.goesOn) out.field("goes_on", true);
+  if (!stance.slides.empty()) {
+    out.field("slide", stance.slide);
+    out.field("slides", stance.slides);
+    out.field("depth", stance.depth);
+    out.field("deepest", stance.deepest);
+    out.field("depth_at", stance.depthAtS);
+  } else {
+    out.field("hover", stance.hover);
+  }
+  if (!stance.trace_W.empty()) {
+    out.list("trace", stance.trace_W, [&](const Eigen::Vector3d& p_W) { out.value(p_W); });
+  }
+  out.endObject();
+  out.handOnPieces();
+}
+
+void write(const ViewFoot& foot, Writer& out) {
+  out.beginObject();
+  out.field("link", foot.link);
+  out.list("stances", foot.stances, [&](const ViewStance& stance) { write(stance, out); });
+  out.endObject();
+}
+
 }  // namespace
 
 void writeView(const ViewDocument& document, const TextSink& sink) {
@@ -331,6 +361,10 @@ void writeView(const ViewDocument& document, const TextSink& sink) {
   }
   if (!document.stays.empty()) {
     out.list("stays", document.stays, [&](const ViewStay& stay) { write(stay, out); });
+  }
+  if (document.frameTimeS > 0.0) out.field("frame_time", document.frameTimeS);
+  if (!document.feet.empty()) {
+    out.list("feet", document.feet, [&](const ViewFoot& foot) { write(foot, out); });
   }
   if (document.kind == ViewKind::Live) {
     out.key("live");

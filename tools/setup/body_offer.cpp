@@ -9,6 +9,7 @@
 #include "articulated/motion.h"
 #include "assets/bvh/bvh_reader.h"
 #include "tools/inputs/first_pose.h"
+#include "tools/settings/plain_figures.h"
 
 namespace foretouch::tools {
 namespace {
@@ -76,18 +77,20 @@ Offer<double> byStature(double stature, bool isInMetres, double readAs) {
   if (isInMetres) {
     const double unit = forgottenUnit(stature);
     return {unit, isAdult(stature),
-            fmt::format("as the file says, by its legs the body is {:.3g} m tall", stature)};
+            "as the file says, by its legs the body is " + plainFigures(stature) + " m tall"};
   }
   const Unit& unit = nearestUnit(stature, kUsualAdult);
   if (isAdult(stature * unit.metres)) {
     return {unit.metres, true,
-            fmt::format("{} make it {:.3g} m tall, by the length of its legs",
-                        unitInWords(readAs * unit.metres), stature * unit.metres)};
+            fmt::format("{} make it {} m tall, by the length of its legs",
+                        unitInWords(readAs * unit.metres), plainFigures(stature * unit.metres))};
   }
-  return {guessedUnit(stature), false,
-          fmt::format("its legs make it {:.3g} units tall, and no unit that is known makes that an "
-                      "adult: {:.2g} to {:.2g} do",
-                      stature, kShortestAdult / stature, kTallestAdult / stature)};
+  return {
+      guessedUnit(stature), false,
+      fmt::format("its legs make it {} m tall, and no unit that is known makes that an adult: {} "
+                  "to {} m per unit do",
+                  plainFigures(stature), plainFigures(readAs * kShortestAdult / stature),
+                  plainFigures(readAs * kTallestAdult / stature))};
 }
 
 Offer<double> bySize(double size, bool isInMetres) {
@@ -95,20 +98,20 @@ Offer<double> bySize(double size, bool isInMetres) {
   if (isInMetres) {
     const double unit = forgottenUnit(size);
     return {unit, unit == 1.0 && size >= kSmallestBody,
-            fmt::format("as the file says, it is {:.3g} m long", size)};
+            "as the file says, it is " + plainFigures(size) + " m long"};
   }
   const double unit = size <= kLargestBody ? 1.0 : guessedUnit(size);
   return {unit, false,
-          fmt::format("its joints' names show no legs; this makes it {:.3g} m long", size * unit)};
+          "its joints' names show no legs; this makes it " + plainFigures(size * unit) + " m long"};
 }
 
 /// Legs of a plausible length beside joints far off: two bodies, or something that is no body.
 void doubtReach(const Clip& clip, double stature, Offer<double>& offer) {
-  const double reach = sizeOf(clip.skeleton, restPose(clip.skeleton)).maxCoeff();
+  const double reach = reachOf(clip);
   if (!(reach > kWidestReach * stature)) return;
   offer.isSure = false;
-  offer.reason += fmt::format(", but its joints lie {:.3g} m apart: are all of them of one body?",
-                              reach * offer.value);
+  offer.reason += ", but its joints lie " + plainFigures(reach * offer.value) +
+                  " m apart: are all of them of one body?";
 }
 
 /// Feet to head, summed over the clip's frames, each as a direction.
@@ -135,6 +138,10 @@ Offer<UpAxis> byShape(const Clip& clip) {
 
 }  // namespace
 
+double reachOf(const Clip& clip) {
+  return sizeOf(clip.skeleton, restPose(clip.skeleton)).maxCoeff();
+}
+
 std::string unitInWords(double metres) {
   for (const Unit& unit : kUnits) {
     if (unit.metres == metres) return unit.name;
@@ -149,7 +156,7 @@ Offer<double> unitOf(const Clip& clip, bool isInMetres, double readAs) {
     doubtReach(clip, *stature, offer);
     return offer;
   }
-  return bySize(sizeOf(clip.skeleton, restPose(clip.skeleton)).maxCoeff(), isInMetres);
+  return bySize(reachOf(clip), isInMetres);
 }
 
 Offer<UpAxis> upAxisOf(const Clip& clip, bool isUpright) {

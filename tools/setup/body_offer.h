@@ -18,6 +18,9 @@ namespace foretouch::tools {
 /// and head. Unsure if the body lies, or hangs head down. `isUpright`: its reader has turned it.
 [[nodiscard]] Offer<UpAxis> upAxisOf(const Clip& clip, bool isUpright);
 
+/// The largest side (m) of the box around all joints at rest.
+[[nodiscard]] double reachOf(const Clip& clip);
+
 /// "centimetres" for 0.01; "0.7 m per unit" for a number that no exporter is known to use.
 [[nodiscard]] std::string unitInWords(double metres);
 

@@ -3,21 +3,35 @@
 #include <fmt/format.h>
 
 #include "tools/settings/frame_settings.h"
+#include "tools/settings/plain_figures.h"
 #include "tools/setup/body_offer.h"
 #include "tools/setup/scene_offer.h"
 
 namespace foretouch::tools {
 namespace {
 
-/// `offer`: by what the numbers would have to be multiplied once more.
+/// Nothing smaller (m) holds anything that is told: contacts are told within a millimetre.
+constexpr double kSmallest = 0.01;
+
+/// `size` (m), as it is read. `offer`: by what the numbers would have to be multiplied once more.
 PlacementCheck unitCheck(const char* name, const char* option, const Offer<double>& offer,
-                         const FileFrame& frame) {
-  const std::string text = unitInWords(frame.metresPerUnit) + ": " + offer.reason;
-  if (offer.value == 1.0) {
-    return {name, offer.isSure ? CheckState::Good : CheckState::Doubt, text, ""};
+                         const FileFrame& frame, double size) {
+  const bool isTiny = size > 0.0 && size < kSmallest;
+  std::string text = unitInWords(frame.metresPerUnit) + ": " + offer.reason;
+  if (isTiny) {
+    text += fmt::format("; that is {} mm at most, and contacts are told within 1 mm",
+                        plainFigures(1e3 * size));
   }
-  return {name, CheckState::Doubt, text,
-          fmt::format("{} {:.3g}", option, offer.value * frame.metresPerUnit)};
+  const std::string tryThis =
+      offer.value == 1.0
+          ? ""
+          : std::string(option) + " " + plainFigures(offer.value * frame.metresPerUnit);
+  const bool isGood = offer.value == 1.0 && offer.isSure;
+  return {name,
+          isTiny   ? CheckState::Bad
+          : isGood ? CheckState::Good
+                   : CheckState::Doubt,
+          text, tryThis};
 }
 
 }  // namespace
@@ -34,7 +48,10 @@ std::vector<PlacementCheck> sceneFrameChecks(const RawScene& raw, const FileFram
   } else if (!up.isSure && !isSaid) {
     axis.state = CheckState::Doubt;
   }
-  return {unitCheck("scene's unit", "--scene-scale", sceneUnitOf(raw), frame), axis};
+  const SceneAudit audit = auditScene(raw);
+  return {unitCheck("scene's unit", "--scene-scale", sceneUnitOf(raw), frame,
+                    (audit.boxMax - audit.boxMin).maxCoeff()),
+          axis};
 }
 
 std::vector<PlacementCheck> clipFrameChecks(const Clip& clip, const FileFrame& frame,
@@ -48,7 +65,7 @@ std::vector<PlacementCheck> clipFrameChecks(const Clip& clip, const FileFrame& f
   }
   const bool isInMetres = frame.declared.metresPerUnit.has_value();
   return {unitCheck("body's unit", "--clip-scale", unitOf(clip, isInMetres, frame.metresPerUnit),
-                    frame),
+                    frame, reachOf(clip)),
           axis};
 }
 

@@ -7,6 +7,7 @@
 
 #include "articulated/quoted.h"
 #include "tools/inputs/played_clip.h"
+#include "tools/settings/plain_figures.h"
 
 namespace foretouch::tools {
 namespace {
@@ -42,8 +43,9 @@ std::string objectsOf(const Walker& walker, const std::vector<Inside>& inside) {
 /// A T-pose, or a body in the air: the height of the place does not come from it.
 std::string firstPoseInWords(const Standing& standing) {
   if (std::abs(standing.firstRise) <= kFirstRise) return "";
-  return fmt::format("the first pose is {:.3g} m {} than the clip stands: a T-pose, or in the air",
-                     std::abs(standing.firstRise), standing.firstRise > 0 ? "higher" : "lower");
+  return fmt::format("the first pose is {} m {} than the clip stands: a T-pose, or in the air",
+                     plainFigures(std::abs(standing.firstRise)),
+                     standing.firstRise > 0 ? "higher" : "lower");
 }
 
 PlacementCheck startCheck(const Walker& walker, const Standing& standing) {
@@ -66,7 +68,7 @@ PlacementCheck startCheck(const Walker& walker, const Standing& standing) {
 PlacementCheck floorCheck(const Standing& standing, bool knowsFloor) {
   if (standing.floorAbove) {
     return {"floor", *standing.floorAbove > kStandsWithin ? CheckState::Bad : CheckState::Doubt,
-            fmt::format("its lowest point is {:.3g} m below the floor", *standing.floorAbove), ""};
+            "its lowest point is " + plainFigures(*standing.floorAbove) + " m below the floor", ""};
   }
   if (!standing.floorBelow) {
     return {"floor", knowsFloor ? CheckState::Bad : CheckState::Doubt,
@@ -76,7 +78,7 @@ PlacementCheck floorCheck(const Standing& standing, bool knowsFloor) {
   const CheckState state = gap <= kStandsWithin              ? CheckState::Good
                            : gap <= kStepHigh || !knowsFloor ? CheckState::Doubt
                                                              : CheckState::Bad;
-  return {"floor", state, fmt::format("its lowest point is {:.3g} m above the floor", gap), ""};
+  return {"floor", state, "its lowest point is " + plainFigures(gap) + " m above the floor", ""};
 }
 
 /// What is wrong with a level in which nobody of this height could walk; empty: nothing.
@@ -87,13 +89,13 @@ std::string whyNoFloor(const Walker& walker) {
   const double height = floor->room().height;
   if (floor->lowHeadroom()) {
     return fmt::format(
-        "the body is taller than the room: it is {:.3g} m high, and the scene's "
-        "floors have about {:.2g} m above them; is a unit wrong (--scene-scale, "
+        "the body is taller than the room: it is {} m high, and the scene's "
+        "floors have about {} m above them; is a unit wrong (--scene-scale, "
         "--clip-scale)?",
-        height, *floor->lowHeadroom());
+        plainFigures(height), plainFigures(*floor->lowHeadroom()));
   }
   std::string text =
-      fmt::format("the scene has no floor on which a body of {:.3g} m could walk", height);
+      "the scene has no floor on which a body of " + plainFigures(height) + " m could walk";
   if (floor->lookedWithin()) {
     text += fmt::format(" within {:.3g} m of the place; --place X,Y,Z,YAW looks elsewhere",
                         *floor->lookedWithin());
@@ -108,6 +110,45 @@ bool isWithoutFloor(const Walker& walker) {
   return floor == nullptr || (!floor->hasMain() && !floor->lowHeadroom());
 }
 
+/// What happens along the clip in some poses: its trunk inside things, no floor below it.
+std::string pathInWords(const Standing& standing) {
+  std::string text;
+  const auto add = [&](const char* what, std::size_t count) {
+    if (count == 0) return;
+    if (!text.empty()) text += ", and ";
+    text += fmt::format("{} in {} of {} poses", what, count, standing.poses);
+  };
+  add("its trunk is inside the scene's surfaces", standing.trunkInside);
+  add("nothing is below it", standing.overVoid);
+  if (standing.offFloor > standing.overVoid) add("it leaves the floor", standing.offFloor);
+  return text;
+}
+
+/// `knowsFloor`: there is one that could be left.
+PlacementCheck pathCheck(Standing standing, bool knowsFloor) {
+  if (!knowsFloor) standing.offFloor = standing.overVoid = 0;
+  if (std::string text = pathInWords(standing); !text.empty()) {
+    const std::size_t most = std::max({standing.trunkInside, standing.overVoid, standing.offFloor});
+    return {"path", 2 * most > standing.poses ? CheckState::Bad : CheckState::Doubt,
+            text + "; foretouch view shows where", ""};
+  }
+  return {
+      "path", CheckState::Good,
+      standing.poses == 1
+          ? std::string("its trunk is free in its one pose")
+          : fmt::format("its trunk stays free in all {} poses that were looked at", standing.poses),
+      ""};
+}
+
+/// The scene's origin, where a body can be there; empty: it cannot.
+std::string originAdvice(const Walker& walker) {
+  const Standing there = standingAt(walker, originPlace(walker));
+  const bool isBad =
+      there.isOutside ||
+      !areUsable({startCheck(walker, there), floorCheck(there, true), pathCheck(there, false)});
+  return isBad || !there.standsFree() ? "" : "--place " + textOf(there.place);
+}
+
 PlacementCheck onMainFloor(const Walker& walker) {
   const WalkableFloor& floor = *walker.floor();
   if (floor.showsBack()) {
@@ -118,18 +159,18 @@ PlacementCheck onMainFloor(const Walker& walker) {
   if (floor.isOnTop()) {
     return {"level", CheckState::Doubt,
             "nothing of the scene is above what it stands on, and much is below: is it a roof?",
-            "--place " + textOf(originPlace(walker))};
+            originAdvice(walker)};
   }
   if (floor.isSmall()) {
     return {"level", CheckState::Doubt,
-            fmt::format("what it stands on has {:.2g} square metres with room for it, and the "
-                        "scene has no larger floor: is it a thing?",
-                        floor.area()),
-            "--place " + textOf(originPlace(walker))};
+            "what it stands on has " + plainFigures(floor.area()) +
+                " square metres with room for it, and the scene has no larger floor: is it a "
+                "thing?",
+            originAdvice(walker)};
   }
   return {"level", CheckState::Good,
-          fmt::format("it stands on the scene's own floor: {:.3g} square metres with room for it",
-                      floor.area()),
+          "it stands on the scene's own floor: " + plainFigures(floor.area()) +
+              " square metres with room for it",
           ""};
 }
 
@@ -162,36 +203,6 @@ PlacementCheck levelCheck(const Walker& walker, const Standing& standing) {
   }
   return {"level", CheckState::Doubt,
           "nobody could walk where it stands: an edge, a slope, or too little room", ""};
-}
-
-/// What happens along the clip in some poses: its trunk inside things, no floor below it.
-std::string pathInWords(const Standing& standing) {
-  std::string text;
-  const auto add = [&](const char* what, std::size_t count) {
-    if (count == 0) return;
-    if (!text.empty()) text += ", and ";
-    text += fmt::format("{} in {} of {} poses", what, count, standing.poses);
-  };
-  add("its trunk is inside the scene's surfaces", standing.trunkInside);
-  add("nothing is below it", standing.overVoid);
-  if (standing.offFloor > standing.overVoid) add("it leaves the floor", standing.offFloor);
-  return text;
-}
-
-/// `knowsFloor`: there is one that could be left.
-PlacementCheck pathCheck(Standing standing, bool knowsFloor) {
-  if (!knowsFloor) standing.offFloor = standing.overVoid = 0;
-  if (std::string text = pathInWords(standing); !text.empty()) {
-    const std::size_t most = std::max({standing.trunkInside, standing.overVoid, standing.offFloor});
-    return {"path", 2 * most > standing.poses ? CheckState::Bad : CheckState::Doubt,
-            text + "; foretouch view shows where", ""};
-  }
-  return {
-      "path", CheckState::Good,
-      standing.poses == 1
-          ? std::string("its trunk is free in its one pose")
-          : fmt::format("its trunk stays free in all {} poses that were looked at", standing.poses),
-      ""};
 }
 
 /// Nobody would move a body by less.

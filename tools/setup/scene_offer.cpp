@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "lss/index.h"
+#include "tools/settings/plain_figures.h"
 #include "tools/setup/level.h"
 #include "tools/setup/walkable_floor.h"
 
@@ -63,7 +64,7 @@ bool hasRoom(const RawScene& raw, double unit) {
 }
 
 std::string sizeText(const Vector3d& size) {
-  return fmt::format("{:.3g} x {:.3g} x {:.3g}", size.x(), size.y(), size.z());
+  return plainFigures(size.x()) + " x " + plainFigures(size.y()) + " x " + plainFigures(size.z());
 }
 
 }  // namespace

@@ -8,7 +8,9 @@
 
 #include "articulated/quoted.h"
 #include "articulated/try.h"
+#include "assets/bvh/body_parts.h"
 #include "assets/import/scene_import.h"
+#include "tools/inputs/played_clip.h"
 #include "tools/setup/body_offer.h"
 #include "tools/setup/frame_checks.h"
 #include "tools/setup/scene_offer.h"
@@ -129,7 +131,7 @@ Result<Done> readBodyTwice(const SetupRequest& request, const std::string& meshF
 template <typename Value>
 void doubtGuess(const Finding<Value>& finding, PlacementCheck& check) {
   if (finding.offer.isSure || finding.isSaidByFile || finding.isSaidByUser) return;
-  check.state = CheckState::Doubt;
+  if (check.state == CheckState::Good) check.state = CheckState::Doubt;
 }
 
 /// Unit and axis, by the sentences of `foretouch view`.
@@ -159,6 +161,21 @@ void noteStillness(Setup& setup) {
   if (moves) return;
   setup.notes.push_back(setup.request.body.motion +
                         ": never moves, so nothing can happen between its poses");
+}
+
+/// Where the path is judged by the trunk, and nothing tells what that is.
+void noteTrunk(Setup& setup) {
+  const Skeleton& skeleton = setup.body.avatar->skeleton();
+  if (!namedTrunkOf(skeleton).empty()) return;
+  std::vector<std::string> names;
+  for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
+    names.push_back(skeleton.name(joint));
+  }
+  setup.notes.push_back(fmt::format(
+      "{}: no joint is called a pelvis, spine, neck or head, so what is said of its trunk is about "
+      "all its {} links: {}",
+      setup.request.body.motion.empty() ? setup.request.body.avatar : setup.request.body.motion,
+      names.size(), firstOf(names)));
 }
 
 /// The user's place is judged and kept; without one, the best is taken; without a floor, the
@@ -198,6 +215,7 @@ Result<Setup> findSetup(const SetupRequest& request, const std::string& meshFile
   setup.notes.insert(setup.notes.end(), setup.body.notes.begin(), setup.body.notes.end());
   addFrameChecks(imported.scene, imported.frame, setup);
   noteStillness(setup);
+  noteTrunk(setup);
   FORETOUCH_CHECK(findPlace(std::move(imported.scene), setup));
   return setup;
 }

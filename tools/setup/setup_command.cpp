@@ -228,6 +228,11 @@ std::string closingText(const std::vector<std::string>& written,
 }
 
 ExitCode run(AskedSetup& asked) {
+  if (asked.output == kStandardOutput) {
+    return failed(Error::in("--output", ErrorCode::Mismatch,
+                            "expected a file, as a project names its files from where it lies; "
+                            "--json tells what setup finds on standard output"));
+  }
   sortFiles(asked);
   const SetupRequest request = requestOf(asked);
   const std::string avatarPath = avatarPathOf(asked, request);
@@ -290,7 +295,7 @@ Command setupCommand() {
             "Stand on this object, a roof or a table; `*` at an end stands for anything. Else on "
             "the floor that most of the scene is reached from")
       .in(kUnitsGroup);
-  settings.path("-o,--output", "FILE", asked->output, "Project file to write").in(kOutputGroup);
+  settings.output("-o,--output", "FILE", asked->output, "Project file to write");
   settings.flag("--yes", asked->yes, "Write what is offered, without asking").in(kOutputGroup);
   settings.asJson(asked->json);
   Command command{"setup",

@@ -1,8 +1,9 @@
 // window.foretouch: the page's small interface, for tests and for those who embed the page.
 
 import type { Contact } from "./contacts/contact.js";
+import { momentOf } from "./contacts/opening.js";
 import type { Touch } from "./contacts/touch.js";
-import type { Vector } from "./data/document.js";
+import type { FootStance, RecordedFoot, Vector } from "./data/document.js";
 import type { Clip } from "./motion/clip.js";
 import { Posture } from "./motion/clip.js";
 import { placeOption } from "./motion/placing.js";
@@ -22,10 +23,16 @@ export interface Foretouch {
   selectContact(index: number): void;
   /** Of the touches in order of their begin; a document without touches has one for each contact. */
   selectTouch(index: number): void;
-  /** What the page knows of a touch, its contacts as indices. */
-  touch(index: number): Omit<Touch, "rows"> & { readonly rows: number[] };
+  /** What the page knows of a touch, its contacts as indices, and the one that shows it; -1 where none does. */
+  touch(index: number): Omit<Touch, "rows"> & { readonly rows: number[]; readonly moment: number };
   /** Index of the chosen touch; -1 where none is. */
   selectedTouch(): number;
+  /** Of the first avatar. */
+  linkName(link: number): string;
+  /** How feet stand, as the document has it. */
+  feet(): readonly RecordedFoot[];
+  /** How the chosen foot stands; null where none is chosen. */
+  selectedStance(): FootStance | null;
   /** Inspections: the option that puts the body where it was clicked to; null where nobody has clicked. */
   placeOption(): string | null;
   /** What the page knows of a contact: the document's own numbers. */
@@ -83,6 +90,9 @@ export function publish(ready: Promise<void>, page: () => Page | null, error: ()
       const { model, store } = open();
       return store.state.touch === null ? -1 : model.touches.indexOf(store.state.touch);
     },
+    linkName: (link) => open().model.avatars[0].links[link].name,
+    feet: () => open().model.document.feet,
+    selectedStance: () => open().store.state.touch?.stance ?? null,
     placeOption: () => {
       const { place } = open().store.state;
       return place === null ? null : placeOption(place);
@@ -107,7 +117,8 @@ function touchAt({ model }: Page, index: number): Touch {
 
 function plainTouch(page: Page, index: number): ReturnType<Foretouch["touch"]> {
   const touch = touchAt(page, index);
-  return { ...touch, rows: touch.rows.map((row) => page.model.contacts.indexOf(row)) };
+  const indexOf = (row: Contact | null): number => (row === null ? -1 : page.model.contacts.indexOf(row));
+  return { ...touch, rows: touch.rows.map(indexOf), moment: indexOf(momentOf(touch)) };
 }
 
 function transformAt(clip: Clip | undefined, link: number, time: number): number[] {

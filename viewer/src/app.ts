@@ -1,7 +1,7 @@
 // Puts the page together: model, state, view, timeline and panels, each told of what changes.
 
 import { keepAddress } from "./address_bar.js";
-import { mostTelling } from "./contacts/telling.js";
+import { openingOf } from "./contacts/opening.js";
 import type { Check, ViewDocument } from "./data/document.js";
 import { Feed } from "./live/feed.js";
 import { LatencyPlot } from "./live/latency_plot.js";
@@ -11,8 +11,10 @@ import { Model } from "./model.js";
 import { Posture } from "./motion/clip.js";
 import { Caption } from "./panels/caption.js";
 import { checklistCard, checksOf } from "./panels/checklist.js";
+import { timeOf } from "./panels/choosing.js";
 import { Details } from "./panels/details.js";
 import { byId, element } from "./panels/dom.js";
+import { FeetCard } from "./panels/feet_card.js";
 import { showHeadline } from "./panels/headline.js";
 import { Help } from "./panels/help.js";
 import { Histogram } from "./panels/histogram.js";
@@ -49,17 +51,14 @@ export function showDocument(document: ViewDocument): Page {
 }
 
 function initialStore(model: Model): Store {
-  const met = model.contacts.filter(({ otherAvatar }) => otherAvatar !== null);
-  // Of bodies that move among each other, what one of them does to another.
-  const candidates = met.length > 0 ? met : model.contacts;
-  const contact = candidates[mostTelling(candidates, model.clips)] ?? null;
+  const { touch, contact } = openingOf(model), shown = touch ?? contact;
   return new Store({
-    time: contact?.at ?? model.start,
+    time: contact?.at ?? (touch === null ? model.start : timeOf(touch)),
     isPlaying: false,
     speed: 1,
     contact,
-    touch: contact === null ? null : model.touchOf(contact),
-    link: contact === null ? null : { avatar: contact.avatar, link: contact.link },
+    touch,
+    link: shown === null ? null : { avatar: shown.avatar, link: shown.link },
     showsDiscrete: false,
     showsGhosts: contact !== null || model.isSolid,
     showsSwept: model.avatars.some((avatar) => avatar.swept.length > 0),
@@ -71,6 +70,7 @@ function initialStore(model: Model): Store {
     search: "",
     showsGround: true,
     place: null,
+    refusal: null,
   });
 }
 
@@ -104,7 +104,7 @@ function connectView(view: View3D | null, model: Model, store: Store): void {
   let isFramed = !model.isLive;
   store.subscribe((changes) => {
     view.update(changes);
-    if (changes.has("contact")) view.keepInSight();
+    if (changes.has("contact") || changes.has("touch")) view.keepInSight();
     if (!isFramed && model.clips.some((clip) => clip.hasPose)) {
       isFramed = true;
       view.open();
@@ -142,6 +142,8 @@ function addPanels(model: Model, store: Store, view3d: View3D | null): void {
   if (isInspection) addInspection(model, store, view3d, panels);
   const details = wasAsked(model) ? new Details(model, store) : null;
   if (details !== null) panels.append(details.node);
+  const feet = FeetCard.of(model, store);
+  if (feet !== null) panels.append(feet.node);
   for (const node of [summaryCard(view), notesCard(view)]) if (node !== null) panels.append(node);
   const histogram = makeHistogram(model, store);
   if (histogram !== null) panels.append(histogram.node);
@@ -154,6 +156,7 @@ function addPanels(model: Model, store: Store, view3d: View3D | null): void {
     if (changes.has("theme")) histogram?.draw();
     const matters: Change[] = ["contact", "touch", "link", "contacts"];
     if (matters.some((change) => changes.has(change))) details?.update();
+    if (changes.has("touch")) feet?.update();
     if (changes.has("search") || changes.has("showsGround") || matters.some((change) => changes.has(change))) table?.update();
   });
 }

@@ -3,6 +3,7 @@
 import type { Avatar, ViewDocument } from "./data/document.js";
 import type { Contact } from "./contacts/contact.js";
 import { allContacts, longestStep } from "./contacts/contact.js";
+import { stancesOf } from "./contacts/feet.js";
 import type { Touch, TouchCount } from "./contacts/touch.js";
 import { countTouches, matches, mergedTouches, recordedStays, recordedTouches, touchOfRow } from "./contacts/touch.js";
 import type { Clip } from "./motion/clip.js";
@@ -22,6 +23,8 @@ export class Model {
   private touchList: Touch[];
   /** Touches, and who is in triggers: by begin. */
   private barList: readonly Touch[];
+  /** How feet stand, as bars; by foot, then by begin. */
+  readonly stances: readonly Touch[];
   private touchOfContact = new Map<Contact, Touch>();
   private shown: { search: string; showsGround: boolean; of: readonly Touch[]; touches: readonly Touch[] } | null = null;
   private longest: number;
@@ -33,6 +36,7 @@ export class Model {
     this.trackedList = document.avatars.map(trackedOf);
     this.contactList = allContacts(this.avatars, this.clips);
     this.touchList = this.touchesOf(this.contactList);
+    this.stances = stancesOf(document.feet, document.avatars);
     this.barList = this.barsOf();
     this.longest = longestStep(this.contactList);
   }
@@ -90,7 +94,8 @@ export class Model {
 
   private barsOf(): readonly Touch[] {
     const stays = recordedStays(this.document.stays, this.avatarList);
-    return stays.length === 0 ? this.touchList : [...this.touchList, ...stays].sort((a, b) => a.begin - b.begin);
+    const more = [...stays, ...this.stances];
+    return more.length === 0 ? this.touchList : [...this.touchList, ...more].sort((a, b) => a.begin - b.begin);
   }
 
   /** Of touches and of who is in triggers those that a search and the choice of the ground leave. */
@@ -105,6 +110,12 @@ export class Model {
 
   countTouches(): TouchCount {
     return countTouches(this.touchList);
+  }
+
+  /** The nearest frame of the clip, from 0; null where no frames are known. */
+  frameAt(time: number): number | null {
+    const { frameTime } = this.document;
+    return frameTime === null ? null : Math.round(time / frameTime);
   }
 
   /** The touch that a contact is a row of. */

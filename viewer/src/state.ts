@@ -38,6 +38,8 @@ export interface ViewState {
   showsGround: boolean;
   /** Inspections: where the body would stand; null where nobody has clicked. */
   place: Place | null;
+  /** Inspections: why the last click put the body nowhere; null where it did. */
+  refusal: string | null;
 }
 
 export type Change = keyof ViewState | "contacts" | "avatars";

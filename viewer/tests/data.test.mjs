@@ -6,7 +6,10 @@ import { decodeDocument } from "../build/data/decode.js";
 import { decodeStatus, decodeStep } from "../build/data/events.js";
 import { allContacts, contactsAt, firstAfter, longestStep } from "../build/contacts/contact.js";
 import { discreteCount, isSeenAtPose, touchingLinks } from "../build/contacts/discrete.js";
+import { byBadness, worstBy } from "../build/contacts/feet.js";
+import { openingOf } from "../build/contacts/opening.js";
 import { mostTelling } from "../build/contacts/telling.js";
+import { Model } from "../build/model.js";
 import { RecordedClip } from "../build/motion/recorded_clip.js";
 import { countTouches, matches, mergedTouches, recordedStays, recordedTouches, touchOfRow } from "../build/contacts/touch.js";
 import { densityOf, nearestTouch, rowsOf, ticks, zoomed } from "../build/timeline/rows.js";
@@ -293,6 +296,57 @@ test("contacts hold from when they are met to the end of their step; missed ones
 function shown(value) {
   const view = decoded(value), clips = view.avatars.map((avatar) => new RecordedClip(avatar.links, avatar.track));
   return { view, contacts: allContacts(view.avatars, clips) };
+}
+
+/** A foot that kicks, deeply, one stance that slides, and one that hovers. */
+function footed() {
+  const stance = (more) => ({ kind: "touches", begin: 0.2, end: 0.9, slide: 0, slides: "heel", depth: 0, deepest: "toe", depth_at: 0.3, ...more });
+  const hovers = { kind: "hovers", begin: 1, end: 1.5, hover: 0.012 };
+  return { ...copy(), frame_time: 0.1, feet: [
+    { link: 3, stances: [stance({ slide: 0.004, depth: 0.001 }), stance({ begin: 1.1, end: 1.15, depth: 0.2 })] },
+    { link: 5, stances: [stance({ slide: 0.03, trace: [[0, 0, 0], [0.03, 0, 0]] }), hovers] },
+  ] };
+}
+
+test("feet have rows of their own above all others, the worst first, and are counted as no touches of links", () => {
+  const model = new Model(decoded(footed())), plain = new Model(decoded(touched));
+  assert.deepEqual(model.countTouches(), plain.countTouches());
+  assert.equal(model.stances.length, 4);
+  const rows = rowsOf(model.shownTouches("", true), model.avatars, "limb", new Set());
+  assert.deepEqual(rows.slice(0, 3).map(({ isHeading, link }) => [isHeading, link]), [[true, -1], [false, 3], [false, 5]], "of the foot that is 20 cm deep first");
+  assert.equal(worstBy(model.stances, ({ slide }) => slide).stance.slide, 0.03);
+  assert.equal(worstBy(model.stances, ({ depth }) => depth), null, "a kick does not stand");
+  assert.deepEqual(byBadness(model.stances).map(({ stance }) => Math.max(stance.slide, stance.depth, stance.hover)), [0.03, 0.012, 0.004, 0.2]);
+  assert.equal(model.frameAt(0.44), 4);
+});
+
+test("a page opens at the deepest touch, or the longest where none is deep; on the ground alone at the worst foot", () => {
+  const opened = (change) => {
+    const view = footed();
+    change(view);
+    const model = new Model(decoded(view));
+    return { model, ...openingOf(model) };
+  };
+  const deep = opened((view) => view.touches.forEach((touch, i) => (touch.penetration = i === 2 ? 0.05 : 0.01)));
+  assert.equal(deep.touch.depth, 0.05);
+  const shallow = opened((view) => view.touches.forEach((touch) => (touch.penetration = 0)));
+  const span = ({ begin, end }) => end - begin, apart = shallow.model.touches.filter(({ isGround, isOwn }) => !isGround && !isOwn);
+  assert.equal(span(shallow.touch), Math.max(...apart.map(span)));
+  const ground = opened((view) => view.touches.forEach((touch) => (touch.ground = true)));
+  assert.equal(ground.touch.stance.slide, 0.03);
+  assert.equal(ground.contact, null);
+});
+
+for (const [what, change, reason] of [
+  ["a foot of no link", (view) => (view.feet[0].link = 99), /but there are/],
+  ["a stance of no kind", (view) => (view.feet[0].stances[0].kind = "flies"), /is none of touches, under, hovers/],
+  ["a depth below zero", (view) => (view.feet[0].stances[0].depth = -1), /not in 0 to/],
+]) {
+  test(`${what} is refused`, () => {
+    const view = footed();
+    change(view);
+    assert.throws(() => decoded(view), reason);
+  });
 }
 
 test("touches have their contacts, whatever order the page has those in", () => {

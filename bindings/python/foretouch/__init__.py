@@ -38,6 +38,7 @@ from foretouch._foretouch import (
     swept_surface,
 )
 from foretouch._examples import example_folder
+from foretouch._feet import FeetLabels, feet_labels
 from foretouch._queries import first_contacts, first_contacts_many, touches_at
 from foretouch._types import (
     CertifiedEdges,
@@ -88,6 +89,7 @@ __all__ = [
     "EVERY_BODY",
     "Error",
     "EventPoint",
+    "FeetLabels",
     "Follower",
     "InputError",
     "JointMatch",
@@ -134,6 +136,7 @@ __all__ = [
     "WorldPart",
     "__version__",
     "example_folder",
+    "feet_labels",
     "first_contacts",
     "first_contacts_many",
     "swept_surface",

@@ -18,6 +18,7 @@
 
 #include "tests/support/holds.h"
 #include "tests/tools/batch/small_fleet.h"
+#include "tests/tools/feet/planted_walk.h"
 
 namespace foretouch::test {
 namespace {
@@ -72,6 +73,52 @@ TEST(BatchProgram, AnswersAsReplayDoes) {
       return std::count(text.begin(), text.end(), '\n');
     }(contentOf(fleet.world.folder / "bare.jsonl")));
   }
+}
+
+/// Clips whose left foot slides by so many millimetres, and one that is not there.
+TEST(BatchProgram, RanksFeetTheWorstClipFirstWithItsPlot) {
+  const TempFolder folder;
+  folder.write("walker.json", kWalkerAvatar);
+  std::string text = "foretouch-batch 1\nall --avatar walker.json --rate 100\n";
+  for (const int slide : {4, 30, 0, 12}) {
+    PlantedFoot left, right;
+    left.stances = {{{0, 0, 0}, {0, 0, 1e-3 * slide}, 0.0, 1.0}};
+    right.stances = {{{0, 0, 0.2}, {0, 0, 0.2}, 0.0, 1.0}};
+    std::vector<Place> leftSoles, rightSoles;
+    for (int frame = 0; frame <= 100; ++frame) {
+      leftSoles.push_back(left.soleAt(0.01 * frame));
+      rightSoles.push_back(right.soleAt(0.01 * frame));
+    }
+    const std::string name = "slides" + std::to_string(slide) + ".bvh";
+    folder.write(name, walkBvh(leftSoles, rightSoles, 0.01));
+    text += "job --motion " + name + "\n";
+  }
+  const std::string manifest = folder.write("feet.batch", text + "job --motion gone.bvh\n");
+  const std::vector<std::string> words{"batch", manifest, "--output", folder / "results", "--feet"};
+  EXPECT_EQ(runForetouch(words).exitCode, 1) << "one is not there";
+  std::vector<std::string> merge = words;
+  merge.insert(merge.end(), {"--merge", "--table", folder / "t.jsonl"});
+  const Ended merged = runForetouch(merge);
+  EXPECT_EQ(merged.exitCode, 1) << merged.err;
+  const std::string page = contentOf(folder / "results" + "/feet_report.html");
+  std::size_t last = page.find("gone.bvh");
+  ASSERT_NE(last, std::string::npos) << page;
+  for (const char* const clip : {"slides30", "slides12", "slides4", "slides0"}) {
+    const std::size_t at = page.find(clip);
+    ASSERT_NE(at, std::string::npos) << clip;
+    EXPECT_GT(at, last) << clip;
+    last = at;
+  }
+  EXPECT_EQ(filesWith(folder / "results", ".csv").size(), 4u) << "stances of each";
+  for (const std::string& plot : filesWith(folder / "results", ".html")) {
+    const std::string place = plot.substr((folder / "results").size() + 1);
+    if (place == "feet_report.html") continue;
+    EXPECT_NE(page.find("<a href=\"./" + place + "\">plot</a>"), std::string::npos) << place;
+  }
+  std::ifstream lines(folder / "t.jsonl");
+  std::string first;
+  std::getline(lines, first);
+  EXPECT_NEAR(Json::parse(first)["summary"]["worst_slide"].get<double>(), 0.004, 0.001);
 }
 
 TEST(BatchProgram, WhatIsDoneIsNotDoneAgain) {

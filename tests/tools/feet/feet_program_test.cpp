@@ -1,5 +1,6 @@
 // `foretouch feet` as a user types it, on a walk that the test plants.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -76,7 +77,7 @@ TEST(FeetProgram, WritesStancesLabelsAndAPlot) {
   const Ended ended = files.feet({"--output", folder / "feet.csv", "--labels", folder / "l.csv",
                                   "--plot", folder / "feet.html"});
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
-  EXPECT_NE(ended.out.find("LeftFoot: 3 touches; 3 slide 2 mm or more, the worst 2"),
+  EXPECT_NE(ended.out.find("LeftFoot: 1 touch; 1 slides 2 mm or more, the worst 2"),
             std::string::npos)
       << ended.out;
   const auto rows = rowsOf(folder / "feet.csv");
@@ -95,6 +96,71 @@ TEST(FeetProgram, WritesStancesLabelsAndAPlot) {
   }
   EXPECT_EQ(countLines(folder / "l.jsonl"), 1u + 41u);
   EXPECT_EQ(contentOf(folder / "l.npz").substr(0, 2), "PK");
+}
+
+/// Heel, ball and toe of a foot that stands are three stances and one touch: the same count in the
+/// sentences, the table of heights, the JSON and the page.
+TEST(FeetProgram, CountsTouchesOfFeetOnce) {
+  const PlantedFiles files;
+  const Ended text = files.feet({"--plot", files.folder / "feet.html"});
+  EXPECT_NE(text.out.find("LeftFoot: 1 touch;"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("RightFoot: 2 touches;"), std::string::npos) << text.out;
+  const std::size_t row = text.out.find("touches of feet ");
+  ASSERT_NE(row, std::string::npos);
+  std::istringstream counts(text.out.substr(row + 22, 63));
+  std::vector<int> touches(9);
+  for (int& count : touches) counts >> count;
+  EXPECT_EQ(touches[4], 3) << "with the body as it is";
+  EXPECT_NE(contentOf(files.folder / "feet.html").find("RightFoot: 2 touches;"), std::string::npos);
+  const std::string told = files.feet({"--json"}).out;
+  EXPECT_NE(told.find(R"("name":"RightFoot","touches":2,)"), std::string::npos) << told;
+  EXPECT_NE(told.find(R"("raise":0,"touches":3,)"), std::string::npos) << told;
+  std::size_t longest = 0, digits = 0;
+  for (const char c : told.substr(told.find("limbs"))) {
+    digits = std::isdigit(static_cast<unsigned char>(c)) != 0 ? digits + 1 : 0;
+    longest = std::max(longest, digits);
+  }
+  EXPECT_LE(longest, 7u) << "as many digits as floats know: " << told;
+}
+
+/// What makes an answer doubtful is said: a T-pose at the begin, a mesh with a vertex that is not
+/// finite, a body that jumps far in one step, feet that end at the ankle.
+TEST(FeetProgram, SaysWhatMakesItsAnswerDoubtful) {
+  const PlantedFiles files;
+  std::string hole = kStageObj;
+  hole.replace(hole.find("v -5"), 4, "v nan");
+  files.folder.write("hole.obj", hole);
+  const Ended onHole = files.feet({files.folder / "hole.obj"});
+  EXPECT_NE(onHole.err.find("2 triangles with a vertex that is not finite"), std::string::npos)
+      << onHole.err;
+  EXPECT_EQ(onHole.err.find("T-pose"), std::string::npos) << onHole.err;
+  EXPECT_EQ(onHole.err.find("heel"), std::string::npos) << onHole.err;
+
+  std::string walk = contentOf(files.folder / "walk.bvh");
+  const std::size_t last = walk.rfind("\n0 0 0");
+  walk.replace(last, 6, "\n5000 0 0");
+  const std::string jump = files.folder.write("jump.bvh", walk);
+  const Ended jumps = runForetouch({"feet", jump, files.folder / "walker.json"});
+  EXPECT_NE(jumps.err.find("between frames 159 and 160 the body jumps, by 5000 m at most"),
+            std::string::npos)
+      << jumps.err;
+}
+
+TEST(FeetProgram, MakesHeelsForAvatarsOfBones) {
+  FORETOUCH_REQUIRE_SHARED(walk, "mocap/cmu_cgspeed_walk_crlf.bvh");
+  const TempFolder folder;
+  for (const bool heels : {false, true}) {
+    std::vector<std::string> make{"avatar", "bvh", *walk,       "--clip-scale",
+                                  "0.0564", "-o",  folder / "a"};
+    if (heels) make.emplace_back("--heels");
+    ASSERT_EQ(runForetouch(make).exitCode, 0);
+    const Ended ended =
+        runForetouch({"feet", *walk, "--avatar", folder / "a", "--clip-scale", "0.0564"});
+    EXPECT_EQ(ended.err.find("2 of its feet have no heel") == std::string::npos, heels)
+        << ended.err;
+    EXPECT_NE(ended.err.find("it begins with a T-pose, the first frame"), std::string::npos)
+        << ended.err;
+  }
 }
 
 /// From 15 cm above the stage, and 40 cm above the floor below it.

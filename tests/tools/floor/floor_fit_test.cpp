@@ -67,6 +67,19 @@ class Recorder {
       soles_[1 - foot].push_back(kept);
     }
   }
+  /// On hands and knees: in turn a foot drags its toes on, while the other one rests on its own.
+  void crawl(int moves) {
+    for (int i = 0; i < moves; ++i) {
+      const double off = ofRest_(random_);
+      for (double t = 0.0; t < 0.8; t += kStepS) {
+        const double moved = 0.3 * test::eased(t / 0.5);
+        for (const int foot : {0, 1}) {
+          const double x = 0.3 * ((i + 1 - foot) / 2) + (i % 2 == foot ? moved : 0.0);
+          put(foot, x, 0.25 * foot, off);
+        }
+      }
+    }
+  }
   /// Both feet never stop.
   void swim(double seconds) {
     for (double t = 0.0; t < seconds; t += kStepS) {
@@ -90,19 +103,29 @@ Avatar walker() {
   return parseAvatar(test::kWalkerAvatar, "walker.json").value();
 }
 
-/// Feet whose soles lie in the floor's slope: the ankles are above them along its normal.
-Result<FloorFit> fitOf(const Soles& soles, const TiltedFloor& floor) {
+/// Feet whose soles lie in the floor's slope, or whose heels are up by so much: their lowest point
+/// is where the soles are.
+Result<FloorFit> fitOf(const Soles& soles, const TiltedFloor& floor, double heelUpDeg = 0.0) {
   const Avatar avatar = walker();
   const RestingBody body = restingBodyOf(avatar).value();
   const Eigen::Vector3d normal = Eigen::Vector3d(-floor.slopeX, 1.0, -floor.slopeZ).normalized();
   const Eigen::Quaterniond turn =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), normal);
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), normal) *
+      Eigen::AngleAxisd(heelUpDeg * 0.0174532925, Eigen::Vector3d::UnitX());
+  // As the avatar's text has them: where its LSS end in the ankle's frame, and their radius.
+  double below = 0.0;
+  for (const auto& [y, z, radius] : {std::array{-0.05, -0.05, 0.03},
+                                     {-0.05, 0.12, 0.03},
+                                     {-0.06, 0.15, 0.02},
+                                     {-0.06, 0.2, 0.02}}) {
+    below = std::max(below, radius - normal.dot(turn * Eigen::Vector3d(0.0, y, z)));
+  }
   const auto poseAt = [&](std::int64_t step) -> Result<Pose> {
     Pose pose = restPose(avatar.skeleton());
     for (const int foot : {0, 1}) {
       const Place& sole = soles[foot][static_cast<std::size_t>(step)];
       const std::size_t ankle = foot == 0 ? 1 : 3;
-      pose.translations[ankle] = Eigen::Vector3d(sole.x, sole.y, sole.z) + test::kSole * normal;
+      pose.translations[ankle] = Eigen::Vector3d(sole.x, sole.y, sole.z) + below * normal;
       pose.rotations[ankle] = Quaternion(turn);
     }
     return validatedPose(body.avatar.skeleton(), body.poseOf(std::move(pose)));
@@ -168,6 +191,25 @@ TEST(FloorFit, FindsShiftedAndTiltedFloorsWithinFiveMillimetres) {
   EXPECT_LE(p95, 0.005);
   EXPECT_LE(tilt95, 0.0174533);
   EXPECT_GE(within, static_cast<int>(0.9 * kClips));
+}
+
+/// Crawling rests on toes, and drags them: the floor is where they rest.
+TEST(FloorFit, FindsTheFloorOfWhoCrawls) {
+  std::vector<double> errors;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const TiltedFloor floor = drawnFloor(random);
+    Recorder clip(floor, seed, 0.003);
+    clip.crawl(12);
+    const auto fit = fitOf(clip.soles(), floor, 75.0);
+    ASSERT_TRUE(fit.ok()) << describe(fit.error());
+    const Eigen::Vector3d& at = fit.value().center_W;
+    errors.push_back(std::abs(fit.value().height - floor.at(at.x(), at.z())));
+  }
+  std::sort(errors.begin(), errors.end());
+  std::printf("crawling: height error p95 %.2f mm\n", 1e3 * errors[38]);
+  EXPECT_LE(errors[38], 0.005);
 }
 
 TEST(FloorFit, RefusesWhatDoesNotRest) {

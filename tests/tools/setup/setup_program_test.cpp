@@ -108,6 +108,44 @@ TEST(SetupProgram, WithoutYesNothingIsWritten) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+/// A project names its files from where it lies, which standard output does not say.
+TEST(SetupProgram, WritesNoProjectToStandardOutput) {
+  const Ended ended =
+      runForetouch({"setup", kExample + "/room.obj", kExample + "/dancer.bvh", "--yes", "-o", "-"});
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_NE(ended.err.find("--output: expected a file"), std::string::npos) << ended.err;
+}
+
+/// What is far too small is wrong, not only doubtful; what is large has no exponent. A body whose
+/// joints have numbers for names is said to have no trunk by name.
+TEST(SetupProgram, SizesAreSaidInPlainFiguresAndTrunksByName) {
+  const TempFolder folder;
+  const auto levelOf = [](const std::string& size) {
+    return "o room\nv 0 0 0\nv " + size + " 0 0\nv " + size + " 0 " + size + "\nv 0 0 " + size +
+           "\nf 1 3 2\nf 1 4 3\n";
+  };
+  const std::string tiny = folder.write("tiny.obj", levelOf("0.001"));
+  const std::string huge = folder.write("huge.obj", levelOf("123456"));
+  std::string numbered = contentOf(kExample + "/dancer.bvh");
+  for (const std::string word : {"ROOT ", "JOINT "}) {
+    int number = 0;
+    for (std::size_t at = 0; (at = numbered.find(word, at)) != std::string::npos;) {
+      at += word.size();
+      numbered.replace(at, numbered.find('\n', at) - at,
+                       word.substr(0, 1) + std::to_string(number++));
+    }
+  }
+  const std::string body = folder.write("numbered.bvh", numbered);
+  const json small = setupIn(folder, tiny, kExample + "/dancer.bvh", 1);
+  EXPECT_EQ(stateOf(small, "scene's unit"), "bad");
+  const Ended large = runForetouch({"setup", huge, body});
+  EXPECT_NE(large.out.find("in metres it is 123000 x 0 x 123000 m"), std::string::npos)
+      << large.out;
+  EXPECT_EQ(large.out.find("e+"), std::string::npos) << large.out;
+  EXPECT_NE(large.err.find("no joint is called a pelvis, spine, neck or head"), std::string::npos)
+      << large.err;
+}
+
 TEST(SetupProgram, WhatWasThereIsKept) {
   const TempFolder folder;
   folder.write("foretouch.toml", "mine");

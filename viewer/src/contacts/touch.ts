@@ -1,7 +1,7 @@
 // Touches: a link and an object from their first contact to where it ends, over all steps. The
 // contacts of the single steps are the rows of a touch.
 
-import type { Avatar, RecordedStay, RecordedTouch, Strength } from "../data/document.js";
+import type { Avatar, FootStance, RecordedStay, RecordedTouch, Strength } from "../data/document.js";
 import type { Contact } from "./contact.js";
 
 export interface Touch {
@@ -28,6 +28,10 @@ export interface Touch {
   readonly strength: Strength | null;
   /** Somebody is in a trigger: it is no touch. */
   readonly isStay: boolean;
+  /** The deepest that it is known to be, metres; null where it is not known. */
+  readonly depth: number | null;
+  /** Of a whole foot: how it stands. It is no touch of a link. */
+  readonly stance: FootStance | null;
 }
 
 /** Of the document, in its order: by begin. `contacts` as allContacts() has them. */
@@ -46,6 +50,7 @@ export function recordedTouches(
       isOwn: touch.other !== null && touch.otherAvatar === null,
       isUndecided: touch.unresolved !== null,
       isStay: false,
+      stance: null,
     };
   });
   return touches.sort((a, b) => a.begin - b.begin);
@@ -70,6 +75,8 @@ export function recordedStays(stays: readonly RecordedStay[], avatars: readonly 
     rows: [],
     strength: null,
     isStay: true,
+    depth: null,
+    stance: null,
   }));
 }
 
@@ -92,6 +99,8 @@ export function touchOfRow(contact: Contact): Touch {
     rows: [contact],
     strength: null,
     isStay: false,
+    depth: contact.penetration,
+    stance: null,
   };
 }
 
@@ -113,6 +122,7 @@ export function mergedTouches(contacts: readonly Contact[]): Touch[] {
     touch.rows.push(contact);
     touch.end = contact.span.t1;
     touch.lastStep = contact.step;
+    touch.depth = Math.max(touch.depth ?? 0, contact.penetration ?? 0);
   }
   return touches;
 }
@@ -120,6 +130,7 @@ export function mergedTouches(contacts: readonly Contact[]): Touch[] {
 /** A touch while its rows are gathered. */
 interface Grown extends Touch {
   end: number;
+  depth: number | null;
   rows: Contact[];
   lastStep: number;
 }
@@ -151,7 +162,7 @@ export interface TouchCount {
 
 /** As the program counts: touches of own links are another question, and the ground is counted apart. */
 export function countTouches(touches: readonly Touch[]): TouchCount {
-  const ofScene = touches.filter((touch) => !touch.isOwn && !touch.isStay && (!touch.isUndecided || touch.rows.length > 0));
+  const ofScene = touches.filter((touch) => !touch.isOwn && !touch.isStay && touch.stance === null && (!touch.isUndecided || touch.rows.length > 0));
   const met = ofScene.filter((touch) => !touch.isGround);
   return {
     all: met.length,

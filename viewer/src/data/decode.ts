@@ -3,6 +3,7 @@
 import type { Avatar, Kind, SummaryLine, ViewDocument } from "./document.js";
 import { Malformed, Reader } from "./reader.js";
 import { decodeAvatar } from "./decode_avatar.js";
+import { decodeFoot } from "./decode_feet.js";
 import { decodeScene, emptyScene } from "./decode_scene.js";
 import { decodeCheck, decodeStay, decodeTouch } from "./decode_touch.js";
 
@@ -43,6 +44,8 @@ function decodeValue(value: unknown): ViewDocument {
     avatars,
     touches: root.optional("touches")?.items().map((item) => decodeTouch(item, avatars)) ?? null,
     stays: (root.optional("stays")?.items() ?? []).map((item) => decodeStay(item, avatars)),
+    frameTime: root.optional("frame_time")?.number(1e-9) ?? null,
+    feet: (root.optional("feet")?.items() ?? []).map((item) => decodeFoot(item, avatars)),
     checks: (root.optional("checks")?.items() ?? []).map(decodeCheck),
     events: kind === "live" ? eventsAddress(root) : null,
   };

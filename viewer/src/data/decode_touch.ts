@@ -25,6 +25,7 @@ export function decodeTouch(item: Reader, avatars: readonly Avatar[]): RecordedT
     isGround: item.optional("ground")?.flag() ?? false,
     isMissed: item.optional("missed")?.flag() ?? false,
     rows: (item.optional("rows")?.items() ?? []).map((row) => row.index(contacts.length)),
+    depth: item.optional("penetration")?.number(0) ?? null,
     strength: decodeStrength(item),
     unresolved: item.optional("unresolved")?.text() ?? null,
   };

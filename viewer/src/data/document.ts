@@ -19,6 +19,10 @@ export interface ViewDocument {
   readonly touches: readonly RecordedTouch[] | null;
   /** Who is in triggers, by begin. */
   readonly stays: readonly RecordedStay[];
+  /** Seconds; null where no frames are known. */
+  readonly frameTime: number | null;
+  /** Of a replay: how feet rest. */
+  readonly feet: readonly RecordedFoot[];
   /** Of inspections: what the program says about unit, axis and place. */
   readonly checks: readonly Check[];
   /** Where live events come from; null where the document is no live one. */
@@ -216,10 +220,37 @@ export interface RecordedTouch {
   readonly isMissed: boolean;
   /** Indices into the avatar's contacts. */
   readonly rows: readonly number[];
+  /** The deepest that any of its poses is in it, metres; null where none is. */
+  readonly depth: number | null;
   /** Where it begins; null where nobody looked. */
   readonly strength: Strength | null;
   /** Why nothing is claimed of the two in this time, which is then no touch; null of touches. */
   readonly unresolved: string | null;
+}
+
+export interface RecordedFoot {
+  /** The ankle, of the first avatar. */
+  readonly link: number;
+  readonly stances: readonly FootStance[];
+}
+
+/** A touch of a whole foot, or that it hovers. Metres and seconds. */
+export interface FootStance {
+  readonly kind: "touches" | "under" | "hovers";
+  readonly begin: number;
+  readonly end: number;
+  /** The clip begins, or ends, in it. */
+  readonly beganBefore: boolean;
+  readonly goesOn: boolean;
+  readonly slide: number;
+  /** The part that slides most, and the deepest: "heel"; "" of what hovers. */
+  readonly slides: string;
+  readonly depth: number;
+  readonly deepest: string;
+  readonly depthAt: number;
+  readonly hover: number;
+  /** On the ground; empty where it does not slide. */
+  readonly trace: readonly Vector[];
 }
 
 /** Somebody is in a trigger, or nothing is known of that. */

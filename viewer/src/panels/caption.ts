@@ -25,14 +25,14 @@ export class Caption {
   }
 
   private ofInstant(): string {
-    const { contact, touch, time, place, follows } = this.store.state, { model } = this;
+    const { contact, touch, time, place, follows, refusal } = this.store.state, { model } = this;
     if (contact !== null && (touch === null || touch.rows[0] === contact || !model.knowsTouches)) return story(contact, model.timeZero);
     if (touch !== null) return storyOfTouch(touch, model.timeZero);
     const clip = model.clips[0];
     const isAnswered = clip === undefined || clip.start === clip.end || clip.instantAt(time).step >= 0;
     if (!isAnswered && !model.isLive) return "Not answered: no step covers this instant. The avatar holds its last pose.";
     if (model.document.kind === "world" && model.document.touches === null) return worldHint;
-    if (model.document.kind === "inspection") return place === null ? inspectionHint : turningHint;
+    if (model.document.kind === "inspection") return refusal ?? (place === null ? inspectionHint : turningHint);
     return model.isLive ? (follows ? "Following the stream." : "Looking back: Live follows the stream again.") : hint;
   }
 

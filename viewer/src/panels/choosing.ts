@@ -3,6 +3,8 @@
 
 import type { Contact } from "../contacts/contact.js";
 import { firstAfter } from "../contacts/contact.js";
+import { isDeep } from "../contacts/feet.js";
+import { momentOf } from "../contacts/opening.js";
 import type { Touch } from "../contacts/touch.js";
 import { firstTouchAfter } from "../contacts/touch.js";
 import type { Model } from "../model.js";
@@ -20,21 +22,28 @@ export function chooseContact(store: Store, model: Model, contact: Contact): voi
 }
 
 export function chooseTouch(store: Store, model: Model, touch: Touch): void {
-  const contact = touch.rows.find((row) => row.point !== null) ?? touch.rows[0] ?? null;
+  const contact = momentOf(touch);
   store.set({
     touch,
     contact,
     link: { avatar: touch.avatar, link: touch.link },
-    time: Math.min(model.end, contact?.at ?? touch.begin),
+    time: Math.min(model.end, contact?.at ?? timeOf(touch)),
     isPlaying: false,
     follows: false,
   });
 }
 
+/** Of a foot: where it is deepest, if it is deep in; else in the middle of its stance. */
+export function timeOf({ stance, begin, end }: Touch): number {
+  if (stance === null) return begin;
+  return isDeep(stance) ? stance.depthAt : (begin + end) / 2;
+}
+
 /** The touch before (-1) or after (1) the chosen one, or else the time shown, of those that are shown. */
 export function walkTouches(store: Store, model: Model, direction: -1 | 1): void {
   const { touch, time, search, showsGround } = store.state;
-  const touches = model.shownTouches(search, showsGround);
+  const isOfFeet = touch !== null && touch.stance !== null;
+  const touches = model.shownTouches(search, showsGround).filter(({ stance }) => (stance !== null) === isOfFeet);
   const chosen = touch === null ? -1 : touches.indexOf(touch);
   const next = chosen >= 0 ? chosen + direction : neighbour(firstTouchAfter(touches, time), direction);
   if (touches[next] !== undefined) chooseTouch(store, model, touches[next]);

@@ -1,5 +1,6 @@
 // Everything known about the chosen contact, or about the chosen link.
 
+import { isSlide } from "../contacts/feet.js";
 import { discreteCount } from "../contacts/discrete.js";
 import type { Contact } from "../contacts/contact.js";
 import { verdictNames } from "../contacts/contact.js";
@@ -8,7 +9,7 @@ import type { LinkChoice, Store } from "../state.js";
 import type { Touch } from "../contacts/touch.js";
 import { chooseContact } from "./choosing.js";
 import { button, definitionTable, element } from "./dom.js";
-import { count, length, plural, seconds, speed, tally, vector } from "./words.js";
+import { count, framesOf, length, millimetres, plural, seconds, speed, tally, vector } from "./words.js";
 
 /** How hard the two meet. */
 function linesOfForce({ strength }: Touch): Line[] {
@@ -29,6 +30,8 @@ type Line = readonly [string, string, string?];
 export class Details {
   readonly node = element("section", { class: "card details" });
   private readonly body = element("div");
+  /** Whether what is said of a step is unfolded: it stays so. */
+  private isStepOpen = false;
 
   constructor(
     private readonly model: Model,
@@ -59,23 +62,47 @@ export class Details {
 
   private ofTouch(touch: Touch, contact: Contact | null): Node[] {
     const zero = this.model.timeZero;
-    const kind = touch.isStay ? "trigger" : touch.isGround ? "ground" : touch.isUndecided ? "undecided" : touch.begins === "inside" ? "starts_in_contact" : "contact";
+    const kind = touch.stance !== null && isSlide(touch.stance) ? "slide" : touch.isStay ? "trigger" : touch.isGround ? "ground" : touch.isUndecided ? "undecided" : touch.begins === "inside" ? "starts_in_contact" : "contact";
+    const isFoot = touch.stance !== null;
     const parts: Node[] = [element("p", { class: "who" },
       element("span", { class: `swatch ${kind}` }),
       element("strong", { text: touch.linkName }),
-      element("span", { text: touch.object === "" ? "" : touch.isStay ? ` in ${touch.object}` : ` × ${touch.object}` }),
+      element("span", { text: isFoot ? " on the ground" : touch.object === "" ? "" : touch.isStay ? ` in ${touch.object}` : ` × ${touch.object}` }),
     )];
     if (touch.isUndecided) parts.push(element("p", { class: "badge", text: "Nothing is claimed in this time" }));
     if (touch.isMissed === true) parts.push(element("p", { class: "badge", text: "A check of the poses misses it" }));
     parts.push(definitionTable([
+      ...this.linesOfBadness(touch),
       ["begins", seconds(touch.begin - zero), touch.begins === "inside" ? `it ${touch.isStay ? "was inside" : "touched"} already when somebody first looked` : ""],
       ["ends", seconds(touch.end - zero), touch.ends === "open" ? (touch.isStay ? "it is still inside" : "it still touches") : `after ${seconds(touch.end - touch.begin)}`],
-      ...(touch.isGround ? [["ground", "yes", "it stands on what it touches"] as const] : []),
+      ...(touch.isGround && !isFoot ? [["ground", "yes", "it stands on what it touches"] as const] : []),
       ...linesOfForce(touch),
     ]));
     if (touch.rows.length > 0) parts.push(this.rowsOf(touch, contact));
-    if (contact !== null) parts.push(element("h3", { text: `The contact in step ${count(contact.step)}` }), definitionTable(this.linesOf(contact)));
+    if (contact !== null) parts.push(this.stepOf(contact));
     return parts;
+  }
+
+  /** What a person looks for first: how deep, how far it slides, which frames. */
+  private linesOfBadness(touch: Touch): Line[] {
+    const { stance, depth } = touch, frame = this.model.frameAt(touch.begin);
+    const lines: Line[] = [];
+    if (stance !== null && stance.kind === "hovers") lines.push(["above", millimetres(stance.hover), "the ground, on the average"]);
+    else if (stance !== null) {
+      const at = this.model.frameAt(stance.depthAt);
+      lines.push(["slides", millimetres(stance.slide), `its ${stance.slides}`]);
+      lines.push(["deep", millimetres(stance.depth), stance.depth > 0 && at !== null ? `its ${stance.deepest}, at frame ${at}` : ""]);
+    } else if (depth !== null && depth > 0) lines.push(["deep", length(depth), touch.rows.length > 1 ? "at most, at a pose" : "at a pose"]);
+    if (frame !== null) lines.push(["frames", framesOf(this.model, touch), "of the clip, from 0; the nearest"]);
+    return lines;
+  }
+
+  /** What the engine says of one step: below, for who looks closer. */
+  private stepOf(contact: Contact): HTMLElement {
+    const fold = element("details", {}, element("summary", { text: `The contact in step ${count(contact.step)}` }), definitionTable(this.linesOf(contact)));
+    fold.open = this.isStepOpen;
+    fold.addEventListener("toggle", () => (this.isStepOpen = fold.open));
+    return fold;
   }
 
   /** The contacts of a touch, step by step. */

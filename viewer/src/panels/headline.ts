@@ -1,14 +1,30 @@
 // The page's title and the one sentence that matters.
 
 import { discreteCount } from "../contacts/discrete.js";
+import { worstBy } from "../contacts/feet.js";
 import type { Model } from "../model.js";
 import { byId } from "./dom.js";
-import { count, length, personOf, placeOf, plural, tally } from "./words.js";
+import { count, length, millimetres, personOf, placeOf, plural, seconds, tally } from "./words.js";
 
 export function showHeadline(model: Model): void {
   byId("title").textContent = model.document.title;
   document.title = `${model.document.title} · Foretouch`;
-  byId("headline").textContent = headline(model);
+  byId("headline").textContent = `${headline(model)}${ofFeet(model)}`;
+}
+
+/** The foot that slides farthest, and the deepest. */
+function ofFeet(model: Model): string {
+  const slides = worstBy(model.stances, ({ slide }) => slide), deep = worstBy(model.stances, ({ depth }) => depth);
+  const parts: string[] = [];
+  if (slides?.stance != null) parts.push(`${slides.linkName} slides ${millimetres(slides.stance.slide)} (${framed(model, slides.begin)})`);
+  if (deep?.stance != null) parts.push(`${deep.linkName} is ${millimetres(deep.stance.depth)} deep in (${framed(model, deep.stance.depthAt)})`);
+  if (parts.length > 0) return ` ${parts.join(", and ")}.`;
+  return model.document.feet.length > 0 ? " No foot slides or sinks in." : "";
+}
+
+function framed(model: Model, time: number): string {
+  const frame = model.frameAt(time);
+  return frame === null ? `at ${seconds(time - model.timeZero)}` : `frame ${frame}`;
 }
 
 function headline(model: Model): string {

@@ -6,10 +6,10 @@ import type { Store } from "../state.js";
 import { chooseTouch } from "./choosing.js";
 import { csvOf, type Cells } from "./csv.js";
 import { button, element, explained, offerFile } from "./dom.js";
-import { count, length, seconds, speed } from "./words.js";
+import { count, framesOf, length, seconds, speed } from "./words.js";
 
 const rowsPerPage = 50;
-const columns = ["begin", "lasts", "link", "object", "begins", "separation", "at poses"], forceColumns = ["approach", "impulse"];
+const columns = ["begin", "frames", "lasts", "link", "object", "deep", "begins", "at poses"], forceColumns = ["approach", "impulse"];
 
 export class TouchTable {
   readonly node = element("details", { class: "card touch-table" });
@@ -44,7 +44,7 @@ export class TouchTable {
   }
 
   private touches(): readonly Touch[] {
-    return this.model.shownTouches(this.store.state.search, this.store.state.showsGround);
+    return this.model.shownTouches(this.store.state.search, this.store.state.showsGround).filter(({ stance }) => stance === null);
   }
 
   private turn(pages: number): void {
@@ -69,22 +69,22 @@ export class TouchTable {
   }
 
   private texts(touch: Touch): string[] {
-    const { separation } = touch.rows[0] ?? { separation: null };
     const lasts = `${seconds(touch.end - touch.begin)}${touch.ends === "open" ? " +" : ""}`;
     const begins = touch.isUndecided ? "undecided" : touch.isStay ? (touch.begins === "inside" ? "inside the trigger" : "enters the trigger") : touch.begins === "inside" ? "inside" : "contact";
     const atPoses = touch.isMissed === null ? "" : touch.isMissed ? "missed" : "seen";
-    return [lasts, touch.linkName, touch.object, touch.isGround ? `${begins}, ground` : begins, separation === null ? "" : length(separation), atPoses, ...(this.hasForces ? forcesOf(touch) : [])];
+    const deep = touch.depth === null || touch.depth === 0 ? "" : length(touch.depth), frames = this.model.frameAt(touch.begin) === null ? "" : framesOf(this.model, touch);
+    return [frames, lasts, touch.linkName, touch.object, deep, touch.isGround ? `${begins}, ground` : begins, atPoses, ...(this.hasForces ? forcesOf(touch) : [])];
   }
 
   /** In seconds and metres, with a dot, in full. */
   private save(): void {
     const zero = this.model.timeZero;
-    const head = ["begin_s", "end_s", "avatar", "link", "object", "begins", "ends", "ground", "missed", "separation_m", "x_m", "y_m", "z_m", "trigger", "approach_m_s", "effective_mass_kg", "impulse_N_s"];
+    const head = ["begin_s", "end_s", "avatar", "link", "object", "begins", "ends", "ground", "missed", "separation_m", "depth_m", "from_frame", "to_frame", "x_m", "y_m", "z_m", "trigger", "approach_m_s", "effective_mass_kg", "impulse_N_s"];
     const lines = this.touches().map((touch): Cells => {
       const row = touch.rows[0], point = row?.point ?? [null, null, null];
       return [
         touch.begin - zero, touch.end - zero, this.model.avatars[touch.avatar].name, touch.linkName, touch.object,
-        touch.isUndecided ? "undecided" : touch.begins, touch.ends, touch.isGround, touch.isMissed, row?.separation ?? null, ...point,
+        touch.isUndecided ? "undecided" : touch.begins, touch.ends, touch.isGround, touch.isMissed, row?.separation ?? null, touch.depth, this.model.frameAt(touch.begin), this.model.frameAt(touch.end), ...point,
         touch.isStay, touch.strength?.speed ?? null, touch.strength?.effectiveMass ?? null, touch.strength?.impulse ?? null,
       ];
     });

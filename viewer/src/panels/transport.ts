@@ -44,7 +44,8 @@ export class Transport {
   update(changes: ReadonlySet<Change>): void {
     const { state } = this.store;
     const { start, end, timeZero } = this.model;
-    this.clock.textContent = seconds(state.time - timeZero);
+    const frame = this.model.frameAt(state.time);
+    this.clock.textContent = `${seconds(state.time - timeZero)}${frame === null ? "" : `, frame ${frame}`}`;
     const u = end > start ? (state.time - start) / (end - start) : 0;
     this.scrubber.value = String(Math.round(u * scrubberSteps));
     this.scrubber.setAttribute("aria-valuetext", seconds(state.time - timeZero));

@@ -1,8 +1,9 @@
 // Numbers as people read them.
 
 import type { Contact } from "../contacts/contact.js";
+import { isDeep, isSlide } from "../contacts/feet.js";
 import type { Touch } from "../contacts/touch.js";
-import type { Strength, Vector, Verdict } from "../data/document.js";
+import type { FootStance, Strength, Vector, Verdict } from "../data/document.js";
 
 export function seconds(value: number): string {
   return `${value.toFixed(3)} s`;
@@ -82,12 +83,34 @@ export function story(contact: Contact, timeZero: number): string {
 export function storyOfTouch(touch: Touch, timeZero: number): string {
   const object = touch.object === "" ? "the scene" : touch.object;
   const from = seconds(touch.begin - timeZero), to = seconds(touch.end - timeZero);
+  if (touch.stance !== null) return `${touch.linkName} ${touch.stance.kind === "hovers" ? "rests" : "touches the ground"} from ${from} to ${to}: ${linesOfStance(touch.stance).join(", ")}.`;
   if (touch.isStay) return touch.isUndecided ? `It is not known whether ${touch.linkName} is in ${object} from ${from} to ${to}.` : `${touch.linkName} is in ${object} from ${from} to ${to}${touch.ends === "open" ? ", and still when the clip ends" : ""}.`;
   if (touch.isUndecided && touch.rows.length === 0) return `Nothing is claimed of ${touch.linkName} and ${object} from ${from} to ${to}.`;
   const begins = touch.begins === "inside" ? `touches ${object} already at ${from}` : `touches ${object} from ${from}`;
   const ends = touch.ends === "open" ? ", and still when the clip ends" : ` to ${to}`;
   const fate = touch.isMissed === true ? " No pose lies in between: a check of the poses misses it." : "";
-  return `${touch.linkName} ${begins}${ends}.${fate}`;
+  const deep = (touch.depth ?? 0) > 0 ? `, and is at most ${length(touch.depth ?? 0)} deep in it` : "";
+  return `${touch.linkName} ${begins}${ends}${deep}.${fate}`;
+}
+
+/** Of a foot: how far it slides, how deep it is, or how high it hovers. */
+export function linesOfStance(stance: FootStance): string[] {
+  if (stance.kind === "hovers") return [`hovers ${millimetres(stance.hover)} above the ground`];
+  const lines = [isSlide(stance) ? `its ${stance.slides} slides ${millimetres(stance.slide)}` : "it does not slide"];
+  if (isDeep(stance)) lines.push(`its ${stance.deepest} is ${millimetres(stance.depth)} deep in the ground`);
+  return stance.kind === "under" ? [...lines, "in between it is below the ground"] : lines;
+}
+
+/** With a tenth: as `foretouch feet` says them. */
+export function millimetres(metres: number): string {
+  return `${(1e3 * metres).toFixed(1)} mm`;
+}
+
+/** "frames 12 to 40", or the seconds where no frames are known. */
+export function framesOf(model: { frameAt(time: number): number | null; readonly timeZero: number }, { begin, end }: Touch): string {
+  const from = model.frameAt(begin), to = model.frameAt(end);
+  if (from === null || to === null) return `${seconds(begin - model.timeZero)} to ${seconds(end - model.timeZero)}`;
+  return `${from} to ${to}`;
 }
 
 const unseen = "a check of the poses sees no contact";

@@ -22,6 +22,8 @@ export interface Palette {
   readonly halo: string;
   /** Of touches that are ground contact. */
   readonly ground: string;
+  /** Of feet that slide, and of the way that they slid. */
+  readonly slide: string;
   /** Of triggers, and who is in them. */
   readonly trigger: string;
   readonly ink: string;
@@ -52,6 +54,7 @@ export const palettes: Record<Theme, Palette> = {
     swept: "#e69f00",
     halo: "#ffffff",
     ground: "#c9c2b6",
+    slide: "#7b3fb5",
     trigger: "#009e73",
     ink: "#1d2530",
     faint: "#6b7584",
@@ -73,6 +76,7 @@ export const palettes: Record<Theme, Palette> = {
     swept: "#f0b93a",
     halo: "#14181e",
     ground: "#5d574f",
+    slide: "#b48ae8",
     trigger: "#1fc297",
     ink: "#e7ebf0",
     faint: "#98a2b0",

@@ -13,6 +13,10 @@ const floorCosine = 0.7;
 /** A click nearer to the feet than this turns nothing, metres. */
 const underFoot = 0.15;
 
+/** Why a click puts the body nowhere. */
+const noScene = "Nothing of the scene is there: the grid is no floor, it only shows metres. Click a floor of the scene.";
+const tooSteep = "Nobody stands there: it is a wall, a ceiling or too steep. Click a floor.";
+
 export class Placing {
   /** Where the feet are to stand; null before the first click. */
   private feet: Vector | null = null;
@@ -27,10 +31,14 @@ export class Placing {
     });
   }
 
-  /** Whether the click says something about the place: one on a floor does. */
-  click(at: Vector, upwards: number): boolean {
+  /** What the click hit; null: nothing of the scene. Whether it says something about the place: one on a floor does. */
+  click(met: { readonly at: Vector; readonly upwards: number } | null): boolean {
     const performer = this.performers[0];
-    if (upwards < floorCosine || performer === undefined || !performer.clip.hasPose) return false;
+    const isFloor = met !== null && met.upwards >= floorCosine;
+    if (performer === undefined || !performer.clip.hasPose) return false;
+    this.store.set({ refusal: isFloor ? null : met === null ? noScene : tooSteep });
+    if (!isFloor) return false;
+    const { at } = met;
     const { avatar, posture } = performer, now = this.model.place;
     const held = footOf(avatar, posture.world);
     const { place } = this.store.state;

@@ -2,6 +2,7 @@
 
 import * as THREE from "three";
 import type { Contact } from "../contacts/contact.js";
+import type { Touch } from "../contacts/touch.js";
 import type { Bounds, Vector } from "../data/document.js";
 import type { Model } from "../model.js";
 import { pointAt, transformSize } from "../motion/chain.js";
@@ -12,6 +13,8 @@ import type { Performer } from "./performer.js";
 /** A body smaller than this share of the scene is not seen where all of the scene is. */
 const lostShare = 0.2;
 
+/** Of the body's radius: around a foot. */
+const closeUp = 0.35;
 /** Of the body's radius: what is to be placed is looked at with the floor that it stands on. */
 const surroundings = 1.7;
 
@@ -41,6 +44,15 @@ export class Subjects {
       normal: contact.normal === null ? null : new THREE.Vector3(...contact.normal),
       motion: after.clone().sub(before),
     };
+  }
+
+  /** The foot as it is now, from near, with the way that it slides. */
+  ofStance({ avatar, link, stance }: Touch): Subject {
+    const { posture } = this.performers[avatar], { radius } = ball(this.performers[avatar].bounds());
+    const transform = posture.transform(link), ankle = this.local([transform[9], transform[10], transform[11]]);
+    const trace = (stance?.trace ?? []).map((at) => this.local(at));
+    const farthest = trace.reduce((most, at) => Math.max(most, at.distanceTo(ankle)), 0);
+    return { centre: ankle, radius: Math.max(closeUp * radius, farthest), point: ankle, wanted: trace.slice(0, 1), body: [], normal: new THREE.Vector3(0, 1, 0), motion: null };
   }
 
   /** The bodies as they are now; with the scene where asked for, or where there is no body. */

@@ -19,6 +19,7 @@ import { pickScene } from "./picking.js";
 import { Placing } from "./placing_hand.js";
 import { contactNear, linkUnder, listenForClicks } from "./pointer.js";
 import { Scenery } from "./scenery.js";
+import { SlideTraces } from "./slide_traces.js";
 import type { FrameKind, Part } from "./stage.js";
 import { Stage } from "./stage.js";
 import { Staging } from "./staging.js";
@@ -38,6 +39,7 @@ export class View3D {
   private readonly staging: Staging;
   private readonly subjects: Subjects;
   private readonly wipe: Wipe;
+  private readonly slides: SlideTraces;
   private readonly measures: Measures | null;
   private readonly placing: Placing | null;
   private readonly origin: Vector;
@@ -58,7 +60,8 @@ export class View3D {
     this.subjects = new Subjects(model, this.staging.performers, this.origin);
     this.scenery = new Scenery(scene, this.cutaway, this.staging.shadow);
     this.occluders = new Occluders(scene);
-    this.stage.scene.add(this.scenery.group, this.staging.group);
+    this.slides = new SlideTraces(model.stances, this.origin);
+    this.stage.scene.add(this.scenery.group, this.staging.group, this.slides.group);
     this.wipe = new Wipe(host, () => this.stage.draw());
     this.measures = kind === "inspection" ? this.makeMeasures() : null;
     this.placing = kind === "inspection" ? new Placing(model, store, this.staging.performers) : null;
@@ -98,10 +101,11 @@ export class View3D {
 
   /** Looks at the chosen contact, or at the body where none is chosen. */
   frame(isInstant: boolean, scope: Scope = "body"): void {
-    const contact = this.store.state.contact;
+    const { contact, touch } = this.store.state;
     this.staging.poseTruth();
     const isContact = scope === "body" && contact !== null && contact.point !== null;
-    const subject = isContact ? this.subjects.ofContact(contact) : this.subjects.ofAll(scope);
+    const isStance = scope === "body" && touch !== null && touch.stance !== null;
+    const subject = isContact ? this.subjects.ofContact(contact) : isStance ? this.subjects.ofStance(touch) : this.subjects.ofAll(scope);
     this.flight.to(sightOf(subject, this.stage.camera, this.occluders), isInstant);
     this.staging.poseTruth();
   }
@@ -112,9 +116,10 @@ export class View3D {
     this.frame(true, this.store.state.contact === null ? this.subjects.opening() : "body");
   }
 
-  /** Frames the chosen contact if it is not seen well already. */
+  /** Frames the chosen foot, or the chosen contact if it is not seen well already. */
   keepInSight(): void {
-    const { contact } = this.store.state, point = contact?.point ?? null;
+    const { contact, touch } = this.store.state, point = contact?.point ?? null;
+    if (touch !== null && touch.stance !== null) return this.frame(false);
     if (contact === null || point === null) return;
     const at = this.screenOf(point);
     const { clientWidth, clientHeight } = this.stage.canvas;
@@ -141,6 +146,7 @@ export class View3D {
     this.stage.paint(palette);
     this.scenery.paint(palette);
     this.staging.paint(palette);
+    this.slides.paint(palette);
     this.measures?.paint(palette);
   }
 
@@ -150,6 +156,7 @@ export class View3D {
     this.staging.setCoarse(isCoarse);
     this.staging.poseTruth();
     this.track();
+    this.slides.choose(state.touch);
     this.staging.markers.setView(this.stage.pixelRatio, this.stage.camera, this.stage.canvas.clientHeight);
     this.stage.camera.updateMatrixWorld();
     this.aimCutaway(this.staging.performers[state.contact?.avatar ?? 0]);
@@ -188,7 +195,7 @@ export class View3D {
     const link = linkUnder(this.staging.performers, this.worldOf(ray.origin), [ray.direction.x, ray.direction.y, ray.direction.z]);
     if (link === null && this.placing !== null) {
       const met = pickScene(this.model.document.scene, ray);
-      if (met !== null && this.placing.click(this.worldOf(met.at), met.normal.y)) return;
+      if (this.placing.click(met === null ? null : { at: this.worldOf(met.at), upwards: met.normal.y })) return;
     }
     this.store.set({ link, contact: null, touch: null });
   }

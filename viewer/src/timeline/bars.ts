@@ -1,12 +1,15 @@
 // How bars look: colour and pattern by how a touch begins, so that neither is needed alone.
 
+import { isDeep, isSlide } from "../contacts/feet.js";
 import type { Touch } from "../contacts/touch.js";
-import type { Verdict } from "../data/document.js";
+import type { FootStance, Verdict } from "../data/document.js";
 import type { Palette } from "../scene3d/palette.js";
 
 const minBarWidth = 3;
 /** Of a spike: the speed (m/s) at which it is as high as the room above a bar allows; CSS pixels. */
 const fullSpikeSpeed = 2, spikeHeight = 5, spikeWidth = 6;
+/** Of a notch: the depth, metres, at which it goes through the bar; less than this share is not seen. */
+const fullNotch = 0.03, leastNotch = 0.35, notchWidth = 7;
 /** Of full height; less is not seen. */
 const leastSpike = 0.15;
 
@@ -22,6 +25,7 @@ export class BarPainter {
   bar(touch: Touch, x0: number, x1: number, y: number, height: number, isHollow: boolean): void {
     const { context } = this;
     const width = Math.max(minBarWidth, x1 - x0);
+    if (touch.stance !== null) return this.stance(touch.stance, x0, width, y, height);
     const verdict = verdictOf(touch), colour = touch.isGround ? this.palette.ground : touch.isStay ? this.palette.trigger : this.palette.verdicts[verdict];
     context.strokeStyle = colour;
     context.lineWidth = 1;
@@ -37,6 +41,26 @@ export class BarPainter {
       context.fillRect(x0, y - 2, 2, height + 4);
     }
     this.spike(touch, x0, y);
+  }
+
+  /** Of a foot: what it slides is filled, what hovers is empty, and a notch says how deep it is. */
+  private stance(stance: FootStance, x0: number, width: number, y: number, height: number): void {
+    const { context, palette } = this;
+    context.fillStyle = isSlide(stance) ? palette.slide : palette.ground;
+    context.strokeStyle = palette.faint;
+    context.lineWidth = 1;
+    if (stance.kind === "hovers") context.strokeRect(x0 + 0.5, y + 0.5, width - 1, height - 1);
+    else context.fillRect(x0, y, width, height);
+    if (!isDeep(stance)) return;
+    const share = Math.max(leastNotch, Math.min(1, stance.depth / fullNotch));
+    const at = stance.end > stance.begin ? (stance.depthAt - stance.begin) / (stance.end - stance.begin) : 0;
+    const x = x0 + Math.min(1, Math.max(0, at)) * width;
+    context.fillStyle = palette.ink;
+    context.beginPath();
+    context.moveTo(x - notchWidth / 2, y);
+    context.lineTo(x + notchWidth / 2, y);
+    context.lineTo(x, y + share * (height + spikeHeight));
+    context.fill();
   }
 
   /** How fast two approach where they meet, as the height of a spike above the bar's begin. */

@@ -46,15 +46,17 @@ export class Overview {
     if (context === null) return;
     const { whole, window, gutter, width } = strip;
     const span = Math.max(1, width - gutter), xOf = (time: number): number => gutter + ((time - whole.t0) / (whole.t1 - whole.t0)) * span;
-    const density = densityOf(strip.touches, whole, Math.max(1, Math.floor(span / binWidth)));
-    const most = density.reduce((a, b) => Math.max(a, b), 1);
-    context.fillStyle = palette.verdicts.contact;
-    context.globalAlpha = 0.75;
-    density.forEach((value, bin) => {
-      const tall = value === 0 ? 0 : 2 + (height - 5) * (value / most);
-      context.fillRect(gutter + bin * binWidth, height - 1 - tall, binWidth, tall);
+    const bins = Math.max(1, Math.floor(span / binWidth)), links = strip.touches.filter(({ stance }) => stance === null);
+    const all = densityOf(links, whole, bins), ground = densityOf(links.filter(({ isGround }) => isGround), whole, bins);
+    const most = all.reduce((a, b) => Math.max(a, b), 1);
+    // As the bars below: the ground at the foot of each column, in its colour.
+    all.forEach((value, bin) => {
+      const tall = value === 0 ? 0 : 2 + (height - 5) * (value / most), low = value === 0 ? 0 : tall * (ground[bin] / value);
+      context.fillStyle = palette.ground;
+      context.fillRect(gutter + bin * binWidth, height - 1 - low, binWidth, low);
+      context.fillStyle = palette.verdicts.contact;
+      context.fillRect(gutter + bin * binWidth, height - 1 - tall, binWidth, tall - low);
     });
-    context.globalAlpha = 1;
     context.fillStyle = palette.grid;
     context.fillRect(gutter, height - 1, span, 1);
     if (window.t1 - window.t0 < 0.999 * (whole.t1 - whole.t0)) {

@@ -1,5 +1,6 @@
 // Rows and windows of the timeline, without drawing: a row a link or an object, a bar a touch.
 
+import { badness } from "../contacts/feet.js";
 import type { Touch } from "../contacts/touch.js";
 import type { Avatar } from "../data/document.js";
 import { limbs, limbsOf, shortNames } from "../motion/limbs.js";
@@ -25,6 +26,8 @@ export interface Row {
 
 /** Of bodies of one link, and of triggers. */
 const thingGroup = "things", triggerGroup = "triggers";
+/** How feet stand: above all others. */
+export const feetGroup = "feet on the ground";
 
 /** Without the rows of `folded` groups. */
 export function rowsOf(
@@ -33,7 +36,29 @@ export function rowsOf(
   grouping: Grouping,
   folded: ReadonlySet<string>,
 ): Row[] {
-  if (grouping === "object") return rowsOfObjects(touches);
+  const ofLinks = touches.filter(({ stance }) => stance === null);
+  if (grouping === "object") return rowsOfObjects(ofLinks);
+  const feet = grouping !== "limb" ? [] : withHeading(rowsOfFeet(touches.filter(({ stance }) => stance !== null)), feetGroup, folded);
+  return [...feet, ...rowsBesideFeet(ofLinks, avatars, grouping, folded)];
+}
+
+/** A row a foot, the one that slides farthest or is deepest first. */
+function rowsOfFeet(stances: readonly Touch[]): Row[] {
+  const worst = (touches: readonly Touch[]): number => touches.reduce((most, { stance }) => Math.max(most, stance === null ? 0 : badness(stance)), 0);
+  return [...gathered(stances, ({ link }) => String(link)).values()].sort((a, b) => worst(b) - worst(a)).map((touches): Row => ({
+    isHeading: false, name: touches[0].linkName, fullName: touches[0].linkName, group: feetGroup,
+    avatar: touches[0].avatar, link: touches[0].link, touches,
+  }));
+}
+
+function withHeading(members: readonly Row[], group: string, folded: ReadonlySet<string>): Row[] {
+  if (members.length === 0) return [];
+  const touches = members.flatMap((row) => row.touches).sort((a, b) => a.begin - b.begin);
+  const heading: Row = { isHeading: true, name: group, fullName: group, group, avatar: -1, link: -1, touches };
+  return folded.has(group) ? [heading] : [heading, ...members];
+}
+
+function rowsBesideFeet(touches: readonly Touch[], avatars: readonly Avatar[], grouping: Grouping, folded: ReadonlySet<string>): Row[] {
   const rows = rowsOfLinks(touches, avatars).filter((row) => grouping === "all" || row.touches.length > 0);
   return grouping === "limb" ? byGroup(rows, folded) : rows;
 }
@@ -81,12 +106,7 @@ function byGroup(rows: readonly Row[], folded: ReadonlySet<string>): Row[] {
   const bodyOf = (group: string): string => group.slice(0, group.length - (limbs[place(group)] ?? "").length);
   const isLast = (group: string): number => (group === triggerGroup ? 2 : group === thingGroup ? 1 : 0);
   groups.sort((a, b) => isLast(a) - isLast(b) || bodyOf(a).localeCompare(bodyOf(b)) || place(a) - place(b));
-  return groups.flatMap((group) => {
-    const members = rows.filter((row) => row.group === group);
-    const touches = members.flatMap((row) => row.touches).sort((a, b) => a.begin - b.begin);
-    const heading: Row = { isHeading: true, name: group, fullName: group, group, avatar: -1, link: -1, touches };
-    return folded.has(group) ? [heading] : [heading, ...members];
-  });
+  return groups.flatMap((group) => withHeading(rows.filter((row) => row.group === group), group, folded));
 }
 
 /** How many touches are under way in each of `bins` parts of the window. */

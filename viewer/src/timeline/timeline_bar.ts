@@ -1,5 +1,6 @@
 // What stands above the timeline: what its colours mean, what is looked for, and how it is zoomed.
 
+import { isSlide } from "../contacts/feet.js";
 import { walkTouches } from "../panels/choosing.js";
 import { element, button } from "../panels/dom.js";
 import type { Model } from "../model.js";
@@ -45,6 +46,8 @@ function legendOf(model: Model): HTMLElement {
   }
   const { ground } = model.countTouches();
   if (ground > 0) legend.append(element("span", { class: "swatch ground" }), element("span", { text: `${ground} ground`, title: "Touches that stand on the ground." }));
+  const slides = model.stances.filter(({ stance }) => stance !== null && isSlide(stance)).length;
+  if (slides > 0) legend.append(element("span", { class: "swatch slide" }), element("span", { text: `${slides} ${slides === 1 ? "slides" : "slide"}`, title: "Touches of feet that slide 2 mm or more; the notch in a bar says how deep the foot is." }));
   return legend;
 }
 
