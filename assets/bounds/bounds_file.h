@@ -13,7 +13,7 @@
 #include "articulated/motion_model.h"
 #include "articulated/result.h"
 #include "articulated/skeleton.h"
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 
 namespace foretouch {
 

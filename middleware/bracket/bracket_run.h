@@ -9,7 +9,7 @@
 
 #include "articulated/motion.h"
 #include "lss/index.h"
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 #include "middleware/bracket/model_pieces.h"
 #include "middleware/bracket/person_growth.h"
 #include "middleware/bracket/side_bracket.h"

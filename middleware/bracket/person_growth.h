@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 #include "middleware/pair/growth.h"
 
 namespace foretouch::internal {

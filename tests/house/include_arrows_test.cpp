@@ -273,7 +273,7 @@ TEST(IncludeArrows, JsonIsParsedInFewRooms) {
     }
   }
   EXPECT_EQ(rooms,
-            (std::set<std::string>{"assets/avatar", "assets/import", "assets/mesh", "tools/batch",
+            (std::set<std::string>{"assets/avatar", "assets/bounds", "assets/import", "assets/mesh", "tools/batch",
                                    "tools/glb", "tools/inputs", "tools/solid", "tools/sweep"}));
 }
 

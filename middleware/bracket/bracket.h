@@ -1,0 +1,73 @@
+// middleware/bracket/bracket.h: what is claimed of how far a person may be from a model of the
+// motion, and what follows from it for a step: what each link surely touched, may have touched, or
+// cannot have touched. Metres in the world W, seconds; t is 0 at the earlier pose and 1 at the
+// later. The promise: docs/person.md.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "articulated/pair_rules.h"
+#include "articulated/skeleton.h"
+#include "middleware/query_options.h"
+#include "middleware/scene/scene.h"
+#include "middleware/surface/avatar_surface.h"
+
+namespace foretouch {
+
+/// How far every point of a link's axes may be from where the model has it. A claim of whoever
+/// gives it: the answers rest on it. What is infinite is not claimed.
+struct LinkBound {
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+
+  double error = 0.0;           ///< Of a pose (m): the tracker's own.
+  double acceleration = kNone;  ///< Of person minus model, in a step (m/s^2).
+  /// Instead, if less: a length (m) and a share of how much the poses around the step bend there.
+  double followFloor = kNone, followShare = 0.0;
+  double speed = kNone;  ///< Of the person, where poses were lost (m/s).
+  /// After the last pose: of person minus model, the speed there (m/s) and the acceleration
+  /// (m/s^2).
+  double aheadSpeed = 0.0, aheadAcceleration = kNone;
+};
+
+enum class BracketVerdict : std::uint8_t {
+  Unclaimed,  ///< No bound holds for the link in this step: nothing is claimed.
+  Excluded,   ///< Proven: whatever the person did within the bounds, the link touched nothing.
+  Possible,   ///< It may have touched something.
+  Certain,    ///< Proven: whatever the person did within the bounds, the link touched something.
+};
+/// "unclaimed", "excluded", "possible", "certain".
+[[nodiscard]] const char* toString(BracketVerdict verdict);
+
+/// Of one link in one step. The link touched nothing on [0, possibleFrom) and (possibleUntil, 1];
+/// it touched something at certainFrom and at certainUntil, if the verdict is Certain.
+struct LinkBracket {
+  LinkId link = 0;
+  LinkId other = kNoParent;  ///< An own link above `link`; kNoParent: the scene.
+  BracketVerdict verdict = BracketVerdict::Unclaimed;
+  double possibleFrom = 0.0, possibleUntil = 1.0;
+  double certainFrom = 1.0, certainUntil = 0.0;
+  TriangleId triangle = -1;  ///< Of the scene, what is, or may be, touched first; else -1.
+  double growth = 0.0;       ///< The largest distance between person and model (m).
+};
+
+struct StepBrackets {
+  std::vector<LinkBracket> links;  ///< One per link, in order.
+  std::vector<LinkBracket> pairs;  ///< Of own links: every asked pair that is not excluded.
+  std::int32_t pieces = 0;         ///< Of constant rate, that stand for the model.
+  std::uint64_t looks = 0;         ///< Distances of two parts.
+};
+
+struct BracketOptions {
+  /// Exact fidelity: the links' triangles in place of the LSS that hold them. Those have no inside,
+  /// so touches are never certain.
+  std::optional<AvatarSurface> surface;
+  std::optional<PairRules> self;  ///< Own links; nothing: not asked.
+  std::vector<IgnoredPair> ignored;
+  /// Instants are as near to the true ones as this distance (m), 1e-9 to 1.
+  double resolution = 1e-5;
+};
+
+}  // namespace foretouch
