@@ -329,6 +329,8 @@ test("a page opens at the deepest touch, or the longest where none is deep; on t
   };
   const deep = opened((view) => view.touches.forEach((touch, i) => (touch.penetration = i === 2 ? 0.05 : 0.01)));
   assert.equal(deep.touch.depth, 0.05);
+  const unknown = opened((view) => view.touches.forEach((touch) => (touch.penetration = null)));
+  assert.equal(unknown.touch.depth, null, "a depth that nobody knows is none");
   const shallow = opened((view) => view.touches.forEach((touch) => (touch.penetration = 0)));
   const span = ({ begin, end }) => end - begin, apart = shallow.model.touches.filter(({ isGround, isOwn }) => !isGround && !isOwn);
   assert.equal(span(shallow.touch), Math.max(...apart.map(span)));

@@ -345,7 +345,9 @@ TEST(Quiet, MeansTheSameToEveryCommand) {
       {"log", "recover", log, "-o", out + "lcmlog"},
       {"log", "convert", log, "-o", out + "bvh"},
       {"log", "replay", log, "--world", stage},
-      {"solid", "check", shown}};
+      {"solid", "check", shown},
+      {"bounds", "learn", FORETOUCH_EXAMPLE_FOLDER "/dancer.bvh", "--rates", "10", "-o",
+       out + "bounds.json"}};
   // Until they are stopped, on a network, of the bundled example, or without an input.
   std::set<std::string> seen{"serve",      "listen", "demo", "publish",
                              "completion", "help",   "man",  "version"};

@@ -1,5 +1,5 @@
 import type { ContactFields, Vector, Verdict } from "./document.js";
-import type { Reader } from "./reader.js";
+import { present, type Reader } from "./reader.js";
 
 const verdicts: readonly Verdict[] = ["contact", "starts_in_contact", "undecided"];
 
@@ -30,12 +30,6 @@ export function decodeContact(item: Reader, links: number): ContactFields {
   if (isDecided && contact.toi === null) item.fail('has no "toi"');
   if (isDecided && contact.point === null) item.fail('has no "point"');
   return contact;
-}
-
-/** Writers may give null for what a verdict does not have. */
-function present(item: Reader, name: string): Reader | null {
-  const field = item.optional(name);
-  return field === null || field.value === null ? null : field;
 }
 
 function vector(item: Reader, name: string): Vector | null {

@@ -1,5 +1,5 @@
 import type { Avatar, Check, RecordedStay, RecordedTouch, Strength } from "./document.js";
-import type { Reader } from "./reader.js";
+import { present, type Reader } from "./reader.js";
 
 /** What rounding may put the end of a touch before its begin, seconds. */
 const rounding = 1e-6;
@@ -25,7 +25,7 @@ export function decodeTouch(item: Reader, avatars: readonly Avatar[]): RecordedT
     isGround: item.optional("ground")?.flag() ?? false,
     isMissed: item.optional("missed")?.flag() ?? false,
     rows: (item.optional("rows")?.items() ?? []).map((row) => row.index(contacts.length)),
-    depth: item.optional("penetration")?.number(0) ?? null,
+    depth: present(item, "penetration")?.number(0) ?? null,
     strength: decodeStrength(item),
     unresolved: item.optional("unresolved")?.text() ?? null,
   };

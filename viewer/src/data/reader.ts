@@ -122,3 +122,9 @@ export class Reader {
     }
   }
 }
+
+/** The field, or null where it is absent or null: writers may give null for what is not known. */
+export function present(item: Reader, name: string): Reader | null {
+  const field = item.optional(name);
+  return field === null || field.value === null ? null : field;
+}
