@@ -47,8 +47,8 @@ class Installed(unittest.TestCase):
     def test_has_every_file(self):
         package = self.packages / "foretouch"
         names = sorted(p.name for p in package.iterdir() if p.suffix != ".so")
-        self.assertEqual(names, ["__init__.py", "_examples.py", "_foretouch.pyi", "_notebook.py",
-                                 "_queries.py", "_types.py", "py.typed"])
+        self.assertEqual(names, ["__init__.py", "_examples.py", "_feet.py", "_foretouch.pyi",
+                                 "_notebook.py", "_queries.py", "_types.py", "py.typed"])
         self.assertEqual(len(list(package.glob("_foretouch*.so"))), 1)
 
     def test_shows_nothing_but_its_entry(self):
