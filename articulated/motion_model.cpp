@@ -160,14 +160,14 @@ bool ModelMotion::goOn(const PosedStep& step, double horizon, std::size_t most,
   if (!(turn <= static_cast<double>(most)) || !(reach <= kMaxCoordinate)) return false;
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(turn)));
   ends.assign(count, *step.to);
-  for (std::size_t k = 0; k < count; ++k) {
-    const double share = steps * static_cast<double>(k + 1) / static_cast<double>(count);
-    for (std::size_t joint = 0; joint < numJoints; ++joint) {
-      const Quaternion& to = step.to->rotations[joint];
-      const Vector3d turned = share * turnOf(*step.from, *step.to, joint);
-      ends[k].rotations[joint] = (to * expOf(turned)).normalized();
-      const Vector3d& place = step.to->translations[joint];
-      ends[k].translations[joint] = place + share * (place - step.from->translations[joint]);
+  for (std::size_t joint = 0; joint < numJoints; ++joint) {
+    const Vector3d turned = turnOf(*step.from, *step.to, joint);
+    const Vector3d shift = step.to->translations[joint] - step.from->translations[joint];
+    for (std::size_t k = 0; k < count; ++k) {
+      const double share = steps * static_cast<double>(k + 1) / static_cast<double>(count);
+      Quaternion& rotation = ends[k].rotations[joint];
+      rotation = (rotation * expOf(share * turned)).normalized();
+      ends[k].translations[joint] += share * shift;
     }
   }
   return true;

@@ -231,13 +231,7 @@ Result<BracketQuery> BracketQuery::build(const Avatar& avatar, const Scene& scen
   }
   if (options.self) {
     plan.asked = internal::PairsAsked(avatar, plan.table, *options.self);
-    for (LinkId a = 0; a < avatar.numLinks(); ++a) {
-      for (LinkId b = a + 1; b < avatar.numLinks(); ++b) {
-        const bool isAsked = !avatar.lss(a).empty() && !avatar.lss(b).empty() &&
-                             options.self->reasonOf(a, b) == PairReason::Asked;
-        if (isAsked) plan.pairs.push_back({a, b});
-      }
-    }
+    plan.pairs = internal::askedLinks(avatar, *options.self);
   }
   return BracketQuery(std::make_shared<const BracketPlan>(std::move(plan)));
 }

@@ -32,9 +32,7 @@ class BracketRun {
  public:
   BracketRun(const BracketPlan& plan, const BracketAsk& ask, BracketMemory& memory,
              StepBrackets& brackets)
-      : plan_(plan), ask_(ask), memory_(memory), brackets_(brackets) {
-    memory.bracketer = SideBracketer(plan.options.resolution);
-  }
+      : plan_(plan), ask_(ask), memory_(memory), brackets_(brackets) {}
 
   void run() {
     sweep();
@@ -42,7 +40,7 @@ class BracketRun {
     for (LinkId link = 0; link < plan_.avatar.numLinks(); ++link) {
       if (memory_.growths[slotOf(link)]) bracketLink(link);
     }
-    for (const OwnPair& pair : plan_.pairs) {
+    for (const foretouch::LinkPair& pair : plan_.pairs) {
       if (memory_.growths[slotOf(pair.a)] && memory_.growths[slotOf(pair.b)]) bracketPair(pair);
     }
     brackets_.looks = memory_.sides.looks;
@@ -112,7 +110,7 @@ class BracketRun {
     bracketSides({link}, bracket);
   }
 
-  void bracketPair(const OwnPair& pair) {
+  void bracketPair(const foretouch::LinkPair& pair) {
     const auto a = slotOf(pair.a), b = slotOf(pair.b);
     if (!memory_.boxes[a].overlaps(memory_.boxes[b])) return;
     LinkBracket bracket;
@@ -200,23 +198,20 @@ class BracketRun {
     const double latest = isNew ? 1.0 : bracket.possibleUntil;
     SidesPair witness;
     const auto first = find(pieces, asked, {Body::Grown, Way::Forward}, earliest, latest, witness);
-    // What one level proves, the next one need not.
-    if (!first && isNew) return;
+    if (!first) return exclude(bracket);
     if (isNew) bracket.verdict = BracketVerdict::Possible;
-    bracket.possibleFrom = first.value_or(latest);
+    bracket.possibleFrom = *first;
     if (asked.other == kNoParent && !witness.isNone()) bracket.triangle = witness.other.triangle;
     if (ask_.isAhead) return;
     SidesPair inside = witness;
-    const auto last =
-        find(pieces, asked, {Body::Grown, Way::Backward}, latest, bracket.possibleFrom, witness);
+    const auto last = find(pieces, asked, {Body::Grown, Way::Backward}, latest, *first, witness);
     bracket.possibleUntil = last.value_or(latest);
-    if (!first) return exclude(bracket);
     findCertain(pieces, asked, inside, bracket);
   }
 
-  /// A finer level finds nothing where a coarser one did: what was certain stays so.
+  /// Nothing is found; where a coarser level was certain, that holds.
   static void exclude(LinkBracket& bracket) {
-    if (bracket.verdict == BracketVerdict::Certain) return;
+    if (bracket.verdict != BracketVerdict::Possible) return;
     const LinkBracket fresh;
     bracket.verdict = BracketVerdict::Excluded;
     bracket.possibleFrom = fresh.possibleFrom;
@@ -252,7 +247,8 @@ class BracketRun {
         memory_.sides.limitTo(memory_.near[slotOf(k * base().count() / pieces.count())]);
       }
       const double at = std::clamp((from - piece.begin) / span, 0.0, 1.0);
-      const auto t = memory_.bracketer.find(memory_.sides, growth, search, at, witness);
+      const auto t = memory_.bracketer.find(memory_.sides, growth, plan_.options.resolution, search,
+                                            at, witness);
       if (t) return std::clamp(piece.begin + *t * span, 0.0, 1.0);
     }
     return std::nullopt;

@@ -23,10 +23,6 @@
 
 namespace foretouch::internal {
 
-struct OwnPair {
-  LinkId a, b;
-};
-
 /// What questions about brackets keep.
 struct BracketMemory : ScratchPart {
   static constexpr ScratchKind kKind = ScratchKind::Bracket;
@@ -61,7 +57,7 @@ struct BracketPlan {
   BracketOptions options;
   LssTable table;
   PairsAsked asked;
-  std::vector<OwnPair> pairs;
+  std::vector<foretouch::LinkPair> pairs;  // of own links, that are asked
   std::vector<double> rho;  // per link: no point of it is farther from its origin (m)
 
   [[nodiscard]] LinkShape shapeOf(LinkId link) const {

@@ -33,14 +33,14 @@ bool isSoonFound(MovingSides& sides, double t, double enter, SidesPair& witness)
 }  // namespace
 
 std::optional<double> SideBracketer::find(MovingSides& sides, const Growth& growth,
-                                          const BracketSearch& search, double from,
-                                          SidesPair& witness) {
+                                          double resolution, const BracketSearch& search,
+                                          double from, SidesPair& witness) {
   const bool isGrown = search.body == BracketSearch::Body::Grown;
   const bool isBackward = search.way == BracketSearch::Way::Backward;
   sides.grow(growth, isGrown ? 1.0 : -1.0);
   sides.turnBack(isBackward);
   // The shrunk body steps through its surface by the resolution at most, so that it is inside then.
-  const double resolution = std::max(resolution_, kResolutionShare * growth.most());
+  resolution = std::max(resolution, kResolutionShare * growth.most());
   const double enter = isGrown ? resolution : 0.0;
   const double floor = isGrown ? kFloorShare * resolution : -resolution;
   const double begin = isBackward ? 1.0 - from : from;

@@ -23,18 +23,15 @@ struct BracketSearch {
 /// For one thread; keeps its memory.
 class SideBracketer {
  public:
-  explicit SideBracketer(double resolution = 1e-5) : resolution_(resolution) {}
-
   /// From `from` on, or back from it (t of the piece, in [0,1]): the first instant at which the
   /// grown body may touch, or the shrunk one surely does; nothing: there is none to the piece's
-  /// end. `near`: all pairs that may be near. `witness`: the pair that touches, or one to look at
-  /// first.
+  /// end. `near`: all pairs that may be near. `resolution`: metres. `witness`: the pair that
+  /// touches, or one to look at first.
   [[nodiscard]] std::optional<double> find(MovingSides& sides, const Growth& growth,
-                                           const BracketSearch& search, double from,
-                                           SidesPair& witness);
+                                           double resolution, const BracketSearch& search,
+                                           double from, SidesPair& witness);
 
  private:
-  double resolution_;
   IntervalTracer tracer_;
   EventCounters counters_;
 };

@@ -50,18 +50,23 @@ std::vector<int> childrenThatCount(const Avatar& avatar) {
   return childrenThatCount(avatar.skeleton(), linksWithLss(avatar));
 }
 
+std::vector<foretouch::LinkPair> askedLinks(const Avatar& avatar, const PairRules& rules) {
+  std::vector<foretouch::LinkPair> asked;
+  for (LinkId a = 0; a < avatar.numLinks(); ++a) {
+    for (LinkId b = a + 1; b < avatar.numLinks(); ++b) {
+      const bool haveLss = !avatar.lss(a).empty() && !avatar.lss(b).empty();
+      if (haveLss && rules.reasonOf(a, b) == PairReason::Asked) asked.push_back({a, b});
+    }
+  }
+  return asked;
+}
+
 PairsAsked::PairsAsked(const Avatar& avatar, const LssTable& table, const PairRules& rules) {
   makeRoom(table, table);
   const std::vector<int> children = childrenThatCount(avatar);
-  for (LinkId a = 0; a < avatar.numLinks(); ++a) {
-    for (LinkId b = a + 1; b < avatar.numLinks(); ++b) {
-      if (avatar.lss(a).empty() || avatar.lss(b).empty() ||
-          rules.reasonOf(a, b) != PairReason::Asked) {
-        continue;
-      }
-      ask(table, table, a, b);
-      placeInFrame(commonFrame(avatar.skeleton(), children, a, b), a, b);
-    }
+  for (const auto& [a, b] : askedLinks(avatar, rules)) {
+    ask(table, table, a, b);
+    placeInFrame(commonFrame(avatar.skeleton(), children, a, b), a, b);
   }
   addRadii(table, rules);
 }

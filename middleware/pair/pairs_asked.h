@@ -18,6 +18,11 @@ namespace foretouch::internal {
 /// Per link, on how many of its children something of the avatar hangs.
 [[nodiscard]] std::vector<int> childrenThatCount(const Avatar& avatar);
 
+/// The pairs of an avatar's own links that the rules ask about: both have LSS. a < b, in order.
+/// O(links^2).
+[[nodiscard]] std::vector<foretouch::LinkPair> askedLinks(const Avatar& avatar,
+                                                          const PairRules& rules);
+
 /// Two links, of the one side and of the other.
 struct LinksOfSides {
   LinkId one, other;
