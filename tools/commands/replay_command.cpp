@@ -349,8 +349,9 @@ Result<Done> runReplay(
   const auto rate = remarkOnRate(inputs.steps, inputs.clip, request.rateHz);
   if (rate) printNote(*rate);
 
+  FORETOUCH_TRY(const auto bounds, personBounds(inputs, job.person));
   ReplaySummary summary(inputs);
-  std::string person;
+  PersonTold person;
   PlaceDoubts doubts(inputs.avatar.skeleton(), inputs.query.self.has_value());
   FORETOUCH_TRY(auto touches, ReplayTouches::start(inputs));
   std::optional<ReplayReport> report;
@@ -379,12 +380,8 @@ Result<Done> runReplay(
       FORETOUCH_CHECK(touches.finish());
       glb.add(touches.begun());
       summary.add(touches);
-      if (job.person.isAsked()) {
-        FORETOUCH_TRY(const auto answer, personTouches(inputs, job.person));
-        file.write(personLines(inputs, job.person, answer));
-        person = personText(inputs, job.person, answer);
-      }
-      file.write(touches.lines());
+      FORETOUCH_TRY(person, tellPerson(inputs, job.person, bounds));
+      file.write(person.lines + touches.lines());
       FORETOUCH_CHECK(file.commit());
       FORETOUCH_CHECK(writeGlb(glb, touches, job.glb.path));
     }
@@ -395,7 +392,7 @@ Result<Done> runReplay(
       if (!reported.ok()) return reported.error();
     }
   }
-  tell(summary, person);
+  tell(summary, person.text);
   for (const std::string& remark : doubts.remarks()) printNote(remark);
   return Done{};
 }

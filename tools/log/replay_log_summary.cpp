@@ -6,7 +6,7 @@
 
 #include "lss/index.h"
 #include "network/wire/messages.h"
-#include "tools/replay/summary.h"
+#include "tools/percentile.h"
 
 namespace foretouch::tools {
 namespace {

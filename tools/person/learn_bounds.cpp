@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lss/index.h"
+#include "tools/percentile.h"
 #include "tools/person/axis_places.h"
 
 namespace foretouch::tools {
@@ -13,15 +14,6 @@ namespace {
 constexpr double kFollowFloor = 5e-5;
 /// Steps beyond the last pose up to which "ahead" is learned.
 constexpr std::size_t kAheadSteps = 4, kMostAheadPieces = 32;
-
-/// The value at or below which a share of the values lie.
-double quantileOf(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const double rank = std::ceil(share * static_cast<double>(values.size())) - 1.0;
-  return values[static_cast<std::size_t>(
-      std::clamp(rank, 0.0, static_cast<double>(values.size() - 1)))];
-}
 
 /// One clip with every n-th pose given, by one model: what each link needs in a step.
 class HeldBackClip {
@@ -152,7 +144,7 @@ void addStep(const std::vector<BoundsLearner::Seen*>& seenOfLink, HeldBackClip& 
   }
 }
 
-BoundEntry entryOf(const BoundsLearner::Seen& seen, const LearnRequest& request) {
+BoundEntry entryOf(BoundsLearner::Seen seen, const LearnRequest& request) {
   // Two claims of which the lesser counts: each at half of what may fail, so that both hold.
   const double each = 1.0 - 0.5 * (1.0 - request.quantile);
   BoundEntry entry;
@@ -160,13 +152,13 @@ BoundEntry entryOf(const BoundsLearner::Seen& seen, const LearnRequest& request)
   entry.model = seen.model;
   entry.rateHz = seen.rateHz;
   entry.bound.error = request.errorM;
-  entry.bound.acceleration = quantileOf(seen.accelerations, each);
+  entry.bound.acceleration = percentile(seen.accelerations, each);
   if (!seen.shares.empty()) {
     entry.bound.followFloor = kFollowFloor;
-    entry.bound.followShare = quantileOf(seen.shares, each);
+    entry.bound.followShare = percentile(seen.shares, each);
   }
-  entry.bound.speed = quantileOf(seen.gapSpeeds, request.quantile);
-  entry.bound.aheadAcceleration = quantileOf(seen.aheadAccelerations, request.quantile);
+  entry.bound.speed = percentile(seen.gapSpeeds, request.quantile);
+  entry.bound.aheadAcceleration = percentile(seen.aheadAccelerations, request.quantile);
   entry.bound.aheadSpeed = 0.5 * entry.bound.aheadAcceleration / seen.rateHz;
   entry.quantile = request.quantile;
   entry.count = static_cast<std::int64_t>(seen.accelerations.size());

@@ -187,6 +187,10 @@ class PosesAround {
   Pose poses_[kKept];
 };
 
+double rateOf(const ReplayInputs& inputs) {
+  return 1.0 / (inputs.timeOfStep(1) - inputs.timeOfStep(0));
+}
+
 Result<BracketQuery> queryOf(const ReplayInputs& inputs) {
   BracketOptions options;
   if (inputs.query.fidelity == Fidelity::Exact) options.surface = inputs.query.surface;
@@ -259,11 +263,15 @@ std::string lineOf(const ReplayInputs& inputs, const PersonRequest& request,
 
 }  // namespace
 
-Result<PersonAnswer> personTouches(const ReplayInputs& inputs, const PersonRequest& request) {
+Result<LinkBounds> personBounds(const ReplayInputs& inputs, const PersonRequest& request) {
+  if (!request.isAsked()) return LinkBounds{};
   FORETOUCH_TRY(const BoundsFile file, readBoundsFile(request.boundsPath));
-  const double rateHz = 1.0 / (inputs.timeOfStep(1) - inputs.timeOfStep(0));
-  FORETOUCH_TRY(auto bounds, inFile(boundsOf(file, inputs.avatar.skeleton(), request.model, rateHz),
-                                    request.boundsPath));
+  return inFile(boundsOf(file, inputs.avatar.skeleton(), request.model, rateOf(inputs)),
+                request.boundsPath);
+}
+
+Result<PersonAnswer> personTouches(const ReplayInputs& inputs, const PersonRequest& request,
+                                   const LinkBounds& bounds) {
   FORETOUCH_TRY(const BracketQuery query, queryOf(inputs));
   PersonTracker tracker(inputs, bounds.bounds);
   PosesAround poses(inputs, request.model);
@@ -276,7 +284,7 @@ Result<PersonAnswer> personTouches(const ReplayInputs& inputs, const PersonReque
     FORETOUCH_CHECK(tracker.check(step, posed, request.model, brackets));
   }
   PersonAnswer answer = tracker.finish();
-  answer.rateHz = rateHz;
+  answer.rateHz = rateOf(inputs);
   for (LinkId link = 0; link < inputs.avatar.numLinks(); ++link) {
     if (!inputs.avatar.lss(link).empty() && bounds.entryOf[slotOf(link)] < 0) {
       answer.unclaimed.push_back(link);
@@ -322,6 +330,13 @@ std::string personText(const ReplayInputs& inputs, const PersonRequest& request,
         1e3 * counts.worstM);
   }
   return text;
+}
+
+Result<PersonTold> tellPerson(const ReplayInputs& inputs, const PersonRequest& request,
+                              const LinkBounds& bounds) {
+  if (!request.isAsked()) return PersonTold{};
+  FORETOUCH_TRY(const auto answer, personTouches(inputs, request, bounds));
+  return PersonTold{personLines(inputs, request, answer), personText(inputs, request, answer)};
 }
 
 }  // namespace foretouch::tools

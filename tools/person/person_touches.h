@@ -47,9 +47,15 @@ struct PersonAnswer {
   double rateHz = 0.0;
 };
 
-/// Asks every step, in order. Errors: those of the file, of boundsOf() and of poses.
+/// The file's bounds of the avatar's links, at the replay's rate; none if they are not asked.
+/// Errors: those of the file, and of boundsOf().
+[[nodiscard]] Result<LinkBounds> personBounds(const ReplayInputs& inputs,
+                                              const PersonRequest& request);
+
+/// Asks every step, in order. Errors: those of poses.
 [[nodiscard]] Result<PersonAnswer> personTouches(const ReplayInputs& inputs,
-                                                 const PersonRequest& request);
+                                                 const PersonRequest& request,
+                                                 const LinkBounds& bounds);
 
 /// Lines of the results (docs/formats.md): one per touch, and one with the counts.
 [[nodiscard]] std::string personLines(const ReplayInputs& inputs, const PersonRequest& request,
@@ -57,5 +63,12 @@ struct PersonAnswer {
 /// For people.
 [[nodiscard]] std::string personText(const ReplayInputs& inputs, const PersonRequest& request,
                                      const PersonAnswer& answer);
+
+/// Both; empty if nothing is asked.
+struct PersonTold {
+  std::string lines, text;
+};
+[[nodiscard]] Result<PersonTold> tellPerson(const ReplayInputs& inputs,
+                                            const PersonRequest& request, const LinkBounds& bounds);
 
 }  // namespace foretouch::tools

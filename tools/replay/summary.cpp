@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "lss/index.h"
+#include "tools/percentile.h"
 
 namespace foretouch::tools {
 namespace {
@@ -63,15 +64,6 @@ std::string rowsOfTwo(const char* title,
 }
 
 }  // namespace
-
-double percentile(std::vector<float>& values, double share) {
-  if (values.empty()) return 0.0;
-  const double rank = std::ceil(share * static_cast<double>(values.size())) - 1.0;
-  const auto at =
-      static_cast<std::ptrdiff_t>(std::clamp(rank, 0.0, static_cast<double>(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return static_cast<double>(values[slotOf(at)]);
-}
 
 ReplaySummary::ReplaySummary(const ReplayInputs& inputs)
     : inputs_(inputs),

@@ -16,10 +16,6 @@
 
 namespace foretouch::tools {
 
-/// The value at or below which `share` (in [0,1]) of the values lie, by nearest rank; 0 if there
-/// are none. Reorders `values`.
-[[nodiscard]] double percentile(std::vector<float>& values, double share);
-
 /// Collects steps and summarises them. Keeps one float per step and a few numbers per link.
 class ReplaySummary {
  public:

@@ -7,7 +7,7 @@
 #include "articulated/motion.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
-#include "tools/replay/summary.h"
+#include "tools/percentile.h"
 
 namespace foretouch::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "assets/json_writer.h"
-#include "tools/replay/summary.h"
+#include "tools/percentile.h"
 
 namespace foretouch::tools {
 namespace {

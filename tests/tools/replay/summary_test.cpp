@@ -4,6 +4,7 @@
 
 #include "tests/support/holds.h"
 #include "tests/tools/small_inputs.h"
+#include "tools/percentile.h"
 #include "tools/progress.h"
 #include "tools/replay/replay.h"
 
