@@ -108,4 +108,10 @@ bool pinToProcessor(int processor) {
   return ::sched_setaffinity(0, sizeof set, &set) == 0;
 }
 
+double threadTimeUs() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
+
 }  // namespace foretouch::tools

@@ -24,4 +24,7 @@ namespace foretouch::tools {
 /// Keeps the calling thread on one processor; false if the system refuses.
 [[nodiscard]] bool pinToProcessor(int processor);
 
+/// Processor time of this thread (us): other work on the machine does not count.
+[[nodiscard]] double threadTimeUs();
+
 }  // namespace foretouch::tools

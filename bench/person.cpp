@@ -17,6 +17,7 @@
 #include "bench/solid/busy_places.h"
 #include "bench/solid/cast.h"
 #include "bench/solid/cells.h"
+#include "bench/timing.h"
 #include "tools/person/learn_bounds.h"
 #include "tools/progress.h"
 
@@ -28,12 +29,6 @@ constexpr double kMostRateShare = 0.51;
 
 /// What is asked, the rate, the model.
 using Kind = std::tuple<bool, double, MotionModel>;
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
 
 /// The clip's part at a place.
 SolidActor partOf(const SolidActor& actor, const BusyPlace& place, double seconds) {
@@ -71,14 +66,15 @@ class PersonTable {
                {}} {}
 
   void add(const Kind& kind, const PersonTally& t) {
+    const Percentiles widths = percentilesOf(t.widthsMs), growths = percentilesOf(t.growthsMm);
     const auto& [isOwn, rateHz, model] = kind;
     const double steps = static_cast<double>(std::max<std::uint64_t>(t.steps, 1));
-    table_.rows.push_back(
-        {std::string(isOwn ? "own links" : "scene"), rateHz, std::string(toString(model)),
-         cell(t.intervals), cell(t.missed), cell(t.lied), percent(t.possible, t.intervals),
-         cell(t.fresh), cell(t.missedByPoses), percent(t.freshCertain, t.fresh),
-         quantile(t.widthsMs, 0.5), quantile(t.widthsMs, 0.9), quantile(t.growthsMm, 0.5),
-         static_cast<double>(t.pieces) / steps, t.plainS > 0.0 ? t.bracketS / t.plainS : 0.0});
+    table_.rows.push_back({std::string(isOwn ? "own links" : "scene"), rateHz,
+                           std::string(toString(model)), cell(t.intervals), cell(t.missed),
+                           cell(t.lied), percent(t.possible, t.intervals), cell(t.fresh),
+                           cell(t.missedByPoses), percent(t.freshCertain, t.fresh), widths.p50,
+                           widths.p90, growths.p50, static_cast<double>(t.pieces) / steps,
+                           t.plainUs > 0.0 ? t.bracketUs / t.plainUs : 0.0});
   }
   [[nodiscard]] const BenchTable& table() const { return table_; }
 

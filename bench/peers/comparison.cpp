@@ -5,24 +5,19 @@
 #include <limits>
 #include <time.h>
 
+#include "bench/machine.h"
 #include "lss/assert.h"
 
 namespace foretouch::tools {
 namespace {
-
-double threadCpuUs() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
 
 /// Between two readings with nothing in between, the least of many.
 double threadClockOverheadUs() {
   constexpr int kReadings = 10'000;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kReadings; ++i) {
-    const double from = threadCpuUs();
-    least = std::min(least, threadCpuUs() - from);
+    const double from = threadTimeUs();
+    least = std::min(least, threadTimeUs() - from);
   }
   return least;
 }
@@ -38,9 +33,9 @@ double atShare(std::vector<double> values, double share) {
 void runRound(const MotionSet& set, SweepSolver& solver, double overheadUs, SolverRun& run,
               std::vector<std::vector<double>>& usOf) {
   for (std::size_t i = 0; i < set.sweeps.size(); ++i) {
-    const double from = threadCpuUs();
+    const double from = threadTimeUs();
     run.answers[i] = solver.solve(set.sweeps[i]);
-    usOf[i].push_back(std::max(0.0, threadCpuUs() - from - overheadUs));
+    usOf[i].push_back(std::max(0.0, threadTimeUs() - from - overheadUs));
   }
 }
 

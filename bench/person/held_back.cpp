@@ -56,6 +56,17 @@ Vec3d hermite(const Vec3d& slope0, const Vec3d& change, const Vec3d& slope1, dou
   return (u3 - 2.0 * u2 + u) * slope0 + (3.0 * u2 - 2.0 * u3) * change + (u3 - u2) * slope1;
 }
 
+PlainPose between(const PlainPose& from, const PlainPose& to, double t) {
+  PlainPose pose = from;
+  for (std::size_t joint = 0; joint < pose.rotations.size(); ++joint) {
+    pose.rotations[joint] =
+        numbersOf(turnOf(from, joint) * turnBy(t * turnBetween(from, to, joint)));
+    pose.translations[joint] =
+        from.translations[joint] + t * (to.translations[joint] - from.translations[joint]);
+  }
+  return pose;
+}
+
 }  // namespace
 
 HeldBack::HeldBack(const oracle::Scene& scene, oracle::WayBody body, std::vector<PlainPose> frames)
@@ -77,17 +88,6 @@ std::vector<HeldBackStep> HeldBack::steps(std::size_t every) const {
   return steps;
 }
 
-PlainPose HeldBack::between(const PlainPose& from, const PlainPose& to, double t) const {
-  PlainPose pose = from;
-  for (std::size_t joint = 0; joint < pose.rotations.size(); ++joint) {
-    pose.rotations[joint] =
-        numbersOf(turnOf(from, joint) * turnBy(t * turnBetween(from, to, joint)));
-    pose.translations[joint] =
-        from.translations[joint] + t * (to.translations[joint] - from.translations[joint]);
-  }
-  return pose;
-}
-
 const std::vector<HeldBack::Axis>& HeldBack::truthAt(const HeldBackStep& step, double u) {
   const double at = static_cast<double>(step.from) + u * static_cast<double>(step.to - step.from);
   const auto frame = std::min(static_cast<std::size_t>(at), step.to - 1);
@@ -99,17 +99,17 @@ const std::vector<HeldBack::Axis>& HeldBack::posedAt(std::size_t frame) {
   return judge_.endsAt(frames_[frame]);
 }
 
-const std::vector<HeldBack::Axis>& HeldBack::modelAt(const HeldBackStep& step, JudgedModel model,
+const std::vector<HeldBack::Axis>& HeldBack::modelAt(const HeldBackStep& step, MotionModel model,
                                                      double u) {
   return judge_.endsAt(modelled(step, model, u));
 }
 
 /// All given poses are as far apart, so central differences are means.
-PlainPose HeldBack::modelled(const HeldBackStep& step, JudgedModel model, double u) {
+PlainPose HeldBack::modelled(const HeldBackStep& step, MotionModel model, double u) {
   const PlainPose &from = frames_[step.from], &to = frames_[step.to];
   const bool hasBefore = step.before != step.from;
-  const bool hasAfter = step.after != step.to && model == JudgedModel::CubicLate;
-  if (model == JudgedModel::ConstantRate || (!hasBefore && !hasAfter)) return between(from, to, u);
+  const bool hasAfter = step.after != step.to && model == MotionModel::CubicLate;
+  if (model == MotionModel::ConstantRate || (!hasBefore && !hasAfter)) return between(from, to, u);
   const PlainPose &before = frames_[step.before], &after = frames_[step.after];
   PlainPose pose = from;
   for (std::size_t joint = 0; joint < pose.rotations.size(); ++joint) {

@@ -4,16 +4,14 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
+#include "articulated/motion_model.h"
 #include "judge/scene.h"
 #include "judge/way_judge.h"
 
 namespace foretouch::tools {
-
-/// As articulated/motion_model.h says, by other code.
-enum class JudgedModel : std::uint8_t { ConstantRate, Cubic, CubicLate };
 
 /// Of a step, u in [0,1].
 struct HeldBackStep {
@@ -29,12 +27,11 @@ class HeldBack {
   /// The scene must outlive it.
   HeldBack(const oracle::Scene& scene, oracle::WayBody body, std::vector<oracle::PlainPose> frames);
 
-  [[nodiscard]] std::size_t numFrames() const { return frames_.size(); }
   /// Every n-th frame; the last step may be left out.
   [[nodiscard]] std::vector<HeldBackStep> steps(std::size_t every) const;
   /// Ends of all capsules, link by link: of the person, and of the model.
   [[nodiscard]] const std::vector<Axis>& truthAt(const HeldBackStep& step, double u);
-  [[nodiscard]] const std::vector<Axis>& modelAt(const HeldBackStep& step, JudgedModel model,
+  [[nodiscard]] const std::vector<Axis>& modelAt(const HeldBackStep& step, MotionModel model,
                                                  double u);
   /// Of one given pose.
   [[nodiscard]] const std::vector<Axis>& posedAt(std::size_t frame);
@@ -47,9 +44,7 @@ class HeldBack {
   [[nodiscard]] double fromLink(const std::vector<Axis>& axes, int link, int other) const;
 
  private:
-  [[nodiscard]] oracle::PlainPose between(const oracle::PlainPose& from,
-                                          const oracle::PlainPose& to, double t) const;
-  [[nodiscard]] oracle::PlainPose modelled(const HeldBackStep& step, JudgedModel model, double u);
+  [[nodiscard]] oracle::PlainPose modelled(const HeldBackStep& step, MotionModel model, double u);
 
   const oracle::Scene& scene_;
   oracle::WayBody body_;

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "bench/machine.h"
 #include "bench/person/held_back.h"
 #include "bench/solid/plain_body.h"
 #include "lss/index.h"
@@ -21,22 +21,6 @@ constexpr double kJudgeRounding = 1e-8, kBetween = 1.01, kBetweenM = 1e-6;
 /// Bounds follow from here on (m).
 constexpr double kFollowFloor = 5e-5;
 constexpr std::size_t kMostFindings = 10;
-
-JudgedModel judged(MotionModel model) {
-  switch (model) {
-    case MotionModel::ConstantRate: return JudgedModel::ConstantRate;
-    case MotionModel::Cubic: return JudgedModel::Cubic;
-    case MotionModel::CubicLate: return JudgedModel::CubicLate;
-  }
-  return JudgedModel::ConstantRate;
-}
-
-/// Of this thread alone: other work on the machine does not count.
-double processorSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 class Trial {
  public:
@@ -90,7 +74,7 @@ class Trial {
   /// The largest distance of each link's axes, person from model.
   void distances(const HeldBackStep& step, double u, std::vector<double>& distances) {
     const std::vector<HeldBack::Axis> truth = held_.truthAt(step, u);
-    const auto& model = held_.modelAt(step, judged(trial_.model), u);
+    const auto& model = held_.modelAt(step, trial_.model, u);
     distances.assign(held_.numLinks(), 0.0);
     for (std::size_t c = 0; c < truth.size(); ++c) {
       double& most = distances[slotOf(held_.linkOf()[c])];
@@ -182,12 +166,12 @@ class Trial {
   void time() {
     const std::vector<HeldBackStep> steps = held_.steps(every_);
     for (const bool counts : {false, true}) {
-      double begin = processorSeconds();
+      double begin = threadTimeUs();
       for (const HeldBackStep& step : steps) ask(step);
-      if (counts) tally_.bracketS += processorSeconds() - begin;
-      begin = processorSeconds();
+      if (counts) tally_.bracketUs += threadTimeUs() - begin;
+      begin = threadTimeUs();
       for (const HeldBackStep& step : steps) askPlainly(step);
-      if (counts) tally_.plainS += processorSeconds() - begin;
+      if (counts) tally_.plainUs += threadTimeUs() - begin;
     }
     tally_.steps += steps.size();
   }
@@ -195,7 +179,6 @@ class Trial {
   void judge(const HeldBackStep& step) {
     ask(step);
     tally_.pieces += static_cast<std::uint64_t>(brackets_.pieces);
-    tally_.looks += brackets_.looks;
     truths_.resize(countOf(looks()) + 1);
     for (int i = 0; i <= looks(); ++i) {
       truths_[slotOf(i)] = held_.truthAt(step, static_cast<double>(i) / looks());
@@ -229,7 +212,6 @@ class Trial {
     bool hasTouched = false, touchesFirst = false, touchesLast = false, isMissed = false;
     for (int i = 0; i <= looks(); ++i) {
       const double u = static_cast<double>(i) / looks();
-      ++tally_.looked;
       if (!(separation(truths_[slotOf(i)], link, other) < -kJudgeRounding)) continue;
       hasTouched = true;
       touchesFirst = touchesFirst || i == 0;
@@ -242,7 +224,6 @@ class Trial {
       ++tally_.missed;
       find(fmt::format("missed: link {} {} step {} at {:.6f}", link, other, step.from, u));
     }
-    tally_.touched += hasTouched ? 1 : 0;
     if (bracket.verdict == BracketVerdict::Certain) checkCertain(step, bracket, link, other);
     if (!hasTouched || touchesFirst) return;
     ++tally_.fresh;
@@ -288,24 +269,20 @@ class Trial {
 
 void PersonTally::add(const PersonTally& o) {
   intervals += o.intervals;
-  looked += o.looked;
   missed += o.missed;
   lied += o.lied;
   excluded += o.excluded;
   possible += o.possible;
   certain += o.certain;
   unclaimed += o.unclaimed;
-  touched += o.touched;
   fresh += o.fresh;
   freshCertain += o.freshCertain;
-  beyondBound += o.beyondBound;
   missedByPoses += o.missedByPoses;
   widthsMs.insert(widthsMs.end(), o.widthsMs.begin(), o.widthsMs.end());
   growthsMm.insert(growthsMm.end(), o.growthsMm.begin(), o.growthsMm.end());
-  bracketS += o.bracketS;
-  plainS += o.plainS;
+  bracketUs += o.bracketUs;
+  plainUs += o.plainUs;
   pieces += o.pieces;
-  looks += o.looks;
   steps += o.steps;
   findings.insert(findings.end(), o.findings.begin(), o.findings.end());
 }

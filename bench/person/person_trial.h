@@ -24,18 +24,15 @@ struct PersonTrial {
 
 struct PersonTally {
   std::uint64_t intervals = 0;  ///< Links (or pairs) times steps, of what has a surface.
-  std::uint64_t looked = 0;     ///< Instants times links.
   std::uint64_t missed = 0, lied = 0;
   std::uint64_t excluded = 0, possible = 0, certain = 0, unclaimed = 0;
-  std::uint64_t touched = 0;  ///< Intervals that touch in truth.
-  std::uint64_t fresh = 0;    ///< Of them, those that do not touch at the earlier pose.
+  std::uint64_t fresh = 0;  ///< That touch in truth, and not at the earlier pose.
   std::uint64_t freshCertain = 0;
-  std::uint64_t beyondBound = 0;        ///< Instants at which the person was beyond the bound.
-  std::uint64_t missedByPoses = 0;      ///< Fresh ones that no given pose shows.
-  std::vector<double> widthsMs;         ///< Of certain fresh touches: from possible to certain.
-  std::vector<double> growthsMm;        ///< Largest, per interval.
-  double bracketS = 0.0, plainS = 0.0;  ///< Time of all steps, bracketed and plain.
-  std::uint64_t pieces = 0, looks = 0, steps = 0;
+  std::uint64_t missedByPoses = 0;        ///< Fresh ones that no given pose shows.
+  std::vector<double> widthsMs;           ///< Of certain fresh touches: from possible to certain.
+  std::vector<double> growthsMm;          ///< Largest, per interval.
+  double bracketUs = 0.0, plainUs = 0.0;  ///< Of all steps, bracketed and plain.
+  std::uint64_t pieces = 0, steps = 0;
   std::vector<std::string> findings;  ///< The first ten.
 
   void add(const PersonTally& other);

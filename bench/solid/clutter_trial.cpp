@@ -4,6 +4,7 @@
 
 #include "articulated/try.h"
 #include "bench/judged.h"
+#include "bench/machine.h"
 #include "bench/solid/arm_targets.h"
 
 namespace foretouch::tools {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "articulated/try.h"
+#include "bench/machine.h"
 #include "lss/index.h"
 #include "middleware/query/query.h"
 
@@ -191,12 +191,6 @@ class BareQuery {
 };
 
 }  // namespace
-
-double threadTimeUs() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
 
 void FeelTally::add(const FeelTally& other) {
   append(deviation, other.deviation);

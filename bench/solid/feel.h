@@ -61,7 +61,4 @@ struct FeelRun {
                                      const std::vector<Pose>& tracked, const FeelRun& run,
                                      Follower& follower);
 
-/// Of the calling thread, so that other programs' share does not count.
-[[nodiscard]] double threadTimeUs();
-
 }  // namespace foretouch::tools

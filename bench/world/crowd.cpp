@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "bench/machine.h"
 #include "bench/solid/cells.h"
-#include "bench/solid/feel.h"
 #include "bench/world/timed_world.h"
 #include "lss/index.h"
 #include "middleware/world/box_sweep.h"

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/machine.h"
 #include "bench/solid/cells.h"
-#include "bench/solid/feel.h"
 #include "bench/timing.h"
 #include "bench/world/meeting.h"
 #include "bench/world/timed_world.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "bench/machine.h"
 #include "bench/peers/moving_pairs.h"
 #include "bench/solid/cells.h"
-#include "bench/solid/feel.h"
 #include "bench/timing.h"
 #include "bench/world/timed_world.h"
 #ifdef FORETOUCH_HAS_PEERS

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bench/solid/feel.h"
+#include "bench/machine.h"
 #include "middleware/world/window_query.h"
 
 namespace foretouch::tools {
