@@ -40,6 +40,7 @@ enum class Mark : std::uint64_t {
   World = 0x646c726f57746600u,
   Robot = 0x00746f626f526600u,
   Edges = 0x0073656764456600u,
+  Brackets = 0x6b63617242746600u,
 };
 
 }  // namespace foretouch::c

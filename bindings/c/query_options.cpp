@@ -114,13 +114,17 @@ ft_status checkedSurface(const AvatarParts& avatar, const QueryOptions& options)
   const bool needsSurface =
       options.fidelity == Fidelity::Exact ||
       std::any_of(options.linkPolicies.begin(), options.linkPolicies.end(), isExact);
-  if (!needsSurface || avatar.surface) return FT_OK;
+  return needsSurface ? checkedTriangles(avatar) : ft_status{FT_OK};
+}
+
+}  // namespace
+
+ft_status checkedTriangles(const AvatarParts& avatar) {
+  if (avatar.surface) return FT_OK;
   return failure(FT_ERROR_MISMATCH, kNoIndex,
                  "fidelity: FT_FIDELITY_EXACT expects an avatar with triangles, given in "
                  "ft_avatar_arrays or read with its file");
 }
-
-}  // namespace
 
 ft_status readIgnored(const ft_ignored_pair* given, std::size_t count,
                       std::vector<IgnoredPair>& ignored) {

@@ -15,6 +15,9 @@ namespace foretouch::c {
 [[nodiscard]] ft_status readQueryOptions(const ft_query_options* given, const AvatarParts& avatar,
                                          const Scene& scene, QueryOptions& options);
 
+/// Refuses an avatar without triangles at FT_FIDELITY_EXACT.
+[[nodiscard]] ft_status checkedTriangles(const AvatarParts& avatar);
+
 /// Checks their number alone.
 [[nodiscard]] ft_status readIgnored(const ft_ignored_pair* given, std::size_t count,
                                     std::vector<IgnoredPair>& ignored);

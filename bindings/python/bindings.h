@@ -18,6 +18,7 @@ void bindPairContact(pybind11::module_& module);
 void bindAnswers(pybind11::module_& module);
 void bindQuery(pybind11::module_& module);
 void bindNear(pybind11::module_& module);
+void bindPerson(pybind11::module_& module);
 void bindSweep(pybind11::module_& module);
 void bindSolid(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);

@@ -21,6 +21,7 @@ PYBIND11_MODULE(_foretouch, module) {
   bindAnswers(module);
   bindQuery(module);
   bindNear(module);
+  bindPerson(module);
   bindSweep(module);
   bindSolid(module);
   bindWorld(module);

@@ -18,14 +18,6 @@ constexpr std::array<std::pair<const char*, Scope>, 3> kScopes{{{"links", Scope:
                                                                 {"avatar", Scope::FirstOfAvatar},
                                                                 {"objects", Scope::EveryObject}}};
 
-Fidelity fidelityFrom(py::handle given, const std::string& what) {
-  if (PyUnicode_Check(given.ptr())) {
-    const std::string why = whyFidelityIsGone(text(given, what));
-    if (!why.empty()) refuse(ErrorCode::UnknownName, what, why);
-  }
-  return oneOf(given, what, kFidelities);
-}
-
 // ---- ignore ----
 
 /// All objects of this name, or the one of this index.
@@ -132,6 +124,14 @@ double toleranceFrom(py::handle given) {
 }
 
 }  // namespace
+
+Fidelity fidelityFrom(py::handle given, const std::string& what) {
+  if (PyUnicode_Check(given.ptr())) {
+    const std::string why = whyFidelityIsGone(text(given, what));
+    if (!why.empty()) refuse(ErrorCode::UnknownName, what, why);
+  }
+  return oneOf(given, what, kFidelities);
+}
 
 /// A surface of another avatar would cause reads out of bounds.
 std::optional<AvatarSurface> surfaceFrom(const py::object& given, const Avatar& avatar) {

@@ -10,6 +10,8 @@
 
 namespace foretouch::python {
 
+/// 'link' or 'exact'.
+[[nodiscard]] Fidelity fidelityFrom(py::handle given, const std::string& what);
 [[nodiscard]] bool boolean(py::handle given, const std::string& what);
 /// Links, and pairs of a link and an object, by name or index.
 [[nodiscard]] std::vector<IgnoredPair> ignoredFrom(const py::object& given, const Avatar& avatar,

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <foretouch/events.h>
 #include <foretouch/mechanics.h>
+#include <foretouch/person.h>
 #include <foretouch/robots.h>
 #include <foretouch/solid.h>
 #include <foretouch/solid_world.h>
@@ -439,6 +440,43 @@ AT(ft_robot_coordinate, upper, 24);
 AT(ft_robot_coordinate, is_angle, 32);
 AT(ft_robot_coordinate, is_periodic, 36);
 
+static_assert(sizeof(ft_link_bound) == 56);
+AT(ft_link_bound, acceleration, 8);
+AT(ft_link_bound, follow_floor, 16);
+AT(ft_link_bound, follow_share, 24);
+AT(ft_link_bound, speed, 32);
+AT(ft_link_bound, ahead_speed, 40);
+AT(ft_link_bound, ahead_acceleration, 48);
+
+static_assert(sizeof(ft_bracket_options) == 40);
+AT(ft_bracket_options, fidelity, 4);
+AT(ft_bracket_options, resolution, 8);
+AT(ft_bracket_options, ignored, 16);
+AT(ft_bracket_options, ignored_count, 24);
+AT(ft_bracket_options, self, 32);
+
+static_assert(sizeof(ft_posed_step) == 64);
+AT(ft_posed_step, between, 4);
+AT(ft_posed_step, before, 8);
+AT(ft_posed_step, from, 16);
+AT(ft_posed_step, to, 24);
+AT(ft_posed_step, after, 32);
+AT(ft_posed_step, seconds_before, 40);
+AT(ft_posed_step, seconds, 48);
+AT(ft_posed_step, seconds_after, 56);
+
+static_assert(sizeof(ft_link_bracket) == 64);
+AT(ft_link_bracket, link, 4);
+AT(ft_link_bracket, other, 8);
+AT(ft_link_bracket, verdict, 12);
+AT(ft_link_bracket, triangle, 16);
+AT(ft_link_bracket, object, 20);
+AT(ft_link_bracket, possible_from, 24);
+AT(ft_link_bracket, possible_until, 32);
+AT(ft_link_bracket, certain_from, 40);
+AT(ft_link_bracket, certain_until, 48);
+AT(ft_link_bracket, growth, 56);
+
 static_assert(sizeof(ft_edge_prop) == 88);
 AT(ft_edge_prop, scene, 0);
 AT(ft_edge_prop, rotation, 8);
@@ -504,7 +542,7 @@ AT(ft_solid_held, reserved, 12);
 namespace {
 
 TEST(CLayout, IsWhatProgramsWereCompiledAgainst) {
-  EXPECT_EQ(FT_ABI_VERSION, 6);  // a field or a function more: count up, and add its lines above
+  EXPECT_EQ(FT_ABI_VERSION, 7);  // a field or a function more: count up, and add its lines above
 }
 
 }  // namespace

@@ -9,6 +9,8 @@ from __future__ import annotations
 from foretouch._foretouch import (
     EVERY_BODY,
     Avatar,
+    BracketQuery,
+    BracketVerdict,
     Clip,
     Contact,
     EdgeQuery,
@@ -35,12 +37,14 @@ from foretouch._foretouch import (
     Verdict,
     World,
     __version__,
+    read_bounds,
     swept_surface,
 )
 from foretouch._examples import example_folder
 from foretouch._feet import FeetLabels, feet_labels
 from foretouch._queries import first_contacts, first_contacts_many, touches_at
 from foretouch._types import (
+    Brackets,
     CertifiedEdges,
     ContactDetails,
     ContactPoint,
@@ -51,10 +55,12 @@ from foretouch._types import (
     EventPoint,
     JointMatch,
     LeftOutPair,
+    LinkBound,
     Lss,
     NearFeatures,
     Occupant,
     OpenPart,
+    PairBracket,
     PairRadius,
     PairTouches,
     Pose,
@@ -76,6 +82,9 @@ from foretouch._types import (
 
 __all__ = [
     "Avatar",
+    "BracketQuery",
+    "BracketVerdict",
+    "Brackets",
     "CertifiedEdges",
     "Clip",
     "Contact",
@@ -94,12 +103,14 @@ __all__ = [
     "InputError",
     "JointMatch",
     "LeftOutPair",
+    "LinkBound",
     "Lss",
     "Motion",
     "NearFeatures",
     "NearQuery",
     "Occupant",
     "OpenPart",
+    "PairBracket",
     "PairContact",
     "PairRadius",
     "PairRules",
@@ -139,6 +150,7 @@ __all__ = [
     "feet_labels",
     "first_contacts",
     "first_contacts_many",
+    "read_bounds",
     "swept_surface",
     "touches_at",
 ]

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from foretouch._types import (
+    Brackets,
     CertifiedEdges,
     ContactDetails,
     Depth,
@@ -19,6 +20,7 @@ from foretouch._types import (
     JointMatch,
     LeftOutLike,
     LeftOutPair,
+    LinkBound,
     LinkLike,
     LinkPairLike,
     Lss,
@@ -406,6 +408,58 @@ class NearQuery:
     def avatar(self) -> Avatar: ...
     @property
     def scene(self) -> Scene: ...
+
+class BracketVerdict(enum.IntEnum):
+    UNCLAIMED = 0
+    EXCLUDED = 1
+    POSSIBLE = 2
+    CERTAIN = 3
+
+class BracketQuery:
+    def __init__(
+        self,
+        avatar: Avatar,
+        scene: Scene,
+        *,
+        fidelity: str = "link",
+        surface: Optional[Surface] = None,
+        ignore: Iterable[IgnoredLike] = (),
+        self_pairs: Optional[PairRules] = None,
+        resolution: float = 1e-05,
+    ) -> None: ...
+    def answer(
+        self,
+        poses: PosesLike,
+        bounds: Union[LinkBound, Sequence[LinkBound]],
+        *,
+        seconds: float,
+        between: str = "constant-rate",
+    ) -> Brackets: ...
+    def answer_gap(
+        self,
+        start: PoseLike,
+        end: PoseLike,
+        bounds: Union[LinkBound, Sequence[LinkBound]],
+        *,
+        seconds: float,
+    ) -> Brackets: ...
+    def look_ahead(
+        self,
+        start: PoseLike,
+        end: PoseLike,
+        bounds: Union[LinkBound, Sequence[LinkBound]],
+        *,
+        seconds: float,
+        horizon: float,
+    ) -> Brackets: ...
+    @property
+    def avatar(self) -> Avatar: ...
+    @property
+    def scene(self) -> Scene: ...
+
+def read_bounds(
+    path: _Path, avatar: Avatar, *, between: str, rate_hz: float
+) -> list[LinkBound]: ...
 
 class SolidTick:
     @property

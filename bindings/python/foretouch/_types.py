@@ -9,7 +9,14 @@ from typing import NamedTuple, Optional, TypedDict, Union, overload
 import numpy as np
 import numpy.typing as npt
 
-from foretouch._foretouch import Avatar, InputError, Scene, SolidTick, Verdict
+from foretouch._foretouch import (
+    Avatar,
+    BracketVerdict,
+    InputError,
+    Scene,
+    SolidTick,
+    Verdict,
+)
 
 Doubles = npt.NDArray[np.float64]
 
@@ -249,6 +256,58 @@ class NearFeatures(NamedTuple):
     """(k, 3), unit, from the scene to the link; 0 where the two meet without one."""
     had_more: list[int]
     """Links near more than a reduced answer keeps: the nearest are here."""
+
+
+class LinkBound(NamedTuple):
+    """How far every point of a link's axes may be from where the model of the motion has it: a
+    claim of yours. Metres, seconds; infinity: nothing is claimed."""
+
+    error: float = 0.0
+    """Of a pose, m."""
+    acceleration: float = np.inf
+    """Of person minus model within a step, m/s^2."""
+    follow_floor: float = np.inf
+    """Instead, if less: a length, m, and"""
+    follow_share: float = 0.0
+    """a share of how much the poses around the step bend there."""
+    speed: float = np.inf
+    """Of the person where poses were lost, m/s."""
+    ahead_speed: float = 0.0
+    """After the last pose, of person minus model: m/s, and"""
+    ahead_acceleration: float = np.inf
+    """m/s^2."""
+
+
+class PairBracket(NamedTuple):
+    """Two own links that are not proven apart in a step."""
+
+    step: int
+    link: str
+    other: str
+    """Above it in the skeleton."""
+    verdict: BracketVerdict
+    possible: tuple[float, float]
+    """Apart before and after, t of the step."""
+    certain: Optional[tuple[float, float]]
+    """They touched at both instants."""
+
+
+class Brackets(NamedTuple):
+    """What a person touched in k steps, by link, whatever they did within the bounds."""
+
+    verdicts: npt.NDArray[np.uint8]
+    """(k, n), a BracketVerdict each."""
+    possible: Doubles
+    """(k, n, 2), t of the step: nothing is touched before the first and after the second; NaN
+    where nothing is touched or claimed."""
+    certain: Doubles
+    """(k, n, 2): something is touched at both; NaN where the verdict is not CERTAIN."""
+    triangles: npt.NDArray[np.int32]
+    """(k, n), of the scene, what is, or may be, touched first; -1: none, or not known."""
+    growths: Doubles
+    """(k, n), the largest distance between person and model, m."""
+    pairs: list[PairBracket]
+    """Own links, if asked: every pair that is not excluded."""
 
 
 class ContactPoint(NamedTuple):
