@@ -20,6 +20,7 @@
 #include "tools/replay/summary_json.h"
 #include "tools/report/replay_report.h"
 #include "tools/report/report_file.h"
+#include "tools/report/view_person.h"
 #include "tools/results_output.h"
 #include "tools/settings/solid_settings.h"
 #include "tools/settings/stream_settings.h"
@@ -387,7 +388,11 @@ Result<Done> runReplay(
     }
     if (report && !guard.requested()) {
       const auto reported = writeReport(job.report.path, guard, [&](const ReportProgress& watch) {
-        return report->document(summary, touches.listed(), watch);
+        auto document = report->document(summary, touches.listed(), watch);
+        if (document.ok() && person.answer) {
+          addPerson(inputs, job.person, *person.answer, document.value());
+        }
+        return document;
       });
       if (!reported.ok()) return reported.error();
     }

@@ -108,6 +108,7 @@ class PersonTracker {
     open.isSeen = true;
     open.goesOn = bracket.possibleUntil == 1.0;
     open.touch.endsS[1] = timeAt(bracket.possibleUntil);
+    open.touch.growth = std::max(open.touch.growth, bracket.growth);
     if (bracket.verdict != BracketVerdict::Certain) return;
     if (!open.touch.isCertain) open.touch.beginsS[1] = timeAt(bracket.certainFrom);
     open.touch.isCertain = true;
@@ -319,24 +320,39 @@ std::string personText(const ReplayInputs& inputs, const PersonRequest& request,
       percent(counts.excluded), "certain", percent(counts.certain), "undecided",
       percent(counts.possible));
   if (counts.unclaimed > 0) {
-    text += fmt::format("{:<22}{:>10.2f} %   nothing is claimed: {} of the links have no bound\n",
-                        "unclaimed", percent(counts.unclaimed), answer.unclaimed.size());
+    text += fmt::format("{:<22}{:>10.2f} %\n", "unclaimed", percent(counts.unclaimed));
+  }
+  for (const std::string& note : personNotes(inputs, answer)) text += note + "\n";
+  return text;
+}
+
+std::vector<std::string> personNotes(const ReplayInputs& inputs, const PersonAnswer& answer) {
+  const PersonCounts& counts = answer.counts;
+  std::vector<std::string> notes;
+  if (counts.unclaimed > 0) {
+    notes.push_back(fmt::format(
+        "Of the person nothing is claimed where a link has no bound: {} of the links have none.",
+        answer.unclaimed.size()));
   }
   if (counts.broken > 0) {
-    text += fmt::format(
-        "the clip breaks its bounds at {} of the poses that were left out, link by link: {} at "
-        "{:.3f} s by {:.1f} mm; what is said there does not hold\n",
+    notes.push_back(fmt::format(
+        "The clip breaks its bounds at {} of the poses that were left out, link by link: {} at "
+        "{:.3f} s by {:.1f} mm. What is said of the person there does not hold.",
         counts.broken, inputs.avatar.skeleton().name(counts.worstLink), counts.worstS,
-        1e3 * counts.worstM);
+        1e3 * counts.worstM));
   }
-  return text;
+  return notes;
 }
 
 Result<PersonTold> tellPerson(const ReplayInputs& inputs, const PersonRequest& request,
                               const LinkBounds& bounds) {
   if (!request.isAsked()) return PersonTold{};
-  FORETOUCH_TRY(const auto answer, personTouches(inputs, request, bounds));
-  return PersonTold{personLines(inputs, request, answer), personText(inputs, request, answer)};
+  FORETOUCH_TRY(auto answer, personTouches(inputs, request, bounds));
+  PersonTold told;
+  told.lines = personLines(inputs, request, answer);
+  told.text = personText(inputs, request, answer);
+  told.answer = std::move(answer);
+  return told;
 }
 
 }  // namespace foretouch::tools

@@ -30,6 +30,7 @@ struct PersonTouch {
   bool isCertain = false;
   double beginsS[2] = {0.0, 0.0}, endsS[2] = {0.0, 0.0};
   bool beginsBefore = false, endsAfter = false;  ///< The clip begins, or ends, in it.
+  double growth = 0.0;  ///< The largest distance between person and model in it (m).
 };
 
 struct PersonCounts {
@@ -64,8 +65,13 @@ struct PersonAnswer {
 [[nodiscard]] std::string personText(const ReplayInputs& inputs, const PersonRequest& request,
                                      const PersonAnswer& answer);
 
-/// Both; empty if nothing is asked.
+/// What does not hold, or is not claimed: sentences.
+[[nodiscard]] std::vector<std::string> personNotes(const ReplayInputs& inputs,
+                                                   const PersonAnswer& answer);
+
+/// All of it; empty if nothing is asked.
 struct PersonTold {
+  std::optional<PersonAnswer> answer;
   std::string lines, text;
 };
 [[nodiscard]] Result<PersonTold> tellPerson(const ReplayInputs& inputs,

@@ -165,6 +165,22 @@ struct ViewFoot {
   std::vector<ViewStance> stances;
 };
 
+/// What a link of the only avatar's person surely touched, or may have touched.
+struct ViewPersonTouch {
+  LinkId link = 0, other = kNoParent;  ///< An own link; kNoParent: the scene.
+  std::string object;                  ///< Of the scene; empty: not known.
+  bool isCertain = false;
+  double beginsS[2] = {0.0, 0.0}, endsS[2] = {0.0, 0.0};  ///< As PersonTouch's.
+  bool beganBefore = false, goesOn = false;
+  double growth = 0.0;  ///< m.
+};
+
+struct ViewPerson {
+  std::string bounds, between;
+  double rateHz = 0.0;
+  std::vector<ViewPersonTouch> touches;  ///< In the order of their begins.
+};
+
 struct ViewDocument {
   ViewKind kind = ViewKind::Replay;
   std::string title;
@@ -177,6 +193,7 @@ struct ViewDocument {
   std::vector<ViewStay> stays;                    ///< By begin.
   double frameTimeS = 0.0;     ///< Of the clip's frames, the first at 0 s; 0: no frames are known.
   std::vector<ViewFoot> feet;  ///< Of a replay.
+  std::optional<ViewPerson> person;  ///< Of a replay with bounds.
 };
 
 }  // namespace foretouch::tools

@@ -336,6 +336,39 @@ void write(const ViewFoot& foot, Writer& out) {
   out.endObject();
 }
 
+/// Earlier first; what is not certain has one of the two.
+void writeSpan(Writer& out, const char* name, const double (&span)[2], bool isCertain,
+               int certainAt) {
+  out.key(name);
+  out.beginArray();
+  for (int i = 0; i < 2; ++i) isCertain || i != certainAt ? out.value(span[i]) : out.null();
+  out.endArray();
+}
+
+void write(const ViewPersonTouch& touch, Writer& out) {
+  out.beginObject();
+  out.field("link", touch.link);
+  if (touch.other != kNoParent) out.field("other", touch.other);
+  if (!touch.object.empty()) out.field("object", touch.object);
+  out.field("verdict", touch.isCertain ? "certain" : "possible");
+  writeSpan(out, "begins", touch.beginsS, touch.isCertain, 1);
+  writeSpan(out, "ends", touch.endsS, touch.isCertain, 0);
+  if (touch.beganBefore) out.field("began_before", true);
+  if (touch.goesOn) out.field("goes_on", true);
+  out.field("growth", touch.growth);
+  out.endObject();
+  out.handOnPieces();
+}
+
+void write(const ViewPerson& person, Writer& out) {
+  out.beginObject();
+  out.field("bounds", person.bounds);
+  out.field("between", person.between);
+  out.field("rate_hz", person.rateHz);
+  out.list("touches", person.touches, [&](const ViewPersonTouch& touch) { write(touch, out); });
+  out.endObject();
+}
+
 }  // namespace
 
 void writeView(const ViewDocument& document, const TextSink& sink) {
@@ -365,6 +398,10 @@ void writeView(const ViewDocument& document, const TextSink& sink) {
   if (document.frameTimeS > 0.0) out.field("frame_time", document.frameTimeS);
   if (!document.feet.empty()) {
     out.list("feet", document.feet, [&](const ViewFoot& foot) { write(foot, out); });
+  }
+  if (document.person) {
+    out.key("person");
+    write(*document.person, out);
   }
   if (document.kind == ViewKind::Live) {
     out.key("live");

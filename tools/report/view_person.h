@@ -1,0 +1,15 @@
+// tools/report/view_person.h: what the person of a replay surely touched and may have touched, as
+// its page shows it.
+#pragma once
+
+#include "tools/inputs/replay_inputs.h"
+#include "tools/person/person_touches.h"
+#include "tools/report/view_document.h"
+
+namespace foretouch::tools {
+
+/// Adds the touches of the only avatar's person, up to the last pose that the document has.
+void addPerson(const ReplayInputs& inputs, const PersonRequest& request, const PersonAnswer& answer,
+               ViewDocument& document);
+
+}  // namespace foretouch::tools
