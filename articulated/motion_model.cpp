@@ -189,7 +189,10 @@ void ModelMotion::poseAt(double t, Pose& pose) const {
 }
 
 JointStray ModelMotion::strayOf(JointId joint, double begin, double end) const {
-  if (isConstantRate_) return {};
+  if (isConstantRate_) {
+    const bool isWhole = begin == 0.0 && end == 1.0;
+    return isWhole ? JointStray{} : JointStray{kTurnRounding, shiftRounding(joint)};
+  }
   const JointCurves& curves = joints_[slotOf(joint)];
   const double span = end - begin, square = span * span;
   const Curve& turn = curves.turn;
@@ -206,8 +209,18 @@ JointStray ModelMotion::strayOf(JointId joint, double begin, double end) const {
   JointStray stray;
   stray.turn = (0.125 * bend * square + 2.0 * twist) * internal::kInflation + kTurnRounding;
   stray.shift = 0.125 * curves.shift.bendIn(begin, end) * square * internal::kInflation +
-                4.0 * kUnitRoundoff * from_->translations[slotOf(joint)].lpNorm<1>();
+                shiftRounding(joint);
   return stray;
+}
+
+/// The curve lies in the hull of its control points, which the sum below is beyond.
+double ModelMotion::shiftRounding(JointId joint) const {
+  const auto i = slotOf(joint);
+  double reach = from_->translations[i].lpNorm<1>() + to_->translations[i].lpNorm<1>();
+  if (!isConstantRate_) {
+    reach += joints_[i].shift.slope0.lpNorm<1>() + joints_[i].shift.slope1.lpNorm<1>();
+  }
+  return 4.0 * kUnitRoundoff * reach;
 }
 
 }  // namespace foretouch

@@ -55,7 +55,8 @@ class ModelMotion {
   /// `most`, or lead beyond kMaxCoordinate.
   [[nodiscard]] static bool goOn(const PosedStep& step, double horizon, std::size_t most,
                                  std::vector<Pose>& ends);
-  /// The pose at t in [0,1]; the given ones, bit for bit, at both ends. `pose` is resized.
+  /// The pose at t in [0,1]; the given ones, bit for bit, at both ends. `pose` is resized. Of a
+  /// constant rate only at the ends: ChainMotion has the others.
   void poseAt(double t, Pose& pose) const;
   /// Of the piece [begin, end] of the step, with the joint's constant rate between poseAt(begin)
   /// and poseAt(end). Infinite: the piece is too long to say.
@@ -71,6 +72,7 @@ class ModelMotion {
   struct JointCurves {
     Curve turn, shift;
   };
+  [[nodiscard]] double shiftRounding(JointId joint) const;
   [[nodiscard]] static JointCurves curvesOf(const PosedStep& step, MotionModel model,
                                             std::size_t joint);
 

@@ -13,6 +13,7 @@
 
 #include "articulated/try.h"
 #include "bench/machine.h"
+#include "bench/person/pair_trial.h"
 #include "bench/person/person_trial.h"
 #include "bench/solid/busy_places.h"
 #include "bench/solid/cast.h"
@@ -27,8 +28,22 @@ namespace {
 /// Rates that leave less than one frame out judge nothing.
 constexpr double kMostRateShare = 0.51;
 
+/// Another person stands so far from this one (m), and is given at this share of the rate, so that
+/// the steps of the two do not begin together.
+constexpr double kBesideM = 0.35, kOthersShare = 0.7;
+
+enum class Asked : std::uint8_t { Scene, OwnLinks, OtherPerson };
+const char* toString(Asked asked) {
+  switch (asked) {
+    case Asked::Scene: return "scene";
+    case Asked::OwnLinks: return "own links";
+    case Asked::OtherPerson: return "other person";
+  }
+  return "scene";
+}
+
 /// What is asked, the rate, the model.
-using Kind = std::tuple<bool, double, MotionModel>;
+using Kind = std::tuple<Asked, double, MotionModel>;
 
 /// The clip's part at a place.
 SolidActor partOf(const SolidActor& actor, const BusyPlace& place, double seconds) {
@@ -67,13 +82,13 @@ class PersonTable {
 
   void add(const Kind& kind, const PersonTally& t) {
     const Percentiles widths = percentilesOf(t.widthsMs), growths = percentilesOf(t.growthsMm);
-    const auto& [isOwn, rateHz, model] = kind;
+    const auto& [asked, rateHz, model] = kind;
     const double steps = static_cast<double>(std::max<std::uint64_t>(t.steps, 1));
-    table_.rows.push_back({std::string(isOwn ? "own links" : "scene"), rateHz,
-                           std::string(toString(model)), cell(t.intervals), cell(t.missed),
-                           cell(t.lied), percent(t.possible, t.intervals), cell(t.fresh),
-                           cell(t.missedByPoses), percent(t.freshCertain, t.fresh), widths.p50,
-                           widths.p90, growths.p50, static_cast<double>(t.pieces) / steps,
+    table_.rows.push_back({std::string(toString(asked)), rateHz, std::string(toString(model)),
+                           cell(t.intervals), cell(t.missed), cell(t.lied),
+                           percent(t.possible, t.intervals), cell(t.fresh), cell(t.missedByPoses),
+                           percent(t.freshCertain, t.fresh), widths.p50, widths.p90, growths.p50,
+                           static_cast<double>(t.pieces) / steps,
                            t.plainUs > 0.0 ? t.bracketUs / t.plainUs : 0.0});
   }
   [[nodiscard]] const BenchTable& table() const { return table_; }
@@ -126,22 +141,55 @@ class PersonRuns {
     places.seed = request_.seed;
     std::optional<Strangers> strangers;
     if (request_.learned > 0.0) strangers.emplace(request_, cast_.actors, actor);
+    const SolidActor& next = after(actor);
     for (const BusyPlace& place : busyPlaces(stage_, actor, places)) {
       const SolidActor part = partOf(actor, place, places.seconds);
       for (const double rateHz : request_.ratesHz) {
         if (rateHz * actor.clip.frameTimeS > kMostRateShare) continue;
         for (const MotionModel model : request_.models) {
-          for (const bool isOwn : {false, true}) {
-            const PersonTrial trial{rateHz,           model, true, isOwn, request_.boundShare,
-                                    request_.instants};
-            tallies[{isOwn, -rateHz, model}].add(judgePerson(stage_, part, place.placement, trial));
+          for (const Asked asked : {Asked::Scene, Asked::OwnLinks}) {
+            const PersonTrial trial{
+                rateHz,           model, true, asked == Asked::OwnLinks, request_.boundShare,
+                request_.instants};
+            tallies[{asked, -rateHz, model}].add(judgePerson(stage_, part, place.placement, trial));
           }
+          addPair({part, place.placement, {}}, next, rateHz, model, tallies);
         }
       }
     }
   }
 
  private:
+  /// The next of the cast, who stands beside the others.
+  [[nodiscard]] const SolidActor& after(const SolidActor& actor) const {
+    const auto at = static_cast<std::size_t>(&actor - cast_.actors.data());
+    return cast_.actors[(at + 1) % cast_.actors.size()];
+  }
+
+  /// Where the clip's root is in the middle of it.
+  static Eigen::Vector3d middleOf(const SolidActor& actor, const Placement& place) {
+    const auto& frames = actor.clip.frames;
+    return placed(actor.clip.skeleton, frames[frames.size() / 2], place).translations.front();
+  }
+
+  void addPair(PersonOfPair one, const SolidActor& next, double rateHz, MotionModel model,
+               std::map<Kind, PersonTally>& tallies) const {
+    BusyPlaceRequest anyPlace;
+    anyPlace.count = 1;
+    anyPlace.seconds = std::min(request_.seconds, next.clip.durationS());
+    anyPlace.seed = request_.seed;
+    const auto places = busyPlaces(stage_, next, anyPlace);
+    if (places.empty()) return;
+    const SolidActor part = partOf(next, places.front(), anyPlace.seconds);
+    PersonOfPair other{part, places.front().placement, {}};
+    other.place.origin += middleOf(one.actor, one.place) - middleOf(part, other.place) +
+                          kBesideM * Eigen::Vector3d::UnitX();
+    one.trial = {rateHz, model, true, false, request_.boundShare, request_.instants};
+    other.trial = one.trial;
+    other.trial.rateHz *= kOthersShare;
+    tallies[{Asked::OtherPerson, -rateHz, model}].add(judgePersons(stage_, one, other));
+  }
+
   const PersonBenchRequest& request_;
   const SolidStage& stage_;
   const Cast& cast_;
@@ -169,8 +217,8 @@ Result<PersonBench> measurePerson(const PersonBenchRequest& request) {
   }
   PersonTable table(request.learned);
   for (const auto& [kind, tally] : tallies) {
-    const auto& [isOwn, rateHz, model] = kind;
-    table.add({isOwn, -rateHz, model}, tally);
+    const auto& [asked, rateHz, model] = kind;
+    table.add({asked, -rateHz, model}, tally);
     if (request.learned > 0.0) continue;
     bench.violations += tally.missed + tally.lied;
     for (const std::string& finding : tally.findings) report.notes.push_back(finding);

@@ -156,18 +156,34 @@ double HeldBack::fromScene(const std::vector<Axis>& axes, int link, double cutof
   return least;
 }
 
-double HeldBack::fromLink(const std::vector<Axis>& axes, int link, int other) const {
+double HeldBack::fromLinkOf(const HeldBack& other, const std::vector<Axis>& axes, int link,
+                            const std::vector<Axis>& otherAxes, int otherLink) const {
   double least = oracle::Box::kEmpty;
   for (std::size_t c = first_[static_cast<std::size_t>(link)];
        c < first_[static_cast<std::size_t>(link) + 1]; ++c) {
-    for (std::size_t d = first_[static_cast<std::size_t>(other)];
-         d < first_[static_cast<std::size_t>(other) + 1]; ++d) {
-      const oracle::Triangle segment{axes[d][0], axes[d][1], axes[d][1]};
-      const double distance = oracle::closestPoints(axes[c][0], axes[c][1], segment).distance;
-      least = std::min(least, distance - radii_[c] - radii_[d]);
+    for (std::size_t d = other.first_[static_cast<std::size_t>(otherLink)];
+         d < other.first_[static_cast<std::size_t>(otherLink) + 1]; ++d) {
+      const Axis& far = otherAxes[d];
+      const double distance =
+          oracle::closestPoints(axes[c][0], axes[c][1], oracle::Triangle{far[0], far[1], far[1]})
+              .distance;
+      least = std::min(least, distance - radii_[c] - other.radii_[d]);
     }
   }
   return least;
+}
+
+oracle::Box HeldBack::boxOf(const std::vector<Axis>& axes, int link) const {
+  oracle::Box box;
+  for (std::size_t c = first_[static_cast<std::size_t>(link)];
+       c < first_[static_cast<std::size_t>(link) + 1]; ++c) {
+    const Vec3d out{radii_[c], radii_[c], radii_[c]};
+    for (const Vec3d& end : axes[c]) {
+      box.add(end + out);
+      box.add(end - out);
+    }
+  }
+  return box;
 }
 
 }  // namespace foretouch::tools

@@ -41,7 +41,13 @@ class HeldBack {
   /// The least separation of a link's capsules from the scene, or of two links; `cutoff` if nothing
   /// is nearer.
   [[nodiscard]] double fromScene(const std::vector<Axis>& axes, int link, double cutoff) const;
-  [[nodiscard]] double fromLink(const std::vector<Axis>& axes, int link, int other) const;
+  [[nodiscard]] double fromLink(const std::vector<Axis>& axes, int link, int other) const {
+    return fromLinkOf(*this, axes, link, axes, other);
+  }
+  [[nodiscard]] double fromLinkOf(const HeldBack& other, const std::vector<Axis>& axes, int link,
+                                  const std::vector<Axis>& otherAxes, int otherLink) const;
+  /// What a link's capsules lie in.
+  [[nodiscard]] oracle::Box boxOf(const std::vector<Axis>& axes, int link) const;
 
  private:
   [[nodiscard]] oracle::PlainPose modelled(const HeldBackStep& step, MotionModel model, double u);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "articulated/motion_model.h"
 #include "articulated/pair_rules.h"
 #include "articulated/skeleton.h"
 #include "middleware/query_options.h"
@@ -41,23 +42,34 @@ enum class BracketVerdict : std::uint8_t {
 /// "unclaimed", "excluded", "possible", "certain".
 [[nodiscard]] const char* toString(BracketVerdict verdict);
 
+/// One body in a step: what stands for it, what is claimed of each of its links, and which part of
+/// the step is asked.
+struct PersonStep {
+  PosedStep step;
+  MotionModel model = MotionModel::ConstantRate;
+  const std::vector<LinkBound>* bounds = nullptr;  ///< One per link.
+  double begin = 0.0, end = 1.0;                   ///< t of the step; begin < end.
+};
+
 /// Of one link in one step. The link touched nothing on [0, possibleFrom) and (possibleUntil, 1];
 /// it touched something at certainFrom and at certainUntil, if the verdict is Certain.
 struct LinkBracket {
   LinkId link = 0;
-  LinkId other = kNoParent;  ///< An own link above `link`; kNoParent: the scene.
+  /// An own link above `link`, or a link of the other body; kNoParent: the scene.
+  LinkId other = kNoParent;
   BracketVerdict verdict = BracketVerdict::Unclaimed;
   double possibleFrom = 0.0, possibleUntil = 1.0;
   double certainFrom = 1.0, certainUntil = 0.0;
   TriangleId triangle = -1;  ///< Of the scene, what is, or may be, touched first; else -1.
-  double growth = 0.0;       ///< The largest distance between person and model (m).
+  double growth = 0.0;       ///< The largest distance between person and model, of both sides (m).
 };
 
 struct StepBrackets {
   std::vector<LinkBracket> links;  ///< One per link, in order.
-  std::vector<LinkBracket> pairs;  ///< Of own links: every asked pair that is not excluded.
-  std::int32_t pieces = 0;         ///< Of constant rate, that stand for the model.
-  std::uint64_t looks = 0;         ///< Distances of two parts.
+  /// Of own links, or of two bodies: every asked pair that is not excluded.
+  std::vector<LinkBracket> pairs;
+  std::int32_t pieces = 0;  ///< Of constant rate, that stand for the model.
+  std::uint64_t looks = 0;  ///< Distances of two parts.
 };
 
 struct BracketOptions {

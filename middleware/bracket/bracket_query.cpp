@@ -17,6 +17,8 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
+using internal::BodyBrackets;
+using internal::BodyPlan;
 using internal::BracketMemory;
 using internal::BracketPlan;
 using internal::Growth;
@@ -24,9 +26,10 @@ using internal::ModelPiece;
 using internal::ModelPieces;
 using internal::StepGrowth;
 
-Result<Done> checkedBounds(const Avatar& avatar, const std::vector<LinkBound>& bounds) {
+Result<Done> checkedBounds(const Avatar& avatar, const std::vector<LinkBound>& bounds,
+                           const char* name = "bounds") {
   if (bounds.size() != countOf(avatar.numLinks())) {
-    return Error::in("bounds", ErrorCode::Mismatch,
+    return Error::in(name, ErrorCode::Mismatch,
                      "expected one per link: " + std::to_string(avatar.numLinks()));
   }
   LinkId link = 0;
@@ -35,12 +38,23 @@ Result<Done> checkedBounds(const Avatar& avatar, const std::vector<LinkBound>& b
          {bound.error, bound.acceleration, bound.followFloor, bound.followShare, bound.speed,
           bound.aheadSpeed, bound.aheadAcceleration}) {
       if (!(value >= 0.0)) {
-        return Error{ErrorCode::OutOfRange, "bounds", -1, link, "expected numbers, at least 0"};
+        return Error{ErrorCode::OutOfRange, name, -1, link, "expected numbers, at least 0"};
       }
     }
     ++link;
   }
   return Done{};
+}
+
+Result<Done> checkedResolution(double resolution) {
+  if (resolution >= 1e-9 && resolution <= 1.0) return Done{};
+  return Error::in("resolution", ErrorCode::OutOfRange, "expected 1e-9 to 1 metres");
+}
+
+Result<Done> checkedSurface(const Avatar& avatar, const std::optional<AvatarSurface>& surface,
+                            const char* name) {
+  if (!surface || surface->numLinks() == avatar.numLinks()) return Done{};
+  return Error::in(name, ErrorCode::Mismatch, "expected the surface of this avatar");
 }
 
 }  // namespace
@@ -61,7 +75,7 @@ namespace {
 /// ends of a link's axes; infinite if nothing is known (bracket.md 4).
 class PoseBends {
  public:
-  PoseBends(const PosedStep& step, const Skeleton& skeleton, BracketMemory& memory)
+  PoseBends(const PosedStep& step, const Skeleton& skeleton, BodyBrackets& memory)
       : step_(step), memory_(memory) {
     place(step.before, skeleton, memory.before);
     place(step.from, skeleton, memory.from);
@@ -101,20 +115,26 @@ class PoseBends {
   }
 
   const PosedStep& step_;
-  BracketMemory& memory_;
+  BodyBrackets& memory_;
 };
 
-void beginAnswer(const Avatar& avatar, BracketMemory& memory, StepBrackets& brackets) {
-  const auto numLinks = countOf(avatar.numLinks());
-  brackets.links.assign(numLinks, LinkBracket{});
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) brackets.links[slotOf(link)].link = link;
+void beginBodies(const BracketPlan& plan, BracketMemory& memory) {
+  for (std::size_t body = 0; body < plan.bodies.size(); ++body) {
+    memory.bodies[body].begin(countOf(plan.bodies[body].avatar.numLinks()));
+  }
+  memory.base = 0;
+}
+
+void beginAnswer(const BracketPlan& plan, BracketMemory& memory, StepBrackets& brackets) {
+  brackets.links.clear();
+  if (plan.scene) brackets.links.resize(countOf(plan.bodies[0].avatar.numLinks()));
+  for (std::size_t i = 0; i < brackets.links.size(); ++i) {
+    brackets.links[i].link = static_cast<LinkId>(i);
+  }
   brackets.pairs.clear();
   brackets.pieces = 0;
   brackets.looks = memory.sides.looks = 0;
-  memory.growths.assign(numLinks, std::nullopt);
-  memory.most.assign(numLinks, 0.0);
-  memory.isCut = {};
-  memory.base = 0;
+  beginBodies(plan, memory);
 }
 
 /// Of a step between two poses.
@@ -122,10 +142,10 @@ class GrowthsOfStep final : public internal::PieceGrowths {
  public:
   GrowthsOfStep(const BracketPlan& plan, const BracketMemory& memory)
       : plan_(plan), memory_(memory) {}
-  [[nodiscard]] Growth of(const ModelPiece& piece, LinkId link) const override {
+  [[nodiscard]] Growth of(const ModelPiece& piece, std::size_t body, LinkId link) const override {
     const auto i = slotOf(link);
-    const double stray = piece.strays[i].at(plan_.rho[i]) * internal::kInflation;
-    return memory_.growths[i]->in(piece.begin, piece.end, stray);
+    const double stray = piece.strays[i].at(plan_.bodies[body].rho[i]) * internal::kInflation;
+    return memory_.bodies[body].growths[i]->in(piece.stepBegin, piece.stepEnd, stray);
   }
 
  private:
@@ -138,7 +158,7 @@ class GrowthsOfGap final : public internal::PieceGrowths {
  public:
   GrowthsOfGap(const std::vector<LinkBound>& bounds, double seconds)
       : bounds_(bounds), seconds_(seconds) {}
-  [[nodiscard]] Growth of(const ModelPiece& piece, LinkId link) const override {
+  [[nodiscard]] Growth of(const ModelPiece& piece, std::size_t, LinkId link) const override {
     const LinkBound& bound = bounds_[slotOf(link)];
     const double way = 0.5 * seconds_ * bound.speed * internal::kInflation;
     return piece.begin == 0.0 ? Growth{bound.error, way, 0.0}
@@ -155,7 +175,7 @@ class GrowthsAhead final : public internal::PieceGrowths {
  public:
   GrowthsAhead(const std::vector<LinkBound>& bounds, double horizon)
       : bounds_(bounds), horizon_(horizon) {}
-  [[nodiscard]] Growth of(const ModelPiece& piece, LinkId link) const override {
+  [[nodiscard]] Growth of(const ModelPiece& piece, std::size_t, LinkId link) const override {
     const LinkBound& bound = bounds_[slotOf(link)];
     const double begin = horizon_ * piece.begin, span = horizon_ * (piece.end - piece.begin);
     const double half = 0.5 * bound.aheadAcceleration * internal::kInflation;
@@ -173,7 +193,7 @@ class GrowthsAhead final : public internal::PieceGrowths {
 constexpr double kBaseStray = 2e-3;
 
 /// How many times farther a link strays than it may; infinite: that cannot be said.
-double excessOf(const BracketPlan& plan, const BracketMemory& memory, ModelPieces& pieces) {
+double excessOf(const BodyPlan& plan, const BodyBrackets& memory, ModelPieces& pieces) {
   double most = 0.0;
   for (int k = 0; k < pieces.count(); ++k) {
     for (LinkId link = 0; link < plan.avatar.numLinks(); ++link) {
@@ -186,121 +206,171 @@ double excessOf(const BracketPlan& plan, const BracketMemory& memory, ModelPiece
   return most;
 }
 
-/// The coarsest level of which no link strays too far; false: none says anything.
-bool cutBase(const BracketPlan& plan, const PosedStep& step, BracketMemory& memory) {
-  for (memory.base = 0; memory.base < BracketMemory::kLevels;) {
-    ModelPieces& pieces = memory.levels[slotOf(memory.base)];
-    const bool isKnown = pieces.cut(plan.avatar.skeleton(), step, memory.model, 1 << memory.base);
+/// The coarsest level from `base` on of which no link strays too far; nothing: none says anything.
+std::optional<int> cutBase(const BodyPlan& plan, BodyBrackets& memory, int base) {
+  constexpr int kLast = BodyBrackets::kLevels - 1;
+  for (;;) {
+    ModelPieces& pieces = memory.levels[slotOf(base)];
+    const bool isKnown = pieces.cut(plan.avatar.skeleton(), memory.part, memory.model, 1 << base);
     const double excess = isKnown ? excessOf(plan, memory, pieces) : 4.0;
-    const bool isLast = memory.base + 1 == BracketMemory::kLevels;
-    if (isKnown && (excess <= 1.0 || isLast)) {
-      memory.isCut[slotOf(memory.base)] = 1;
-      return true;
+    if (isKnown && (excess <= 1.0 || base == kLast)) {
+      memory.isCut[slotOf(base)] = 1;
+      return base;
     }
+    if (base == kLast) return std::nullopt;
     // Halving a piece quarters what it strays.
     const int more = static_cast<int>(std::ceil(0.5 * std::log2(std::max(2.0, excess))));
-    memory.base =
-        isLast ? BracketMemory::kLevels : std::min(memory.base + more, BracketMemory::kLevels - 1);
+    base = std::min(base + more, kLast);
   }
-  memory.base = 0;
-  return false;
+}
+
+/// The model and what follows from the bounds.
+void prepare(const BodyPlan& plan, const PersonStep& person, BodyBrackets& memory) {
+  memory.part = {person.step, person.begin, person.end};
+  const Skeleton& skeleton = plan.avatar.skeleton();
+  const std::vector<LinkBound>& bounds = *person.bounds;
+  memory.model.assign(skeleton, person.step, person.model);
+  std::optional<PoseBends> bends;
+  const bool isAnyFollowed = std::any_of(bounds.begin(), bounds.end(), [](const LinkBound& bound) {
+    return std::isfinite(bound.followFloor);
+  });
+  if (isAnyFollowed) bends.emplace(person.step, skeleton, memory);
+  for (LinkId link = 0; link < plan.avatar.numLinks(); ++link) {
+    const auto i = slotOf(link);
+    const double bend = bends ? bends->of(plan.avatar, link) : LinkBound::kNone;
+    memory.growths[i] = StepGrowth::of(bounds[i], person.step.seconds, bend);
+    if (memory.growths[i]) memory.most[i] = memory.growths[i]->largest();
+  }
+}
+
+/// Every body's pieces at one level; false: of some body none says anything.
+bool cutBases(const BracketPlan& plan, BracketMemory& memory) {
+  for (std::size_t body = 0; body < plan.bodies.size(); ++body) {
+    const auto base = cutBase(plan.bodies[body], memory.bodies[body], memory.base);
+    if (!base) return false;
+    memory.base = *base;
+  }
+  BodyBrackets& first = memory.bodies[0];
+  if (first.isCut[slotOf(memory.base)] != 0) return true;
+  first.isCut[slotOf(memory.base)] = 1;
+  return first.levels[slotOf(memory.base)].cut(plan.bodies[0].avatar.skeleton(), first.part,
+                                               first.model, 1 << memory.base);
+}
+
+/// Once every body is prepared.
+void answerStep(const BracketPlan& plan, BracketMemory& memory, StepBrackets& brackets) {
+  if (!cutBases(plan, memory)) beginBodies(plan, memory);  // so nothing is claimed
+  const GrowthsOfStep growths(plan, memory);
+  bool isRefined = false;
+  for (std::size_t body = 0; body < plan.bodies.size(); ++body) {
+    isRefined = isRefined || !memory.bodies[body].model.isConstantRate();
+  }
+  internal::bracketLinks(plan, {growths, isRefined, true, false}, memory, brackets);
 }
 
 }  // namespace
 
 Result<BracketQuery> BracketQuery::build(const Avatar& avatar, const Scene& scene,
                                          const BracketOptions& options) {
-  if (!(options.resolution >= 1e-9 && options.resolution <= 1.0)) {
-    return Error::in("resolution", ErrorCode::OutOfRange, "expected 1e-9 to 1 metres");
-  }
+  FORETOUCH_CHECK(checkedResolution(options.resolution));
   FORETOUCH_CHECK(internal::checkedIgnored(avatar, scene, options.ignored));
-  if (options.surface && options.surface->numLinks() != avatar.numLinks()) {
-    return Error::in("surface", ErrorCode::Mismatch, "expected the surface of this avatar");
-  }
+  FORETOUCH_CHECK(checkedSurface(avatar, options.surface, "surface"));
   if (options.self && options.self->avatarIdentity() != avatar.identity()) {
     return Error::in("self", ErrorCode::Mismatch, "expected the pair rules of this avatar");
   }
-  BracketPlan plan{avatar, scene, options, LssTable(avatar), {}, {}, {}};
-  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
-    double rho = 0.0;
-    for (const Lss& lss : avatar.lss(link)) {
-      rho = std::max(rho,
-                     std::max(lss.a.norm(), lss.b.norm()) + (options.surface ? lss.radius : 0.0));
-    }
-    plan.rho.push_back(rho * internal::kInflation);
-  }
+  BracketPlan plan{
+      {BodyPlan::of(avatar, options.surface)}, scene, options.resolution, options.ignored, {}, {}};
   if (options.self) {
-    plan.asked = internal::PairsAsked(avatar, plan.table, *options.self);
+    plan.asked = internal::PairsAsked(avatar, plan.bodies[0].table, *options.self);
     plan.pairs = internal::askedLinks(avatar, *options.self);
   }
   return BracketQuery(std::make_shared<const BracketPlan>(std::move(plan)));
 }
 
 const Avatar& BracketQuery::avatar() const {
-  return plan_->avatar;
+  return plan_->bodies[0].avatar;
 }
 
 Result<Done> BracketQuery::answer(const PosedStep& step, MotionModel model,
                                   const std::vector<LinkBound>& bounds, Scratch& scratch,
                                   StepBrackets& brackets) const {
-  const BracketPlan& plan = *plan_;
-  FORETOUCH_CHECK(checkedBounds(plan.avatar, bounds));
+  FORETOUCH_CHECK(checkedBounds(avatar(), bounds));
   auto& memory = scratch.of<BracketMemory>();
-  beginAnswer(plan.avatar, memory, brackets);
-  memory.model.assign(plan.avatar.skeleton(), step, model);
-  std::optional<PoseBends> bends;
-  const bool isAnyFollowed = std::any_of(bounds.begin(), bounds.end(), [](const LinkBound& bound) {
-    return std::isfinite(bound.followFloor);
-  });
-  if (isAnyFollowed) bends.emplace(step, plan.avatar.skeleton(), memory);
-  for (LinkId link = 0; link < plan.avatar.numLinks(); ++link) {
-    const auto i = slotOf(link);
-    const double bend = bends ? bends->of(plan.avatar, link) : LinkBound::kNone;
-    memory.growths[i] = StepGrowth::of(bounds[i], step.seconds, bend);
-    if (memory.growths[i]) memory.most[i] = memory.growths[i]->largest();
-  }
-  if (!cutBase(plan, step, memory)) return Done{};
-  const GrowthsOfStep growths(plan, memory);
-  const bool isRefined = !memory.model.isConstantRate();
-  internal::bracketLinks(plan, {step, growths, isRefined, true, false}, memory, brackets);
+  beginAnswer(*plan_, memory, brackets);
+  prepare(plan_->bodies[0], {step, model, &bounds}, memory.bodies[0]);
+  answerStep(*plan_, memory, brackets);
   return Done{};
 }
 
 Result<Done> BracketQuery::answerGap(const PosedStep& step, const std::vector<LinkBound>& bounds,
                                      Scratch& scratch, StepBrackets& brackets) const {
-  FORETOUCH_CHECK(checkedBounds(plan_->avatar, bounds));
+  FORETOUCH_CHECK(checkedBounds(avatar(), bounds));
   auto& memory = scratch.of<BracketMemory>();
-  beginAnswer(plan_->avatar, memory, brackets);
+  beginAnswer(*plan_, memory, brackets);
+  BodyBrackets& body = memory.bodies[0];
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     if (!std::isfinite(bounds[i].speed + bounds[i].error)) continue;
-    memory.growths[i] = StepGrowth{bounds[i].error, 0.0};
-    memory.most[i] = bounds[i].error + 0.5 * step.seconds * bounds[i].speed;
+    body.growths[i] = StepGrowth{bounds[i].error, 0.0};
+    body.most[i] = bounds[i].error + 0.5 * step.seconds * bounds[i].speed;
   }
-  memory.levels[0].stand(plan_->avatar.skeleton(), step);
+  body.levels[0].stand(avatar().skeleton(), step);
   const GrowthsOfGap growths(bounds, step.seconds);
-  internal::bracketLinks(*plan_, {step, growths, false, false, false}, memory, brackets);
+  internal::bracketLinks(*plan_, {growths, false, false, false}, memory, brackets);
   return Done{};
 }
 
 Result<Done> BracketQuery::lookAhead(const PosedStep& step, double horizon,
                                      const std::vector<LinkBound>& bounds, Scratch& scratch,
                                      StepBrackets& brackets) const {
-  FORETOUCH_CHECK(checkedBounds(plan_->avatar, bounds));
+  FORETOUCH_CHECK(checkedBounds(avatar(), bounds));
   if (!(horizon > 0.0 && horizon <= 1e6)) {
     return Error::in("horizon", ErrorCode::OutOfRange, "expected seconds, above 0");
   }
   auto& memory = scratch.of<BracketMemory>();
-  beginAnswer(plan_->avatar, memory, brackets);
-  if (!memory.levels[0].goOn(plan_->avatar.skeleton(), step, horizon)) return Done{};
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
+  beginAnswer(*plan_, memory, brackets);
+  BodyBrackets& body = memory.bodies[0];
+  const bool goesOn = body.levels[0].goOn(avatar().skeleton(), step, horizon);
+  for (std::size_t i = 0; goesOn && i < bounds.size(); ++i) {
     const LinkBound& bound = bounds[i];
     if (!std::isfinite(bound.aheadSpeed + bound.aheadAcceleration + bound.error)) continue;
-    memory.growths[i] = StepGrowth{bound.error, 0.0};
-    memory.most[i] =
+    body.growths[i] = StepGrowth{bound.error, 0.0};
+    body.most[i] =
         bound.error + horizon * (bound.aheadSpeed + 0.5 * horizon * bound.aheadAcceleration);
   }
   const GrowthsAhead growths(bounds, horizon);
-  internal::bracketLinks(*plan_, {step, growths, false, true, true}, memory, brackets);
+  internal::bracketLinks(*plan_, {growths, false, true, true}, memory, brackets);
+  return Done{};
+}
+
+Result<PairBracketQuery> PairBracketQuery::build(const Avatar& one, const Avatar& other,
+                                                 const Options& options) {
+  FORETOUCH_CHECK(checkedResolution(options.resolution));
+  FORETOUCH_CHECK(checkedSurface(one, options.surface, "surface"));
+  FORETOUCH_CHECK(checkedSurface(other, options.otherSurface, "other surface"));
+  return PairBracketQuery(std::make_shared<const BracketPlan>(
+      BracketPlan{{BodyPlan::of(one, options.surface), BodyPlan::of(other, options.otherSurface)},
+                  std::nullopt,
+                  options.resolution,
+                  {},
+                  {},
+                  {}}));
+}
+
+Result<Done> PairBracketQuery::answer(const PersonStep& one, const PersonStep& other,
+                                      Scratch& scratch, StepBrackets& brackets) const {
+  const std::pair<const PersonStep*, const char*> asked[] = {{&one, "one"}, {&other, "other"}};
+  for (std::size_t body = 0; body < 2; ++body) {
+    const auto& [person, name] = asked[body];
+    FORETOUCH_CHECK(checkedBounds(plan_->bodies[body].avatar, *person->bounds, name));
+    if (person->begin >= 0.0 && person->begin < person->end && person->end <= 1.0) continue;
+    return Error::in(name, ErrorCode::OutOfRange, "expected a part of the step, in [0,1]");
+  }
+  auto& memory = scratch.of<BracketMemory>();
+  beginAnswer(*plan_, memory, brackets);
+  for (std::size_t body = 0; body < 2; ++body) {
+    prepare(plan_->bodies[body], *asked[body].first, memory.bodies[body]);
+  }
+  answerStep(*plan_, memory, brackets);
   return Done{};
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "middleware/bracket/bracket.h"
 #include "middleware/scene/scene.h"
 #include "middleware/scratch.h"
+#include "middleware/surface/avatar_surface.h"
 
 namespace foretouch {
 
@@ -48,6 +50,31 @@ class BracketQuery {
 
  private:
   explicit BracketQuery(std::shared_ptr<const internal::BracketPlan> plan)
+      : plan_(std::move(plan)) {}
+
+  std::shared_ptr<const internal::BracketPlan> plan_;
+};
+
+/// The same of two bodies that both move: of every link of one and every link of the other. An
+/// object that moves is a body of one link; where its motion is known, its bound is 0.
+class PairBracketQuery {
+ public:
+  struct Options {
+    std::optional<AvatarSurface> surface, otherSurface;  ///< Exact fidelity.
+    double resolution = 1e-5;                            ///< As BracketOptions has it.
+  };
+  /// Errors: a surface of another avatar; a resolution out of range.
+  static Result<PairBracketQuery> build(const Avatar& one, const Avatar& other,
+                                        const Options& options);
+
+  /// The asked parts of both steps begin and end at the same instants: t is 0 at their begin and 1
+  /// at their end. Fills `brackets.pairs`. Errors: those of BracketQuery::answer() (the file is
+  /// "one" or "other"); a part that is none. Allocates nothing once scratch and answer have grown.
+  Result<Done> answer(const PersonStep& one, const PersonStep& other, Scratch& scratch,
+                      StepBrackets& brackets) const;
+
+ private:
+  explicit PairBracketQuery(std::shared_ptr<const internal::BracketPlan> plan)
       : plan_(std::move(plan)) {}
 
   std::shared_ptr<const internal::BracketPlan> plan_;

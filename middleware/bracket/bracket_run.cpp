@@ -22,9 +22,10 @@ constexpr double kStrayShare = 1.0 / 3.0, kStrayResolutions = 2.0;
 /// Up to here (m) all that is near in a step is collected once.
 constexpr double kSmallGrowth = 5e-3;
 
-/// Who is asked: a link and the scene, or two own links.
+/// Who is asked: a link of the first body and the scene, or a link of either body.
 struct Asked {
   LinkId link, other = kNoParent;
+  std::size_t otherBody = 0;
 };
 
 /// One question.
@@ -35,90 +36,113 @@ class BracketRun {
       : plan_(plan), ask_(ask), memory_(memory), brackets_(brackets) {}
 
   void run() {
-    sweep();
-    findNear();
-    for (LinkId link = 0; link < plan_.avatar.numLinks(); ++link) {
-      if (memory_.growths[slotOf(link)]) bracketLink(link);
+    for (std::size_t body = 0; body < plan_.bodies.size(); ++body) sweep(body);
+    brackets_.pieces = base(0).count();
+    if (plan_.scene) {
+      findNear();
+      for (LinkId link = 0; link < numLinks(0); ++link) {
+        if (isClaimed(0, link)) bracketLink(link);
+      }
     }
-    for (const foretouch::LinkPair& pair : plan_.pairs) {
-      if (memory_.growths[slotOf(pair.a)] && memory_.growths[slotOf(pair.b)]) bracketPair(pair);
+    for (const foretouch::LinkPair& pair : plan_.pairs) bracketPair({pair.a, pair.b, 0});
+    if (plan_.bodies.size() > 1) {
+      for (LinkId link = 0; link < numLinks(0); ++link) {
+        for (LinkId other = 0; other < numLinks(1); ++other) bracketPair({link, other, 1});
+      }
     }
     brackets_.looks = memory_.sides.looks;
   }
 
  private:
-  [[nodiscard]] ModelPieces& base() { return memory_.levels[slotOf(memory_.base)]; }
-
-  /// The box of what each link may sweep.
-  void sweep() {
-    memory_.boxes.assign(countOf(plan_.avatar.numLinks()), Aabb{});
-    for (int k = 0; k < base().count(); ++k) {
-      ModelPiece& piece = base().piece(k);
-      // A piece begins where the one before it ends.
-      if (k == 0 || !ask_.isContinuous) piece.evaluator.statesAt(0.0, memory_.first);
-      piece.evaluator.statesAt(1.0, memory_.last);
-      for (LinkId link = 0; link < plan_.avatar.numLinks(); ++link) {
-        if (memory_.growths[slotOf(link)]) sweepLink(piece, link);
-      }
-      std::swap(memory_.first, memory_.last);
-    }
-    brackets_.pieces = base().count();
+  [[nodiscard]] ModelPieces& piecesOf(std::size_t body, int level) {
+    return memory_.bodies[body].levels[slotOf(level)];
+  }
+  [[nodiscard]] ModelPieces& base(std::size_t body) { return piecesOf(body, memory_.base); }
+  [[nodiscard]] LinkId numLinks(std::size_t body) const {
+    return plan_.bodies[body].avatar.numLinks();
+  }
+  [[nodiscard]] const std::vector<Lss>& lssOf(std::size_t body, LinkId link) const {
+    return plan_.bodies[body].avatar.lss(link);
+  }
+  [[nodiscard]] bool isClaimed(std::size_t body, LinkId link) const {
+    return memory_.bodies[body].growths[slotOf(link)].has_value();
   }
 
-  void sweepLink(const ModelPiece& piece, LinkId link) {
+  /// The box of what each link may sweep.
+  void sweep(std::size_t body) {
+    BodyBrackets& own = memory_.bodies[body];
+    own.boxes.assign(countOf(numLinks(body)), Aabb{});
+    const auto isKnown = [](const std::optional<StepGrowth>& growth) { return growth.has_value(); };
+    if (std::none_of(own.growths.begin(), own.growths.end(), isKnown)) return;
+    for (int k = 0; k < base(body).count(); ++k) {
+      ModelPiece& piece = base(body).piece(k);
+      // A piece begins where the one before it ends.
+      if (k == 0 || !ask_.isContinuous) piece.evaluator.statesAt(0.0, own.first);
+      piece.evaluator.statesAt(1.0, own.last);
+      for (LinkId link = 0; link < numLinks(body); ++link) {
+        if (isClaimed(body, link)) sweepLink(piece, body, link);
+      }
+      std::swap(own.first, own.last);
+    }
+  }
+
+  void sweepLink(const ModelPiece& piece, std::size_t body, LinkId link) {
+    BodyBrackets& own = memory_.bodies[body];
+    const auto i = slotOf(link);
     const MotionBounds bounds = piece.motion.bounds(link);
-    const double margin =
-        ask_.growths.of(piece, link).most() * kInflation + plan_.options.resolution;
+    const double margin = ask_.growths.of(piece, body, link).most() * kInflation + plan_.resolution;
     // What would bound nothing at these coordinates.
-    if (!(margin <= kMaxCoordinate)) return memory_.growths[slotOf(link)].reset();
-    for (const Lss& lss : plan_.avatar.lss(link)) {
-      memory_.boxes[slotOf(link)].add(
-          sweptBox(lss, axisBounds(lss, bounds), axisEnds(lss, memory_.first[slotOf(link)]),
-                   axisEnds(lss, memory_.last[slotOf(link)]), 1.0, margin));
+    if (!(margin <= kMaxCoordinate)) return own.growths[i].reset();
+    for (const Lss& lss : lssOf(body, link)) {
+      own.boxes[i].add(sweptBox(lss, axisBounds(lss, bounds), axisEnds(lss, own.first[i]),
+                                axisEnds(lss, own.last[i]), 1.0, margin));
     }
   }
 
   /// One walk of the scene's tree for all links.
   void findNear() {
-    const auto numLinks = countOf(plan_.avatar.numLinks());
-    memory_.isNear.assign(numLinks, 0);
-    memory_.lanes.resize(plan_.avatar.numLinks());
+    const auto count = countOf(numLinks(0));
+    const SceneParts& scene = plan_.scene->parts();
+    memory_.isNear.assign(count, 0);
+    memory_.lanes.resize(numLinks(0));
     BoxLanes lanes;
-    lanes.count = plan_.avatar.numLinks();
-    const Vector3d& origin = plan_.scene.parts().origin;
+    lanes.count = numLinks(0);
     for (int axis = 0; axis < 3; ++axis) {
-      for (std::size_t link = 0; link < numLinks; ++link) {
-        const Aabb& box = memory_.boxes[link];
-        memory_.lanes.lower[axis][link] = floatBelow(box.min[axis] - origin[axis]);
-        memory_.lanes.upper[axis][link] = floatAbove(box.max[axis] - origin[axis]);
+      for (std::size_t link = 0; link < count; ++link) {
+        const Aabb& box = memory_.bodies[0].boxes[link];
+        memory_.lanes.lower[axis][link] = floatBelow(box.min[axis] - scene.origin[axis]);
+        memory_.lanes.upper[axis][link] = floatAbove(box.max[axis] - scene.origin[axis]);
       }
       lanes.lower[axis] = memory_.lanes.lower[axis];
       lanes.upper[axis] = memory_.lanes.upper[axis];
     }
     memory_.hits.clear();
     std::uint64_t nodes = 0, leaves = 0;
-    plan_.scene.parts().bvh.collectLeaves(lanes, memory_.hits, nodes, leaves);
+    scene.bvh.collectLeaves(lanes, memory_.hits, nodes, leaves);
     for (const LeafHit& hit : memory_.hits) memory_.isNear[hit.box] = 1;
   }
 
   void bracketLink(LinkId link) {
     LinkBracket& bracket = brackets_.links[slotOf(link)];
     bracket.verdict = BracketVerdict::Excluded;
-    bracket.growth = memory_.most[slotOf(link)];
+    bracket.growth = memory_.bodies[0].most[slotOf(link)];
     if (memory_.isNear[slotOf(link)] == 0) return;
-    if (memory_.ignored.collect(plan_.options.ignored, link)) return;
+    if (memory_.ignored.collect(plan_.ignored, link)) return;
     bracketSides({link}, bracket);
   }
 
-  void bracketPair(const foretouch::LinkPair& pair) {
-    const auto a = slotOf(pair.a), b = slotOf(pair.b);
-    if (!memory_.boxes[a].overlaps(memory_.boxes[b])) return;
+  void bracketPair(const Asked& asked) {
+    const BodyBrackets &one = memory_.bodies[0], &other = memory_.bodies[asked.otherBody];
+    if (lssOf(0, asked.link).empty() || lssOf(asked.otherBody, asked.other).empty()) return;
     LinkBracket bracket;
-    bracket.link = pair.a;
-    bracket.other = pair.b;
-    bracket.verdict = BracketVerdict::Excluded;
-    bracket.growth = memory_.most[a] + memory_.most[b];
-    bracketSides({pair.a, pair.b}, bracket);
+    bracket.link = asked.link;
+    bracket.other = asked.other;
+    if (isClaimed(0, asked.link) && isClaimed(asked.otherBody, asked.other)) {
+      if (!one.boxes[slotOf(asked.link)].overlaps(other.boxes[slotOf(asked.other)])) return;
+      bracket.verdict = BracketVerdict::Excluded;
+      bracket.growth = one.most[slotOf(asked.link)] + other.most[slotOf(asked.other)];
+      bracketSides(asked, bracket);
+    }
     if (bracket.verdict != BracketVerdict::Excluded) brackets_.pairs.push_back(bracket);
   }
 
@@ -126,87 +150,97 @@ class BracketRun {
   /// it leaves open, by the level that is fine enough.
   void bracketSides(const Asked& asked, LinkBracket& bracket) {
     limitIfSmall(bracket.growth, asked);
-    bracketOn(base(), asked, bracket);
+    bracketOn(memory_.base, asked, bracket);
     const bool isClosed = bracket.verdict == BracketVerdict::Excluded ||
                           (bracket.verdict == BracketVerdict::Certain &&
                            bracket.certainFrom <= bracket.possibleFrom &&
                            bracket.certainUntil >= bracket.possibleUntil);
     const int level = ask_.isRefined && !isClosed ? levelFor(asked) : memory_.base;
     if (level <= memory_.base) return;
-    cutLevel(level);
-    bracketOn(memory_.levels[slotOf(level)], asked, bracket);
+    for (const std::size_t body : {std::size_t{0}, asked.otherBody}) cutLevel(body, level);
+    bracketOn(level, asked, bracket);
   }
 
   void limitIfSmall(double growth, const Asked& asked) {
     memory_.isLimited = growth <= kSmallGrowth;
     if (!memory_.isLimited) return;
-    memory_.near.resize(std::max(memory_.near.size(), countOf(base().count())));
-    for (int k = 0; k < base().count(); ++k) {
-      memory_.sides.grow(setSides(base().piece(k), asked), 1.0);
-      memory_.sides.collect(0.0, 1.0, plan_.options.resolution, memory_.near[slotOf(k)]);
+    const int count = base(0).count();
+    memory_.near.resize(std::max(memory_.near.size(), countOf(count)));
+    for (int k = 0; k < count; ++k) {
+      memory_.sides.grow(setSides(memory_.base, k, asked), 1.0);
+      memory_.sides.collect(0.0, 1.0, plan_.resolution, memory_.near[slotOf(k)]);
     }
   }
 
-  void cutLevel(int level) {
-    if (memory_.isCut[slotOf(level)] != 0) return;
-    (void)memory_.levels[slotOf(level)].cut(plan_.avatar.skeleton(), ask_.step, memory_.model,
-                                            1 << level);
-    memory_.isCut[slotOf(level)] = 1;
+  void cutLevel(std::size_t body, int level) {
+    BodyBrackets& own = memory_.bodies[body];
+    if (own.isCut[slotOf(level)] != 0) return;
+    piecesOf(body, level)
+        .cut(plan_.bodies[body].avatar.skeleton(), own.part, own.model, 1 << level);
+    own.isCut[slotOf(level)] = 1;
     brackets_.pieces = std::max(brackets_.pieces, 1 << level);
   }
 
-  /// Halving a piece quarters what it strays.
   [[nodiscard]] int levelFor(const Asked& asked) {
-    int level = memory_.base;
-    for (const LinkId link : {asked.link, asked.other}) {
-      if (link == kNoParent) continue;
-      double stray = 0.0;
-      for (int k = 0; k < base().count(); ++k) {
-        stray = std::max(stray, base().piece(k).strays[slotOf(link)].at(plan_.rho[slotOf(link)]));
-      }
-      const double allowed = std::max(kStrayShare * memory_.growths[slotOf(link)]->most,
-                                      kStrayResolutions * plan_.options.resolution);
-      int own = memory_.base;
-      for (; stray > allowed && own + 1 < BracketMemory::kLevels; ++own) stray *= 0.25;
-      level = std::max(level, own);
+    const int level = levelFor(0, asked.link);
+    return asked.other == kNoParent ? level
+                                    : std::max(level, levelFor(asked.otherBody, asked.other));
+  }
+  /// Halving a piece quarters what it strays.
+  [[nodiscard]] int levelFor(std::size_t body, LinkId link) {
+    const auto i = slotOf(link);
+    double stray = 0.0;
+    for (int k = 0; k < base(body).count(); ++k) {
+      stray = std::max(stray, base(body).piece(k).strays[i].at(plan_.bodies[body].rho[i]));
     }
+    const double allowed = std::max(kStrayShare * memory_.bodies[body].growths[i]->most,
+                                    kStrayResolutions * plan_.resolution);
+    int level = memory_.base;
+    for (; stray > allowed && level + 1 < BodyBrackets::kLevels; ++level) stray *= 0.25;
     return level;
   }
 
   /// The sides in a piece, and by how much they grow in it.
-  [[nodiscard]] Growth setSides(ModelPiece& piece, const Asked& asked) {
+  [[nodiscard]] Growth setSides(int level, int k, const Asked& asked) {
     MovingSides& sides = memory_.sides;
-    const Growth growth = ask_.growths.of(piece, asked.link);
+    const BodyPlan &body = plan_.bodies[0], &otherBody = plan_.bodies[asked.otherBody];
+    ModelPiece& piece = piecesOf(0, level).piece(k);
+    const Growth growth = ask_.growths.of(piece, 0, asked.link);
     if (asked.other == kNoParent) {
       sides.begin(kNoParent);
-      sides.setScene(plan_.scene, kNoObject);
+      sides.setScene(*plan_.scene, kNoObject);
       sides.ignore(&memory_.ignored);
-      sides.setLink(piece.evaluator, asked.link, plan_.shapeOf(asked.link));
+      sides.setLink(piece.evaluator, asked.link, body.shapeOf(asked.link));
       return growth;
     }
-    sides.begin(plan_.asked.frames()[slotOf(plan_.asked.frameOf(asked.link, asked.other))]);
-    sides.setLink(piece.evaluator, asked.link, plan_.shapeOf(asked.link));
-    sides.setOther(piece.evaluator, asked.other, plan_.shapeOf(asked.other));
-    sides.setShares(plan_.asked, plan_.table.first(asked.link), plan_.table.first(asked.other));
-    return growth + ask_.growths.of(piece, asked.other);
+    const bool isOwn = asked.otherBody == 0;
+    sides.begin(isOwn ? plan_.asked.frames()[slotOf(plan_.asked.frameOf(asked.link, asked.other))]
+                      : kNoParent);
+    sides.setLink(piece.evaluator, asked.link, body.shapeOf(asked.link));
+    ModelPiece& otherPiece = piecesOf(asked.otherBody, level).piece(k);
+    sides.setOther(otherPiece.evaluator, asked.other, otherBody.shapeOf(asked.other));
+    if (isOwn) {
+      sides.setShares(plan_.asked, body.table.first(asked.link), body.table.first(asked.other));
+    }
+    return growth + ask_.growths.of(otherPiece, asked.otherBody, asked.other);
   }
 
   /// What the bracket says already holds, and is made narrower.
-  void bracketOn(ModelPieces& pieces, const Asked& asked, LinkBracket& bracket) {
+  void bracketOn(int level, const Asked& asked, LinkBracket& bracket) {
     const bool isNew = bracket.verdict == BracketVerdict::Excluded;
     const double earliest = isNew ? 0.0 : bracket.possibleFrom;
     const double latest = isNew ? 1.0 : bracket.possibleUntil;
     SidesPair witness;
-    const auto first = find(pieces, asked, {Body::Grown, Way::Forward}, earliest, latest, witness);
+    const auto first = find(level, asked, {Body::Grown, Way::Forward}, earliest, latest, witness);
     if (!first) return exclude(bracket);
     if (isNew) bracket.verdict = BracketVerdict::Possible;
     bracket.possibleFrom = *first;
     if (asked.other == kNoParent && !witness.isNone()) bracket.triangle = witness.other.triangle;
     if (ask_.isAhead) return;
     SidesPair inside = witness;
-    const auto last = find(pieces, asked, {Body::Grown, Way::Backward}, latest, *first, witness);
+    const auto last = find(level, asked, {Body::Grown, Way::Backward}, latest, *first, witness);
     bracket.possibleUntil = last.value_or(latest);
-    findCertain(pieces, asked, inside, bracket);
+    findCertain(level, asked, inside, bracket);
   }
 
   /// Nothing is found; where a coarser level was certain, that holds.
@@ -219,36 +253,36 @@ class BracketRun {
     bracket.triangle = fresh.triangle;
   }
 
-  void findCertain(ModelPieces& pieces, const Asked& asked, SidesPair inside,
-                   LinkBracket& bracket) {
+  void findCertain(int level, const Asked& asked, SidesPair inside, LinkBracket& bracket) {
     const bool isKnown = bracket.verdict == BracketVerdict::Certain;
-    const auto from = find(pieces, asked, {Body::Shrunk, Way::Forward}, bracket.possibleFrom,
+    const auto from = find(level, asked, {Body::Shrunk, Way::Forward}, bracket.possibleFrom,
                            isKnown ? bracket.certainFrom : bracket.possibleUntil, inside);
     if (!from && !isKnown) return;
     bracket.certainUntil = std::max(isKnown ? bracket.certainUntil : 0.0, from.value_or(0.0));
     bracket.certainFrom = std::min(isKnown ? bracket.certainFrom : 1.0, from.value_or(1.0));
     bracket.verdict = BracketVerdict::Certain;
-    const auto until = find(pieces, asked, {Body::Shrunk, Way::Backward}, bracket.possibleUntil,
+    const auto until = find(level, asked, {Body::Shrunk, Way::Backward}, bracket.possibleUntil,
                             bracket.certainUntil, inside);
     bracket.certainUntil = std::max(bracket.certainUntil, until.value_or(0.0));
   }
 
   /// The first instant that the search finds from `from` to `to` of the step, which is before it on
   /// the way back; perhaps one of the same piece beyond `to`.
-  [[nodiscard]] std::optional<double> find(ModelPieces& pieces, const Asked& asked,
+  [[nodiscard]] std::optional<double> find(int level, const Asked& asked,
                                            const BracketSearch& search, double from, double to,
                                            SidesPair& witness) {
+    const ModelPieces& pieces = piecesOf(0, level);
     const int step = search.way == Way::Forward ? 1 : -1;
     for (int k = pieces.at(from); k * step <= pieces.at(to) * step; k += step) {
-      ModelPiece& piece = pieces.piece(k);
+      const ModelPiece& piece = piecesOf(0, level).piece(k);
       const double span = piece.end - piece.begin;
-      const Growth growth = setSides(piece, asked);
+      const Growth growth = setSides(level, k, asked);
       if (memory_.isLimited) {
-        memory_.sides.limitTo(memory_.near[slotOf(k * base().count() / pieces.count())]);
+        memory_.sides.limitTo(memory_.near[slotOf(k * base(0).count() / pieces.count())]);
       }
       const double at = std::clamp((from - piece.begin) / span, 0.0, 1.0);
-      const auto t = memory_.bracketer.find(memory_.sides, growth, plan_.options.resolution, search,
-                                            at, witness);
+      const auto t =
+          memory_.bracketer.find(memory_.sides, growth, plan_.resolution, search, at, witness);
       if (t) return std::clamp(piece.begin + *t * span, 0.0, 1.0);
     }
     return std::nullopt;
@@ -261,6 +295,24 @@ class BracketRun {
 };
 
 }  // namespace
+
+void BodyBrackets::begin(std::size_t numLinks) {
+  growths.assign(numLinks, std::nullopt);
+  most.assign(numLinks, 0.0);
+  isCut = {};
+}
+
+BodyPlan BodyPlan::of(const Avatar& avatar, const std::optional<AvatarSurface>& surface) {
+  BodyPlan body{avatar, surface, LssTable(avatar), {}};
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    double rho = 0.0;
+    for (const Lss& lss : avatar.lss(link)) {
+      rho = std::max(rho, std::max(lss.a.norm(), lss.b.norm()) + (surface ? lss.radius : 0.0));
+    }
+    body.rho.push_back(rho * kInflation);
+  }
+  return body;
+}
 
 void bracketLinks(const BracketPlan& plan, const BracketAsk& ask, BracketMemory& memory,
                   StepBrackets& brackets) {

@@ -1,5 +1,5 @@
 // middleware/bracket/bracket_run.h: a question about brackets, checked and resolved, what it keeps,
-// and its answer once the pieces of the model and the growths are known. Not installed.
+// and its answer once the pieces of the models and the growths are known. Not installed.
 #pragma once
 
 #include <array>
@@ -23,21 +23,30 @@
 
 namespace foretouch::internal {
 
-/// What questions about brackets keep.
-struct BracketMemory : ScratchPart {
-  static constexpr ScratchKind kKind = ScratchKind::Bracket;
+/// What questions about brackets keep of one body.
+struct BodyBrackets {
   static constexpr int kLevels = 6;  ///< 1, 2, 4 ... ModelPieces::kMost pieces.
 
+  AskedPart part;
   ModelMotion model;
   std::array<ModelPieces, kLevels> levels;
   std::array<std::uint8_t, kLevels> isCut{};  ///< Of the step at hand.
-  int base = 0;                               ///< The coarsest level that says something.
   ChainMotion standing;
   std::vector<LinkState> before, from, to, after;
   std::vector<std::optional<StepGrowth>> growths;  ///< Per link, of the step.
   std::vector<double> most;                        ///< Per link: the largest, as told.
   std::vector<Aabb> boxes;                         ///< Per link: what it may sweep in the step.
   std::vector<LinkState> first, last;
+
+  void begin(std::size_t numLinks);
+};
+
+/// The same, of one body or two.
+struct BracketMemory : ScratchPart {
+  static constexpr ScratchKind kKind = ScratchKind::Bracket;
+
+  std::array<BodyBrackets, 2> bodies;
+  int base = 0;  ///< The coarsest level that says something of every body.
   SweptBoxes lanes;
   std::vector<LeafHit> hits;
   std::vector<std::uint8_t> isNear;
@@ -50,26 +59,34 @@ struct BracketMemory : ScratchPart {
   IgnoredObjects ignored;
 };
 
-/// A question, checked and resolved.
-struct BracketPlan {
+/// A body that is asked.
+struct BodyPlan {
   Avatar avatar;
-  Scene scene;
-  BracketOptions options;
+  std::optional<AvatarSurface> surface;  ///< At exact fidelity.
   LssTable table;
+  std::vector<double> rho;  ///< Per link: no point of it is farther from its origin (m).
+
+  [[nodiscard]] static BodyPlan of(const Avatar& avatar,
+                                   const std::optional<AvatarSurface>& surface);
+  [[nodiscard]] LinkShape shapeOf(LinkId link) const {
+    return {avatar.lss(link), surface ? surface->parts().links[slotOf(link)].get() : nullptr};
+  }
+};
+
+/// A question, checked and resolved: about one body, the scene and itself; or about two.
+struct BracketPlan {
+  std::vector<BodyPlan> bodies;
+  std::optional<Scene> scene;  // of one body
+  double resolution = 0.0;
+  std::vector<IgnoredPair> ignored;
   PairsAsked asked;
   std::vector<foretouch::LinkPair> pairs;  // of own links, that are asked
-  std::vector<double> rho;  // per link: no point of it is farther from its origin (m)
-
-  [[nodiscard]] LinkShape shapeOf(LinkId link) const {
-    return {avatar.lss(link),
-            options.surface ? options.surface->parts().links[slotOf(link)].get() : nullptr};
-  }
 };
 
 /// How the growths of pieces follow from what is known of a link.
 class PieceGrowths {
  public:
-  [[nodiscard]] virtual Growth of(const ModelPiece& piece, LinkId link) const = 0;
+  [[nodiscard]] virtual Growth of(const ModelPiece& piece, std::size_t body, LinkId link) const = 0;
 
  protected:
   ~PieceGrowths() = default;
@@ -77,15 +94,14 @@ class PieceGrowths {
 
 /// What a run is to find.
 struct BracketAsk {
-  const PosedStep& step;
   const PieceGrowths& growths;
-  bool isRefined = false;    ///< There are finer levels of the model.
+  bool isRefined = false;    ///< There are finer levels of the models.
   bool isContinuous = true;  ///< Each piece begins where the one before it ends.
   bool isAhead = false;      ///< Only from when a touch is possible.
 };
 
-/// Brackets every link, and every asked pair of own links, of which growths are known. The base
-/// level is cut.
+/// Brackets every link, and every asked pair of own links or of two bodies, of which growths are
+/// known. The base level is cut.
 void bracketLinks(const BracketPlan& plan, const BracketAsk& ask, BracketMemory& memory,
                   StepBrackets& brackets);
 

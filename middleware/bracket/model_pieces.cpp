@@ -11,7 +11,7 @@ namespace {
 bool addStrays(const Skeleton& skeleton, const ModelMotion& model, ModelPiece& piece) {
   bool isFinite = true;
   for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
-    const JointStray own = model.strayOf(joint, piece.begin, piece.end);
+    const JointStray own = model.strayOf(joint, piece.stepBegin, piece.stepEnd);
     LinkStray& stray = piece.strays[slotOf(joint)];
     stray = {own.turn, own.shift};
     const JointId parent = skeleton.parent(joint);
@@ -49,15 +49,27 @@ void ModelPieces::setPiece(int k, const Skeleton& skeleton, const Pose& from, co
   now.strays.assign(countOf(skeleton.numJoints()), {});
 }
 
-bool ModelPieces::cut(const Skeleton& skeleton, const PosedStep& step, const ModelMotion& model,
+void ModelPieces::poseAt(double t, const ModelMotion& model, Pose& pose) const {
+  const bool isInside = t != 0.0 && t != 1.0;
+  if (model.isConstantRate() && isInside) return whole_.poseAt(t, pose);
+  model.poseAt(t, pose);
+}
+
+bool ModelPieces::cut(const Skeleton& skeleton, const AskedPart& part, const ModelMotion& model,
                       int count) {
   resize(count);
+  const bool isWhole = part.begin == 0.0 && part.end == 1.0;
+  const bool strays = !model.isConstantRate() || !isWhole || count > 1;
+  if (model.isConstantRate() && strays) whole_.assign(skeleton, *part.step.from, *part.step.to);
   bool isFinite = true;
-  from_ = *step.from;
+  poseAt(part.begin, model, from_);
   for (int k = 0; k < count; ++k) {
-    model.poseAt(piece(k).end, to_);
+    ModelPiece& now = piece(k);
+    now.stepBegin = part.at(now.begin);
+    now.stepEnd = part.at(now.end);
+    poseAt(now.stepEnd, model, to_);
     setPiece(k, skeleton, from_, to_);
-    if (!model.isConstantRate()) isFinite = addStrays(skeleton, model, piece(k)) && isFinite;
+    if (strays) isFinite = addStrays(skeleton, model, now) && isFinite;
     std::swap(from_, to_);
   }
   return isFinite;

@@ -19,10 +19,18 @@ struct LinkStray {
 };
 
 struct ModelPiece {
-  double begin = 0.0, end = 1.0;  ///< Of the step.
+  double begin = 0.0, end = 1.0;          ///< Of the part of the step that is asked.
+  double stepBegin = 0.0, stepEnd = 1.0;  ///< Of the step.
   ChainMotion motion;
   MotionEvaluator evaluator;      ///< Of `motion`.
   std::vector<LinkStray> strays;  ///< Per link; infinite: the piece is too long to say.
+};
+
+/// A part of a step, from `begin` to `end` of it.
+struct AskedPart {
+  PosedStep step;
+  double begin = 0.0, end = 1.0;
+  [[nodiscard]] double at(double t) const { return t == 1.0 ? end : begin + t * (end - begin); }
 };
 
 /// One cut of a step. For one thread; keeps its memory.
@@ -34,8 +42,8 @@ class ModelPieces {
   ModelPieces(const ModelPieces&) = delete;  // evaluators refer to their pieces' motions
   ModelPieces& operator=(const ModelPieces&) = delete;
 
-  /// Equal pieces of the model's step. False: a link may stray by any amount in one of them.
-  bool cut(const Skeleton& skeleton, const PosedStep& step, const ModelMotion& model, int count);
+  /// Equal pieces of a part of the model's step. False: a link may stray by any amount in one.
+  bool cut(const Skeleton& skeleton, const AskedPart& part, const ModelMotion& model, int count);
   /// The first half of the step stands as at its begin, the second half as at its end.
   void stand(const Skeleton& skeleton, const PosedStep& step);
   /// Goes on as it went in the step; false: that cannot be said.
@@ -48,10 +56,12 @@ class ModelPieces {
 
  private:
   void resize(int count);
+  void poseAt(double t, const ModelMotion& model, Pose& pose) const;
   void setPiece(int k, const Skeleton& skeleton, const Pose& from, const Pose& to);
 
   std::vector<ModelPiece> pieces_;
   int count_ = 0;
+  ChainMotion whole_;  // of a constant rate of which a part is asked
   Pose from_, to_;
   std::vector<Pose> ends_;
 };

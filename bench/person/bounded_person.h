@@ -1,0 +1,48 @@
+// bench/person/bounded_person.h: a person whose poses are held back, as the library is asked about
+// them: the given poses, and bounds on how far the person is from the model that hold on the clip.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "bench/person/held_back.h"
+#include "bench/person/person_trial.h"
+#include "bench/solid/stage.h"
+#include "middleware/bracket/bracket.h"
+
+namespace foretouch::tools {
+
+/// For one thread.
+class BoundedPerson {
+ public:
+  /// All must outlive it.
+  BoundedPerson(const SolidStage& stage, const SolidActor& actor, const Placement& place,
+                const PersonTrial& trial);
+
+  [[nodiscard]] HeldBack& held() { return held_; }
+  [[nodiscard]] const std::vector<Pose>& frames() const { return frames_; }
+  [[nodiscard]] std::vector<HeldBackStep> steps() const { return held_.steps(every_); }
+  [[nodiscard]] double stepS() const { return seconds_; }
+  /// When a step begins (s).
+  [[nodiscard]] double beginOf(const HeldBackStep& step) const {
+    return static_cast<double>(step.from) * seconds_ / static_cast<double>(every_);
+  }
+  [[nodiscard]] const std::vector<LinkBound>& bounds() const { return bounds_; }
+  [[nodiscard]] PosedStep posed(const HeldBackStep& step) const;
+  /// Instants of a step at which the judge looks, less one.
+  [[nodiscard]] int looks() const { return trial_.instants * static_cast<int>(every_); }
+
+ private:
+  void distances(const HeldBackStep& step, double u, std::vector<double>& distances);
+  void bendsOf(const HeldBackStep& step, std::vector<double>& bends);
+  [[nodiscard]] std::vector<LinkBound> learn();
+
+  const PersonTrial& trial_;
+  std::vector<Pose> frames_;
+  std::size_t every_;
+  double seconds_;
+  HeldBack held_;
+  std::vector<LinkBound> bounds_;
+};
+
+}  // namespace foretouch::tools

@@ -1,0 +1,63 @@
+#include "bench/person/bracket_judge.h"
+
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace foretouch::tools {
+namespace {
+
+/// The judge rounds (m).
+constexpr double kJudgeRounding = 1e-8;
+constexpr std::size_t kMostFindings = 10;
+
+void find(std::string text, PersonTally& tally) {
+  if (tally.findings.size() < kMostFindings) tally.findings.push_back(std::move(text));
+}
+
+bool excludes(const LinkBracket& bracket, double t) {
+  return bracket.verdict == BracketVerdict::Excluded ||
+         (bracket.verdict != BracketVerdict::Unclaimed &&
+          (t < bracket.possibleFrom || t > bracket.possibleUntil));
+}
+
+void checkCertain(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& tally) {
+  for (const double t : {bracket.certainFrom, bracket.certainUntil}) {
+    const double apart = sides.apartAt(t);
+    if (!(apart > kJudgeRounding)) continue;
+    ++tally.lied;
+    find(fmt::format("lied: {} at {:.6f}, {:.3g} m apart", sides.name, t, apart), tally);
+  }
+}
+
+}  // namespace
+
+void judge(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& tally) {
+  ++tally.intervals;
+  std::uint64_t* const counts[] = {&tally.unclaimed, &tally.excluded, &tally.possible,
+                                   &tally.certain};
+  ++*counts[static_cast<std::size_t>(bracket.verdict)];
+  tally.growthsMm.push_back(1e3 * bracket.growth);
+  bool hasTouched = false, touchesFirst = false, touchesLast = false, isMissed = false;
+  for (int i = 0; i <= sides.looks; ++i) {
+    if (!(sides.apartAtLook(i) < -kJudgeRounding)) continue;
+    hasTouched = true;
+    touchesFirst = touchesFirst || i == 0;
+    touchesLast = touchesLast || i == sides.looks;
+    const double t = static_cast<double>(i) / sides.looks;
+    if (isMissed || !excludes(bracket, t)) continue;
+    isMissed = true;
+    ++tally.missed;
+    find(fmt::format("missed: {} at {:.6f}", sides.name, t), tally);
+  }
+  if (bracket.verdict == BracketVerdict::Certain) checkCertain(bracket, sides, tally);
+  if (!hasTouched || touchesFirst) return;
+  ++tally.fresh;
+  if (!touchesLast) ++tally.missedByPoses;
+  if (bracket.verdict != BracketVerdict::Certain) return;
+  ++tally.freshCertain;
+  tally.widthsMs.push_back(1e3 * sides.seconds * (bracket.certainFrom - bracket.possibleFrom));
+}
+
+}  // namespace foretouch::tools

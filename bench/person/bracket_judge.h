@@ -1,0 +1,22 @@
+// bench/person/bracket_judge.h: one bracket of two sides, judged by how far they truly are apart.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "bench/person/person_trial.h"
+#include "middleware/bracket/bracket.h"
+
+namespace foretouch::tools {
+
+struct JudgedSides {
+  std::string name;
+  double seconds = 0.0;                         ///< That the bracket is about.
+  int looks = 0;                                ///< Instants that are looked at, less one.
+  std::function<double(int look)> apartAtLook;  ///< Their separation (m) at t = look / looks.
+  std::function<double(double t)> apartAt;
+};
+
+void judge(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& tally);
+
+}  // namespace foretouch::tools
