@@ -65,7 +65,7 @@ struct LinkBracket {
 };
 
 struct StepBrackets {
-  std::vector<LinkBracket> links;  ///< One per link, in order.
+  std::vector<LinkBracket> links;  ///< One per link, in order; none without a scene.
   /// Of own links, or of two bodies: every asked pair that is not excluded.
   std::vector<LinkBracket> pairs;
   std::int32_t pieces = 0;  ///< Of constant rate, that stand for the model.

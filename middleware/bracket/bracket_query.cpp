@@ -270,10 +270,10 @@ void answerStep(const BracketPlan& plan, BracketMemory& memory, StepBrackets& br
 
 }  // namespace
 
-Result<BracketQuery> BracketQuery::build(const Avatar& avatar, const Scene& scene,
+Result<BracketQuery> BracketQuery::build(const Avatar& avatar, const std::optional<Scene>& scene,
                                          const BracketOptions& options) {
   FORETOUCH_CHECK(checkedResolution(options.resolution));
-  FORETOUCH_CHECK(internal::checkedIgnored(avatar, scene, options.ignored));
+  if (scene) FORETOUCH_CHECK(internal::checkedIgnored(avatar, *scene, options.ignored));
   FORETOUCH_CHECK(checkedSurface(avatar, options.surface, "surface"));
   if (options.self && options.self->avatarIdentity() != avatar.identity()) {
     return Error::in("self", ErrorCode::Mismatch, "expected the pair rules of this avatar");

@@ -27,9 +27,9 @@ struct BracketPlan;
 /// scratch of its own.
 class BracketQuery {
  public:
-  /// Errors: a surface, rules or ignored pairs of another avatar or scene; a resolution out of
-  /// range.
-  static Result<BracketQuery> build(const Avatar& avatar, const Scene& scene,
+  /// Without a scene own links alone are asked. Errors: a surface, rules or ignored pairs of
+  /// another avatar or scene; a resolution out of range.
+  static Result<BracketQuery> build(const Avatar& avatar, const std::optional<Scene>& scene,
                                     const BracketOptions& options = {});
 
   /// `bounds`: one per link. Errors: another number of bounds; one that is negative or not a number

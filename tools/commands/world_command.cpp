@@ -13,6 +13,7 @@
 #include "tools/console.h"
 #include "tools/glb/world_glb.h"
 #include "tools/interrupt.h"
+#include "tools/person/world_person.h"
 #include "tools/progress.h"
 #include "tools/report/document_parts.h"
 #include "tools/report/report_file.h"
@@ -60,7 +61,7 @@ std::vector<std::string> inputsOf(const WorldFile& file) {
   for (const FileBody& body : file.bodies) {
     inputs.insert(inputs.end(),
                   {body.shape.avatarPath, body.shape.meshPath, body.pairsPath, body.posesPath,
-                   body.clip.motionPath, body.clip.mapPath, body.clip.robotPath});
+                   body.clip.motionPath, body.clip.mapPath, body.clip.robotPath, body.boundsPath});
   }
   return inputs;
 }
@@ -82,11 +83,12 @@ Result<Done> checkPlaces(const AskedWorld& asked, const LoadedWorld& world) {
   return checkOutputs(asked.outputPath, asked.eventsPath, inputs);
 }
 
-void tellFound(const AskedWorld& asked, const WorldSummary& summary) {
+void tellFound(const AskedWorld& asked, const WorldSummary& summary, const std::string& persons) {
   const std::string& report = asked.report.path;
   const bool outIsTaken = isStandardOutput(asked.outputPath) || isStandardOutput(report) ||
                           isStandardOutput(asked.glb.path) || isStandardOutput(asked.eventsPath);
-  std::string text = asked.asJson ? summary.jsonLine(asked.outputPath, report) : summary.text();
+  std::string text =
+      asked.asJson ? summary.jsonLine(asked.outputPath, report) : summary.text() + persons;
   if (!asked.asJson && !outIsTaken) {
     text += "\nresults: " + asked.outputPath + "\n";
     if (!asked.eventsPath.empty()) text += "events:  " + asked.eventsPath + "\n";
@@ -120,6 +122,8 @@ class WorldReplay {
     if (guard.requested()) return Done{};
     touches.finish();
     summary_.add(touches);
+    FORETOUCH_TRY(persons_, personsOf(world_, cuts_.front(), cuts_.back()));
+    if (persons_) results.write(personLines(world_, *persons_));
     results.write(touchLines(world_, touches, summary_.windows()));
     FORETOUCH_CHECK(results.commit());
     if (events) {
@@ -138,6 +142,8 @@ class WorldReplay {
   }
 
   [[nodiscard]] const WorldSummary& summary() const { return summary_; }
+  /// Of the persons; empty if there are none.
+  [[nodiscard]] std::string text() const { return persons_ ? personText(world_, *persons_) : ""; }
 
  private:
   [[nodiscard]] std::string header() const { return worldHeader(world_, asked_.windows, cuts_); }
@@ -177,6 +183,7 @@ class WorldReplay {
   std::vector<std::int64_t> cuts_;
   WorldIntervals intervals_;
   WorldSummary summary_;
+  std::optional<WorldPersons> persons_;
 };
 
 Result<Done> replay(const AskedWorld& asked, const Settings& settings) {
@@ -191,7 +198,7 @@ Result<Done> replay(const AskedWorld& asked, const Settings& settings) {
     const InterruptGuard guard;  // built first, destroyed last: removes the file before the signal
     FORETOUCH_CHECK(replay.run(guard));
   }
-  tellFound(asked, replay.summary());
+  tellFound(asked, replay.summary(), replay.text());
   return Done{};
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,23 +17,17 @@ namespace {
 /// A clip breaks a bound beyond this (m): poses and places are rounded in files.
 constexpr double kBreaks = 1e-6;
 
-/// Joins the brackets of steps, link by link and pair by pair.
+/// Joins the brackets of steps, counts them, and checks the clip by them.
 class PersonTracker {
  public:
   PersonTracker(const ReplayInputs& inputs, std::vector<LinkBound> bounds)
       : inputs_(inputs), bounds_(std::move(bounds)), placer_(inputs.avatar) {}
 
   void add(std::int64_t step, const StepBrackets& brackets) {
-    isFirst_ = step == 0;
-    t0S_ = inputs_.timeOfStep(step);
-    t1S_ = inputs_.timeOfStep(step + 1);
+    joiner_.add(inputs_.timeOfStep(step), inputs_.timeOfStep(step + 1), brackets);
     for (const LinkBracket& bracket : brackets.links) {
-      if (inputs_.avatar.lss(bracket.link).empty()) continue;
-      count(bracket);
-      take(bracket);
+      if (!inputs_.avatar.lss(bracket.link).empty()) answer_.counts.add(bracket.verdict);
     }
-    for (const LinkBracket& bracket : brackets.pairs) take(bracket);
-    closeUnseen(step);
   }
 
   /// Whether the frames that were left out are within the bounds.
@@ -61,80 +54,11 @@ class PersonTracker {
   }
 
   PersonAnswer finish() {
-    for (auto& [key, open] : open_) {
-      open.touch.endsAfter = true;
-      close(open.touch);
-    }
-    std::stable_sort(
-        answer_.touches.begin(), answer_.touches.end(),
-        [](const PersonTouch& x, const PersonTouch& y) { return x.beginsS[0] < y.beginsS[0]; });
+    answer_.touches = joiner_.finish();
     return std::move(answer_);
   }
 
  private:
-  struct Open {
-    PersonTouch touch;
-    bool isSeen = false;  // in the step at hand
-    bool goesOn = false;  // to the step's end
-  };
-
-  void count(const LinkBracket& bracket) {
-    PersonCounts& counts = answer_.counts;
-    ++counts.intervals;
-    switch (bracket.verdict) {
-      case BracketVerdict::Unclaimed: ++counts.unclaimed; break;
-      case BracketVerdict::Excluded: ++counts.excluded; break;
-      case BracketVerdict::Possible: ++counts.possible; break;
-      case BracketVerdict::Certain: ++counts.certain; break;
-    }
-  }
-
-  [[nodiscard]] double timeAt(double t) const { return t0S_ + t * (t1S_ - t0S_); }
-
-  void take(const LinkBracket& bracket) {
-    if (bracket.verdict != BracketVerdict::Possible && bracket.verdict != BracketVerdict::Certain) {
-      return;
-    }
-    const std::pair<LinkId, LinkId> key{bracket.link, bracket.other};
-    const auto known = open_.find(key);
-    // What ended with the step before, and may begin at once, is one touch.
-    const bool goesOn = known != open_.end() && bracket.possibleFrom == 0.0;
-    if (known != open_.end() && !goesOn) {
-      close(known->second.touch);
-      open_.erase(known);
-    }
-    Open& open = open_[key];
-    if (!goesOn) begin(bracket, open.touch);
-    open.isSeen = true;
-    open.goesOn = bracket.possibleUntil == 1.0;
-    open.touch.endsS[1] = timeAt(bracket.possibleUntil);
-    open.touch.growth = std::max(open.touch.growth, bracket.growth);
-    if (bracket.verdict != BracketVerdict::Certain) return;
-    if (!open.touch.isCertain) open.touch.beginsS[1] = timeAt(bracket.certainFrom);
-    open.touch.isCertain = true;
-    open.touch.endsS[0] = timeAt(bracket.certainUntil);
-  }
-
-  void begin(const LinkBracket& bracket, PersonTouch& touch) const {
-    touch.link = bracket.link;
-    touch.other = bracket.other;
-    touch.triangle = bracket.triangle;
-    touch.beginsS[0] = timeAt(bracket.possibleFrom);
-    touch.beginsBefore = isFirst_ && bracket.possibleFrom == 0.0;
-  }
-
-  void close(const PersonTouch& touch) { answer_.touches.push_back(touch); }
-
-  void closeUnseen(std::int64_t /*step*/) {
-    for (auto it = open_.begin(); it != open_.end();) {
-      Open& open = it->second;
-      const bool isOver = !open.isSeen || !open.goesOn;
-      open.isSeen = false;
-      if (isOver) close(open.touch);
-      it = isOver ? open_.erase(it) : std::next(it);
-    }
-  }
-
   void checkLink(const LinkBracket& bracket, std::int64_t frame, double u) {
     const double error = bounds_[slotOf(bracket.link)].error;
     const double rho = error + 4.0 * (bracket.growth - error) * u * (1.0 - u);
@@ -154,9 +78,7 @@ class PersonTracker {
   ModelMotion model_;
   AxisPlaces truth_, modelled_;
   std::vector<double> apart_;
-  std::map<std::pair<LinkId, LinkId>, Open> open_;
-  bool isFirst_ = false;
-  double t0S_ = 0.0, t1S_ = 0.0;
+  BracketJoiner joiner_;
   PersonAnswer answer_;
 };
 
@@ -200,39 +122,15 @@ Result<BracketQuery> queryOf(const ReplayInputs& inputs) {
   return BracketQuery::build(inputs.avatar, inputs.scene, options);
 }
 
-/// Earlier first; what is not certain has one of the two.
-void writeBracket(const char* name, double possible, double certain, bool isCertain,
-                  bool isCertainFirst, JsonWriter& out) {
-  const auto writeCertain = [&] { isCertain ? out.value(certain) : out.null(); };
-  out.key(name);
-  out.beginArray();
-  if (isCertainFirst) writeCertain();
-  out.value(possible);
-  if (!isCertainFirst) writeCertain();
-  out.endArray();
-}
-
 std::string lineOf(const ReplayInputs& inputs, const PersonTouch& touch) {
   const Skeleton& skeleton = inputs.avatar.skeleton();
-  std::string text;
-  JsonWriter out(text);
-  out.beginObject();
-  out.key("person_touch");
-  out.beginObject();
-  out.field("link", skeleton.name(touch.link));
-  if (touch.other != kNoParent) out.field("other", skeleton.name(touch.other));
+  PersonNames names;
+  names.link = skeleton.name(touch.link);
+  if (touch.other != kNoParent) names.other = skeleton.name(touch.other);
   if (touch.triangle >= 0) {
-    out.field("object", inputs.scene.objectNames()[slotOf(inputs.scene.object(touch.triangle))]);
-    out.field("triangle", touch.triangle);
+    names.object = inputs.scene.objectNames()[slotOf(inputs.scene.object(touch.triangle))];
   }
-  out.field("verdict", touch.isCertain ? "certain" : "possible");
-  writeBracket("begins_s", touch.beginsS[0], touch.beginsS[1], touch.isCertain, false, out);
-  writeBracket("ends_s", touch.endsS[1], touch.endsS[0], touch.isCertain, true, out);
-  if (touch.beginsBefore) out.field("begins_before", true);
-  if (touch.endsAfter) out.field("ends_after", true);
-  out.endObject();
-  out.endObject();
-  return text + "\n";
+  return personTouchLine(names, touch);
 }
 
 std::string lineOf(const ReplayInputs& inputs, const PersonRequest& request,
@@ -263,6 +161,21 @@ std::string lineOf(const ReplayInputs& inputs, const PersonRequest& request,
 }
 
 }  // namespace
+
+void PersonCounts::add(BracketVerdict verdict) {
+  ++intervals;
+  switch (verdict) {
+    case BracketVerdict::Unclaimed: ++unclaimed; break;
+    case BracketVerdict::Excluded: ++excluded; break;
+    case BracketVerdict::Possible: ++possible; break;
+    case BracketVerdict::Certain: ++certain; break;
+  }
+}
+
+void PersonCounts::addExcluded(std::int64_t more) {
+  intervals += more;
+  excluded += more;
+}
 
 Result<LinkBounds> personBounds(const ReplayInputs& inputs, const PersonRequest& request) {
   if (!request.isAsked()) return LinkBounds{};

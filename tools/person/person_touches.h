@@ -13,6 +13,7 @@
 #include "assets/bounds/bounds_file.h"
 #include "middleware/bracket/bracket_query.h"
 #include "tools/inputs/replay_inputs.h"
+#include "tools/person/bracket_joiner.h"
 
 namespace foretouch::tools {
 
@@ -22,23 +23,15 @@ struct PersonRequest {
   [[nodiscard]] bool isAsked() const { return !boundsPath.empty(); }
 };
 
-/// Nothing is touched before beginsS[0] and after endsS[1]; if it is certain, the touch began by
-/// beginsS[1] and had not ended before endsS[0].
-struct PersonTouch {
-  LinkId link = 0, other = kNoParent;
-  TriangleId triangle = -1;  ///< Of the scene, that was, or may have been, touched first.
-  bool isCertain = false;
-  double beginsS[2] = {0.0, 0.0}, endsS[2] = {0.0, 0.0};
-  bool beginsBefore = false, endsAfter = false;  ///< The clip begins, or ends, in it.
-  double growth = 0.0;  ///< The largest distance between person and model in it (m).
-};
-
 struct PersonCounts {
   std::int64_t intervals = 0;  ///< Links that have LSS, times steps.
   std::int64_t excluded = 0, possible = 0, certain = 0, unclaimed = 0;
   std::int64_t broken = 0;  ///< Frames, link by link, at which the clip breaks the bound.
   LinkId worstLink = 0;     ///< Of them, the one by most: when, and by how much (m).
   double worstS = 0.0, worstM = 0.0;
+
+  void add(BracketVerdict verdict);
+  void addExcluded(std::int64_t more);
 };
 
 struct PersonAnswer {

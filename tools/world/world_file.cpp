@@ -64,6 +64,7 @@ class WorldReading {
   void readClip(TomlSection& section, FileBody& body);
   void readTiming(TomlSection& section, ClipTiming& timing);
   void readPoses(TomlSection& section, FileBody& body);
+  void readBounds(TomlSection& section, FileBody& body);
   void readChanges(TomlSection& section, FileBody& body);
   void readAsks();
   void checkNames();
@@ -104,10 +105,10 @@ void WorldReading::readHead() {
 FileBody WorldReading::readBody(TomlSection& section) {
   FileBody body;
   body.line = section.line();
-  section.allowOnly({"name",   "avatar",      "mesh",   "node",   "scale",   "up",
-                     "sphere", "lss",         "box",    "group",  "mass",    "self",
-                     "pairs",  "when_silent", "clip",   "poses",  "pose",    "position",
-                     "yaw",    "rotation",    "attach", "detach", "fidelity"});
+  section.allowOnly({"name",   "avatar",   "mesh",   "node",     "scale", "up",       "sphere",
+                     "lss",    "box",      "group",  "mass",     "self",  "pairs",    "when_silent",
+                     "clip",   "poses",    "pose",   "position", "yaw",   "rotation", "attach",
+                     "detach", "fidelity", "bounds", "between"});
   readNameAndShape(section, body);
   section.text("group", body.group, false);
   if (body.group == kSceneWord) {
@@ -140,7 +141,32 @@ FileBody WorldReading::readBody(TomlSection& section) {
   }
   readMotion(section, body);
   readChanges(section, body);
+  readBounds(section, body);
   return body;
+}
+
+void WorldReading::readBounds(TomlSection& section, FileBody& body) {
+  if (hasKey(section, "between")) {
+    section.word<MotionModel>(
+        "between", {"constant-rate", "cubic", "cubic-late"},
+        {MotionModel::ConstantRate, MotionModel::Cubic, MotionModel::CubicLate}, body.between);
+  }
+  std::string word;
+  section.text("bounds", word, false);
+  body.isExact = word == "exact";
+  if (!body.isExact) readPath(section, "bounds", body.boundsPath);
+  if (hasKey(section, "between") && body.boundsPath.empty()) {
+    section.fail(ErrorCode::Mismatch, "expected a file of bounds beside between");
+  }
+  if (!hasKey(section, "bounds")) return;
+  if (!body.shape.meshPath.empty() || body.shape.box) {
+    section.fail(ErrorCode::Mismatch,
+                 "expected an avatar, a sphere or lss beside bounds: meshes are not asked");
+  }
+  if (!body.changes.empty()) {
+    section.fail(ErrorCode::Mismatch,
+                 "expected no attach or detach beside bounds: who is carried is not asked");
+  }
 }
 
 /// A trigger moves as a prop does, and who does not hear of it any more takes it to stand still.

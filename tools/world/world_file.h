@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "articulated/motion_model.h"
 #include "articulated/result.h"
 #include "articulated/skeleton.h"
 #include "articulated/track.h"
@@ -69,6 +70,11 @@ struct FileBody {
   Fidelity fidelity = Fidelity::Link;  ///< Of an avatar: Exact: by its meshes.
   bool asksSelf = false;
   std::string pairsPath;  ///< Empty: derived.
+
+  // How far it may be from what its poses say (docs/person.md). Neither: nothing is claimed.
+  std::string boundsPath;
+  bool isExact = false;                             ///< It does what its poses say.
+  MotionModel between = MotionModel::ConstantRate;  ///< That the bounds are about.
 
   // How it moves: a clip, or poses, or none of them: it stands.
   ClipRequest clip;   ///< An empty motion: no clip.
