@@ -5,12 +5,22 @@
 #include <cstddef>
 #include <vector>
 
+#include "articulated/motion_model.h"
 #include "bench/person/held_back.h"
-#include "bench/person/person_trial.h"
 #include "bench/solid/stage.h"
 #include "middleware/bracket/bracket.h"
 
 namespace foretouch::tools {
+
+struct PersonTrial {
+  double rateHz = 30.0;  ///< Of the given poses: every n-th frame, the nearest n >= 1.
+  MotionModel model = MotionModel::CubicLate;
+  bool isFollowed = true;  ///< Bounds follow how the poses bend, too.
+  bool asksOwnLinks = false;
+  double boundShare = 1.0;             ///< Of the bounds that hold: below 1 for planted faults.
+  int instants = 4;                    ///< That are looked at per frame of the clip.
+  std::vector<LinkBound> bounds = {};  ///< One per link; empty: those that hold on the clip.
+};
 
 /// For one thread.
 class BoundedPerson {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "bench/person/person_trial.h"
+#include "bench/person/person_tally.h"
 #include "middleware/bracket/bracket.h"
 
 namespace foretouch::tools {

@@ -116,26 +116,6 @@ class Trial {
 
 }  // namespace
 
-void PersonTally::add(const PersonTally& o) {
-  intervals += o.intervals;
-  missed += o.missed;
-  lied += o.lied;
-  excluded += o.excluded;
-  possible += o.possible;
-  certain += o.certain;
-  unclaimed += o.unclaimed;
-  fresh += o.fresh;
-  freshCertain += o.freshCertain;
-  missedByPoses += o.missedByPoses;
-  widthsMs.insert(widthsMs.end(), o.widthsMs.begin(), o.widthsMs.end());
-  growthsMm.insert(growthsMm.end(), o.growthsMm.begin(), o.growthsMm.end());
-  bracketUs += o.bracketUs;
-  plainUs += o.plainUs;
-  pieces += o.pieces;
-  steps += o.steps;
-  findings.insert(findings.end(), o.findings.begin(), o.findings.end());
-}
-
 PersonTally judgePerson(const SolidStage& stage, const SolidActor& actor, const Placement& place,
                         const PersonTrial& trial) {
   return Trial(stage, actor, place, trial).run();

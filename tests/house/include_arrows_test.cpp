@@ -88,23 +88,23 @@ const std::map<std::string, Rooms> kRooms = {
       {"setup", {"audit", "inputs", "settings", ""}},
       {"replay", {"touches", "inputs", "settings", ""}},
       {"solid", {"replay", "touches", "inputs", "settings", ""}},
-      {"world", {"audit", "replay", "touches", "inputs", "settings", ""}},
+      {"world", {"person", "audit", "replay", "touches", "inputs", "settings", ""}},
       {"stream", {"world", "touches", "inputs", "settings", ""}},
       {"glb", {"world", "solid", "replay", "touches", "inputs", "settings", ""}},
       {"sweep", {"glb", "inputs", "settings", ""}},
       {"log", {"stream", "replay", "touches", "inputs", "settings", ""}},
       {"report",
-       {"world", "solid", "feet", "floor", "setup", "log", "audit", "replay", "touches", "inputs",
-        "settings", ""}},
+       {"world", "person", "solid", "feet", "floor", "setup", "log", "audit", "replay", "touches",
+        "inputs", "settings", ""}},
       {"view", {"report", "stream", "settings", ""}},
       {"batch", {"settings", ""}},
       {"floor", {"inputs", "settings", ""}},
       {"feet", {"floor", "setup", "inputs", "settings", ""}},
       {"person", {"inputs", "settings", ""}},
       {"certificate", {"inputs", "settings", ""}},
-      {"commands",
-       {"batch", "certificate", "feet", "floor", "person", "view", "report", "log", "sweep", "glb", "world",
-        "solid", "stream", "replay", "setup", "touches", "audit", "inputs", "settings", ""}}}},
+      {"commands", {"batch", "certificate", "feet",  "floor",  "person",   "view",   "report",
+                    "log",   "sweep",       "glb",   "world",  "solid",    "stream", "replay",
+                    "setup", "touches",     "audit", "inputs", "settings", ""}}}},
 };
 
 /// Libraries that only these folders may include, by the include's first word.
@@ -272,9 +272,9 @@ TEST(IncludeArrows, JsonIsParsedInFewRooms) {
       rooms.insert(folder + ("/" + roomOf(include.file.lexically_relative(root).string())));
     }
   }
-  EXPECT_EQ(rooms,
-            (std::set<std::string>{"assets/avatar", "assets/bounds", "assets/import", "assets/mesh", "tools/batch",
-                                   "tools/glb", "tools/inputs", "tools/solid", "tools/sweep"}));
+  EXPECT_EQ(rooms, (std::set<std::string>{"assets/avatar", "assets/bounds", "assets/import",
+                                          "assets/mesh", "tools/batch", "tools/glb", "tools/inputs",
+                                          "tools/solid", "tools/sweep"}));
 }
 
 /// A header and its source are one unit.

@@ -387,14 +387,11 @@ Result<Done> runReplay(
       FORETOUCH_CHECK(writeGlb(glb, touches, job.glb.path));
     }
     if (report && !guard.requested()) {
-      const auto reported = writeReport(job.report.path, guard, [&](const ReportProgress& watch) {
+      FORETOUCH_CHECK(writeReport(job.report.path, guard, [&](const ReportProgress& watch) {
         auto document = report->document(summary, touches.listed(), watch);
-        if (document.ok() && person.answer) {
-          addPerson(inputs, job.person, *person.answer, document.value());
-        }
+        if (document.ok()) addPerson(inputs, job.person, person.answer, document.value());
         return document;
-      });
-      if (!reported.ok()) return reported.error();
+      }));
     }
   }
   tell(summary, person.text);

@@ -13,7 +13,6 @@
 #include "tools/console.h"
 #include "tools/glb/world_glb.h"
 #include "tools/interrupt.h"
-#include "tools/person/world_person.h"
 #include "tools/progress.h"
 #include "tools/report/document_parts.h"
 #include "tools/report/report_file.h"
@@ -24,6 +23,7 @@
 #include "tools/world/world_audit.h"
 #include "tools/world/world_event_lines.h"
 #include "tools/world/world_intervals.h"
+#include "tools/world/world_person.h"
 #include "tools/world/world_results.h"
 #include "tools/world/world_summary.h"
 

@@ -42,15 +42,16 @@ bool cutAt(double endS, ViewPersonTouch& touch) {
 
 }  // namespace
 
-void addPerson(const ReplayInputs& inputs, const PersonRequest& request, const PersonAnswer& answer,
-               ViewDocument& document) {
+void addPerson(const ReplayInputs& inputs, const PersonRequest& request,
+               const std::optional<PersonAnswer>& answer, ViewDocument& document) {
+  if (!answer) return;
   const std::optional<ViewTrack>& track = document.avatars.front().track;
   const double endS = track && track->poses() > 0 ? track->poseTimesS.back() : 0.0;
   ViewPerson person;
   person.bounds = fileName(request.boundsPath);
   person.between = toString(request.model);
-  person.rateHz = answer.rateHz;
-  for (const PersonTouch& touch : answer.touches) {
+  person.rateHz = answer->rateHz;
+  for (const PersonTouch& touch : answer->touches) {
     ViewPersonTouch shown = shownOf(touch, inputs.scene);
     if (cutAt(endS, shown)) person.touches.push_back(std::move(shown));
   }
@@ -61,7 +62,7 @@ void addPerson(const ReplayInputs& inputs, const PersonRequest& request, const P
   document.summary.push_back(
       {"the person perhaps touched",
        std::to_string(static_cast<std::int64_t>(person.touches.size()) - certain), ""});
-  for (std::string& note : personNotes(inputs, answer)) document.notes.push_back(std::move(note));
+  for (std::string& note : personNotes(inputs, *answer)) document.notes.push_back(std::move(note));
   document.person = std::move(person);
 }
 

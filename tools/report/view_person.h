@@ -2,14 +2,17 @@
 // its page shows it.
 #pragma once
 
+#include <optional>
+
 #include "tools/inputs/replay_inputs.h"
 #include "tools/person/person_touches.h"
 #include "tools/report/view_document.h"
 
 namespace foretouch::tools {
 
-/// Adds the touches of the only avatar's person, up to the last pose that the document has.
-void addPerson(const ReplayInputs& inputs, const PersonRequest& request, const PersonAnswer& answer,
-               ViewDocument& document);
+/// Adds the touches of the only avatar's person, up to the last pose that the document has; nothing
+/// without an answer.
+void addPerson(const ReplayInputs& inputs, const PersonRequest& request,
+               const std::optional<PersonAnswer>& answer, ViewDocument& document);
 
 }  // namespace foretouch::tools

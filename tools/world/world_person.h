@@ -1,4 +1,4 @@
-// tools/person/world_person.h: what the persons of a world surely touched and may have touched, of
+// tools/world/world_person.h: what the persons of a world surely touched and may have touched, of
 // the scene, of themselves and of each other. Seconds of the file's clock.
 #pragma once
 

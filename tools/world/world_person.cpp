@@ -1,4 +1,4 @@
-#include "tools/person/world_person.h"
+#include "tools/world/world_person.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Oracle: balls that fly at each other on a line, of which closed forms say when they may touch.
-#include "tools/person/world_person.h"
+#include "tools/world/world_person.h"
 
 #include <cmath>
 #include <sstream>

@@ -1,0 +1,25 @@
+#include "bench/person/person_tally.h"
+
+namespace foretouch::tools {
+
+void PersonTally::add(const PersonTally& o) {
+  intervals += o.intervals;
+  missed += o.missed;
+  lied += o.lied;
+  excluded += o.excluded;
+  possible += o.possible;
+  certain += o.certain;
+  unclaimed += o.unclaimed;
+  fresh += o.fresh;
+  freshCertain += o.freshCertain;
+  missedByPoses += o.missedByPoses;
+  widthsMs.insert(widthsMs.end(), o.widthsMs.begin(), o.widthsMs.end());
+  growthsMm.insert(growthsMm.end(), o.growthsMm.begin(), o.growthsMm.end());
+  bracketUs += o.bracketUs;
+  plainUs += o.plainUs;
+  pieces += o.pieces;
+  steps += o.steps;
+  findings.insert(findings.end(), o.findings.begin(), o.findings.end());
+}
+
+}  // namespace foretouch::tools

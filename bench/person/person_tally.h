@@ -1,0 +1,26 @@
+// bench/person/person_tally.h: what a judge found of brackets, counted.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace foretouch::tools {
+
+struct PersonTally {
+  std::uint64_t intervals = 0;  ///< Links (or pairs) times steps, of what has a surface.
+  std::uint64_t missed = 0, lied = 0;
+  std::uint64_t excluded = 0, possible = 0, certain = 0, unclaimed = 0;
+  std::uint64_t fresh = 0;  ///< That touch in truth, and not at the earlier pose.
+  std::uint64_t freshCertain = 0;
+  std::uint64_t missedByPoses = 0;        ///< Fresh ones that no given pose shows.
+  std::vector<double> widthsMs;           ///< Of certain fresh touches: from possible to certain.
+  std::vector<double> growthsMm;          ///< Largest, per interval.
+  double bracketUs = 0.0, plainUs = 0.0;  ///< Of all steps, bracketed and plain.
+  std::uint64_t pieces = 0, steps = 0;
+  std::vector<std::string> findings;  ///< The first ten.
+
+  void add(const PersonTally& other);
+};
+
+}  // namespace foretouch::tools
