@@ -1,8 +1,11 @@
 // What stands above the timeline: what its colours mean, what is looked for, and how it is zoomed.
 
 import { isSlide } from "../contacts/feet.js";
+import type { PersonCount } from "../contacts/person.js";
+import { countPerson } from "../contacts/person.js";
 import { walkTouches } from "../panels/choosing.js";
 import { element, button } from "../panels/dom.js";
+import { meaningOf } from "../panels/glossary.js";
 import type { Model } from "../model.js";
 import type { Store } from "../state.js";
 import type { Grouping } from "./rows.js";
@@ -48,7 +51,16 @@ function legendOf(model: Model): HTMLElement {
   if (ground > 0) legend.append(element("span", { class: "swatch ground" }), element("span", { text: `${ground} ground`, title: "Touches that stand on the ground." }));
   const slides = model.stances.filter(({ stance }) => stance !== null && isSlide(stance)).length;
   if (slides > 0) legend.append(element("span", { class: "swatch slide" }), element("span", { text: `${slides} ${slides === 1 ? "slides" : "slide"}`, title: "Touches of feet that slide 2 mm or more; the notch in a bar says how deep the foot is." }));
+  const { person } = model.document;
+  if (person !== null) legend.append(...legendOfPerson(countPerson(person)));
   return legend;
+}
+
+function legendOfPerson({ certain, possible }: PersonCount): HTMLElement[] {
+  return [
+    element("span", { class: "whose", text: "the person:" }), element("span", { class: "swatch person" }), element("span", { text: `${certain} certain`, title: meaningOf("certain") }),
+    element("span", { class: "swatch perhaps" }), element("span", { text: `${possible} possible`, title: meaningOf("possible") }),
+  ];
 }
 
 function searchOf(model: Model, store: Store): HTMLElement {
