@@ -10,13 +10,15 @@ const minBarWidth = 3;
 const fullSpikeSpeed = 2, spikeHeight = 5, spikeWidth = 6;
 /** Of a notch: the depth, metres, at which it goes through the bar; less than this share is not seen. */
 const fullNotch = 0.03, leastNotch = 0.35, notchWidth = 7;
-/** Of what is possible, beside what is certain: its share of the colour, and the least of the other, CSS pixels. */
-const lightTone = 0.3, minSolidWidth = 2;
+/** Of what is certain within what is possible, CSS pixels. */
+const minSolidWidth = 2;
 /** Of full height; less is not seen. */
 const leastSpike = 0.15;
 
 export class BarPainter {
   private readonly hatches = new Map<string, CanvasPattern>();
+  /** x, y, width and height of what is certain of the person and not drawn yet. */
+  private readonly certain: [number, number, number, number][] = [];
 
   constructor(
     private readonly context: CanvasRenderingContext2D,
@@ -66,17 +68,22 @@ export class BarPainter {
     context.fill();
   }
 
-  /** Of the person: light where it is possible, solid where it is certain, with an outline where it is nowhere. */
+  /** Of the person: light where it is possible, with an outline where it is nowhere certain. */
   private person({ begin, end, certain }: PersonTouch, x0: number, width: number, y: number, height: number): void {
-    const { context } = this, xOf = (time: number): number => x0 + (end > begin ? (time - begin) / (end - begin) : 0) * width;
-    context.fillStyle = context.strokeStyle = this.palette.person;
-    context.lineWidth = 1;
-    context.globalAlpha = lightTone;
+    const { context, palette } = this, xOf = (time: number): number => x0 + (end > begin ? (time - begin) / (end - begin) : 0) * width;
+    context.fillStyle = palette.perhaps;
     context.fillRect(x0, y, width, height);
-    context.globalAlpha = 1;
+    context.strokeStyle = palette.person;
+    context.lineWidth = 1;
     if (certain === null) return context.strokeRect(x0 + 0.5, y + 0.5, width - 1, height - 1);
     const from = Math.min(xOf(certain.from), x0 + width - minSolidWidth);
-    context.fillRect(from, y, Math.max(minSolidWidth, xOf(certain.to) - from), height);
+    this.certain.push([from, y, Math.max(minSolidWidth, xOf(certain.to) - from), height]);
+  }
+
+  /** What is certain of the bars so far: nothing that is but possible hides it. */
+  drawCertain(): void {
+    this.context.fillStyle = this.palette.person;
+    for (const area of this.certain.splice(0)) this.context.fillRect(...area);
   }
 
   /** How fast two approach where they meet, as the height of a spike above the bar's begin. */

@@ -84,5 +84,6 @@ function drawBars(context: CanvasRenderingContext2D, painter: BarPainter, palett
     context.lineWidth = 2;
     context.strokeRect(x0 - 2, top - 3, Math.max(3, x1 - x0) + 4, height + 6);
   }
+  painter.drawCertain();
   context.restore();
 }
