@@ -4,6 +4,7 @@ import type { Avatar, ViewDocument } from "./data/document.js";
 import type { Contact } from "./contacts/contact.js";
 import { allContacts, longestStep } from "./contacts/contact.js";
 import { stancesOf } from "./contacts/feet.js";
+import { personTouchesOf } from "./contacts/person.js";
 import type { Touch, TouchCount } from "./contacts/touch.js";
 import { countTouches, matches, mergedTouches, recordedStays, recordedTouches, touchOfRow } from "./contacts/touch.js";
 import type { Clip } from "./motion/clip.js";
@@ -25,6 +26,8 @@ export class Model {
   private barList: readonly Touch[];
   /** How feet stand, as bars; by foot, then by begin. */
   readonly stances: readonly Touch[];
+  /** What the person touched, as bars. */
+  readonly personTouches: readonly Touch[];
   private touchOfContact = new Map<Contact, Touch>();
   private shown: { search: string; showsGround: boolean; of: readonly Touch[]; touches: readonly Touch[] } | null = null;
   private longest: number;
@@ -37,6 +40,7 @@ export class Model {
     this.contactList = allContacts(this.avatars, this.clips);
     this.touchList = this.touchesOf(this.contactList);
     this.stances = stancesOf(document.feet, document.avatars);
+    this.personTouches = personTouchesOf(document.person, document.avatars);
     this.barList = this.barsOf();
     this.longest = longestStep(this.contactList);
   }
@@ -94,7 +98,7 @@ export class Model {
 
   private barsOf(): readonly Touch[] {
     const stays = recordedStays(this.document.stays, this.avatarList);
-    const more = [...stays, ...this.stances];
+    const more = [...stays, ...this.stances, ...this.personTouches];
     return more.length === 0 ? this.touchList : [...this.touchList, ...more].sort((a, b) => a.begin - b.begin);
   }
 

@@ -8,12 +8,13 @@ import { allContacts, contactsAt, firstAfter, longestStep } from "../build/conta
 import { discreteCount, isSeenAtPose, touchingLinks } from "../build/contacts/discrete.js";
 import { byBadness, worstBy } from "../build/contacts/feet.js";
 import { openingOf } from "../build/contacts/opening.js";
+import { countPerson } from "../build/contacts/person.js";
 import { mostTelling } from "../build/contacts/telling.js";
 import { Model } from "../build/model.js";
 import { RecordedClip } from "../build/motion/recorded_clip.js";
 import { countTouches, matches, mergedTouches, recordedStays, recordedTouches, touchOfRow } from "../build/contacts/touch.js";
 import { densityOf, nearestTouch, rowsOf, ticks, zoomed } from "../build/timeline/rows.js";
-import { f32, f64, inspection, live, pageWith, replay, stepEvent, u16, u32, withTouches } from "./fixture.mjs";
+import { f32, f64, inspection, live, pageWith, replay, stepEvent, u16, u32, withPerson, withTouches } from "./fixture.mjs";
 
 const whole = replay({ seconds: 2, rate: 10 });
 const touched = withTouches(whole);
@@ -348,6 +349,63 @@ for (const [what, change, reason] of [
     const view = footed();
     change(view);
     assert.throws(() => decoded(view), reason);
+  });
+}
+
+test("what the person touched has rows and bars of its own, and counts as no touch of the model", () => {
+  const model = new Model(decoded(withPerson(touched))), plain = new Model(decoded(touched)), none = new Set();
+  assert.deepEqual(model.countTouches(), plain.countTouches());
+  assert.deepEqual([plain.personTouches, plain.document.person], [[], null]);
+  const { person } = model.document, counts = countPerson(person);
+  assert.ok(counts.certain > 0 && counts.possible > 0);
+  assert.equal(counts.certain + counts.possible, touched.touches.length);
+  const rows = rowsOf(model.shownTouches("", true), model.avatars, "limb", none, person.bounds), [heading, ...lanes] = rows;
+  assert.equal(heading.name, "the person, walker.bounds.json");
+  assert.equal(heading.touches.length, touched.touches.length);
+  const links = [...new Set(touched.touches.map(({ link }) => link))].sort((a, b) => a - b);
+  assert.deepEqual(lanes.slice(0, links.length).map(({ link, group }) => [link, group]), links.map((link) => [link, heading.group]));
+  assert.ok(lanes[links.length].isHeading && lanes.slice(links.length).flatMap((row) => row.touches).every((touch) => touch.person === null));
+  for (const grouping of ["link", "object", "all"]) {
+    const of = (one) => rowsOf(one.shownTouches("", true), one.avatars, grouping, none).map((row) => [row.name, row.touches.length]);
+    assert.deepEqual(of(model), of(plain), grouping);
+  }
+  const found = model.shownTouches("righthand", true).filter((touch) => touch.person !== null);
+  assert.ok(found.length > 0 && found.every(({ linkName }) => linkName === "RightHand"));
+});
+
+test("a touch of the person lasts from when on it is possible until when; certain within, own links by name", () => {
+  const view = withPerson(touched);
+  view.person.touches = [
+    { link: 9, other: 3, verdict: "certain", begins: [1, 1.1], ends: [1.4, 1.5], began_before: true, goes_on: true, growth: 0.004 },
+    { link: 6, verdict: "possible", begins: [0.5, null], ends: [null, 0.75] },
+    { link: 6, object: "shelf", verdict: "certain", begins: [1.2000001, 1.2], ends: [1.2, 1.2], growth: null },
+  ];
+  const [own, perhaps, rounded] = new Model(decoded(view)).personTouches;
+  assert.deepEqual([own.begin, own.end, own.begins, own.ends, own.object, own.isOwn], [1, 1.5, "inside", "open", "Head", true]);
+  assert.deepEqual(own.person.certain, { from: 1.1, to: 1.4 });
+  assert.deepEqual([perhaps.begin, perhaps.end, perhaps.object, perhaps.isOwn], [0.5, 0.75, "", false]);
+  assert.deepEqual([perhaps.person.certain, perhaps.person.growth, perhaps.begins, perhaps.ends], [null, null, "contact", "left"]);
+  assert.deepEqual([rounded.begin, rounded.end, rounded.person.certain.from], [1.2000001, 1.2000001, 1.2000001]);
+});
+
+for (const [what, change, reason] of [
+  ["a touch of the person with no link", (one) => (one.link = 16), /person\.touches\[0\]\.link is 16/],
+  ["a touch of the person with no other link", (one) => (one.other = 16), /touches\[0\]\.other is 16/],
+  ["a touch of the person of no verdict", (one) => (one.verdict = "excluded"), /verdict is none of certain, possible/],
+  ["a bracket of one time", (one) => (one.begins = [1]), /begins is not two times/],
+  ["a possible touch that is known to have begun", (one) => (one.verdict = "possible"), /begins\[1\] is known, but the touch is only possible/],
+  ["a certain touch that never surely ended", (one) => (one.ends[0] = null), /ends\[0\] is not a number/],
+  ["a touch that had begun before it could", (one) => (one.begins[1] = one.begins[0] - 1), /begins\[1\] is .*, not in/],
+  ["a touch that is over before it begins", (one) => (one.ends[1] = one.begins[0] - 1), /ends\[1\] is .*, not in/],
+  ["a growth below zero", (one) => (one.growth = -0.001), /growth is -0.001/],
+  ["bounds without a name", (_, person) => delete person.bounds, /person has no "bounds"/],
+  ["a person without touches", (_, person) => delete person.touches, /person has no "touches"/],
+  ["a person without an avatar", (_, person, view) => Object.assign(view, { avatars: [], touches: [] }), /there is no avatar/],
+]) {
+  test(`${what} is refused`, () => {
+    const view = structuredClone(withPerson(touched));
+    change(view.person.touches[0], view.person, view);
+    assert.throws(() => decoded(view), { name: "Malformed", message: reason });
   });
 }
 

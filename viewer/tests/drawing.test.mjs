@@ -1,9 +1,12 @@
-// What makes moving pictures quick: how finely they are drawn, and the scene in fewer triangles.
+// What makes moving pictures quick: how finely they are drawn, and the scene in fewer triangles. And
+// how bars look.
 
 import assert from "node:assert/strict";
 import test from "node:test";
 import { coarsened } from "../build/scene3d/coarse.js";
+import { palettes } from "../build/scene3d/palette.js";
 import { Pace } from "../build/scene3d/pace.js";
+import { BarPainter } from "../build/timeline/bars.js";
 
 test("slow frames are drawn with fewer pixels and triangles, quick ones with more again", () => {
   const pace = new Pace();
@@ -63,4 +66,24 @@ test("the coarse scene covers what the fine one does, and keeps threads as lines
 test("few triangles stay, merged within the smallest cell alone", () => {
   const { positions, indices } = squareAndThread(2, 10);
   assert.equal(coarsened(positions, indices, 1000).triangles.length, indices.length - 3);
+});
+
+test("a bar of the person is light where a touch is possible, solid on all of these where it is certain, else outlined", () => {
+  const { person: solid, perhaps } = palettes.light;
+  const drawn = (...all) => {
+    const areas = [], context = {
+      fillRect(x, y, width) { areas.push({ x, width, colour: this.fillStyle }); },
+      strokeRect() { areas.push("outline"); },
+    };
+    const painter = new BarPainter(context, palettes.light);
+    for (const certain of all) painter.bar({ stance: null, person: { begin: 1, end: 3, certain } }, 100, 300, 0, 12, false);
+    painter.drawCertain();
+    painter.drawCertain();
+    return areas;
+  };
+  const light = { x: 100, width: 200, colour: perhaps };
+  assert.deepEqual(drawn(null), [light, "outline"]);
+  assert.deepEqual(drawn({ from: 1.5, to: 2 }, null), [light, light, "outline", { x: 150, width: 50, colour: solid }]);
+  const [, instant, ...more] = drawn({ from: 3, to: 3 });
+  assert.ok(instant.width > 0 && instant.x + instant.width <= 300 && more.length === 0, "an instant is seen, within the bar");
 });

@@ -291,6 +291,16 @@ export function withTouches(document) {
   return { ...document, touches };
 }
 
+/** What the person touched: as the model, but for brackets; every third of them only perhaps. */
+export function withPerson(document) {
+  const touches = document.touches.map(({ link, object, begin, end }, i) => {
+    const wide = Math.min(0.03, (end - begin) / 3), isCertain = i % 3 !== 2;
+    const [begins, ends] = isCertain ? [[begin - wide, begin + wide], [end - wide, end + wide]] : [[begin - wide, null], [null, end + wide]];
+    return { link, object, verdict: isCertain ? "certain" : "possible", begins, ends, growth: 0.01 + 0.005 * (i % 4) };
+  });
+  return { ...document, person: { bounds: "walker.bounds.json", between: "cubic-late", rate_hz: 10, touches } };
+}
+
 /** The page with a document in it. */
 export function pageWith(template, text) {
   const place = '<script type="application/json" id="foretouch-view">';

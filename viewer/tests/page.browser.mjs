@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
-import { inspection, pageWith, replay, withTouches } from "./fixture.mjs";
+import { inspection, pageWith, replay, withPerson, withTouches } from "./fixture.mjs";
 import { serveLive } from "./live_server.mjs";
 import { decodePng } from "./png.mjs";
 
@@ -193,6 +193,28 @@ const tests = {
     const csv = readFileSync(await (await download).path(), "utf8").trimEnd().split("\r\n");
     assert.equal(csv.length, touched.touches.length + 1);
     assert.ok(csv[1].startsWith(`${touched.touches[0].begin},`), csv[1]);
+    await page.close();
+  },
+
+  async "what the person touched is chosen in a lane of its own, told, and counted apart"() {
+    const touched = withTouches(document), { person } = withPerson(touched), { page } = await open(JSON.stringify({ ...touched, person }));
+    const certain = person.touches.filter(({ verdict }) => verdict === "certain"), possible = person.touches.length - certain.length;
+    assert.ok((await page.locator("#headline").innerText()).endsWith(` The person: ${certain.length} surely touched, ${possible} perhaps.`));
+    const link = Math.min(...person.touches.map((touch) => touch.link)), [first, next] = person.touches.filter((touch) => touch.link === link);
+    assert.ok(next === undefined || next.begins[0] > first.begins[0]);
+    await page.locator("canvas.bars").evaluate((canvas) => (canvas.parentElement.scrollTop = 0));
+    const box = await page.locator("canvas.bars").boundingBox(), gutter = Math.min(150, Math.round(box.width * 0.26));
+    await page.mouse.click(box.x + gutter + (first.begins[0] / 4) * (box.width - gutter - 8) + 2, box.y + 22 + 11);
+    const { time } = await page.evaluate(() => window.foretouch.state());
+    assert.ok(Math.abs(time - Math.max(0, first.begins[0])) < 1e-9, `${time} is when it may begin`);
+    const words = first.verdict === "certain" ? `surely touched ${first.object}: began between` : `may have touched ${first.object} between`;
+    assert.ok((await page.locator("#caption").innerText()).startsWith(`${touched.avatars[0].links[link].name} ${words}`));
+    assert.equal(await page.locator(".details h2").innerText(), "The person");
+    assert.ok((await page.locator(".details").innerText()).includes("walker.bounds.json"));
+    assert.equal(await page.evaluate(() => window.foretouch.selectedTouch()), -1, "it is no touch of the model");
+    await shoot(page, "person");
+    await page.keyboard.press("]");
+    assert.match(await page.locator("#caption").innerText(), / (surely touched|may have touched) /);
     await page.close();
   },
 

@@ -7,7 +7,7 @@ import { transformSize } from "../build/motion/chain.js";
 import { limbsOf, shortNames } from "../build/motion/limbs.js";
 import { carried, placeFrom, placeOption, placeWith, wrapped, yawTowards } from "../build/motion/placing.js";
 import { csvOf } from "../build/panels/csv.js";
-import { personOf, placeOf } from "../build/panels/words.js";
+import { linesOfPerson, personOf, placeOf, storyOfTouch } from "../build/panels/words.js";
 
 test("limbs are told by the names of many exporters, and else by the parent", () => {
   const cases = [
@@ -81,4 +81,17 @@ test("names that make a sentence are in it, others are not", () => {
   assert.equal(placeOf("room.obj"), "room");
   assert.equal(placeOf("kitchen_fatihrmutfak.ply"), "kitchen");
   assert.equal(placeOf("walk.obj"), "scene");
+});
+
+test("of the person it is said between when a touch began and ended, and how sure it is", () => {
+  const touch = { object: "table", begin: 12.314, end: 12.52, certain: { from: 12.316, to: 12.5 }, beganBefore: false, goesOn: false, growth: null };
+  const story = (change) => storyOfTouch({ linkName: "Hand", object: "table", stance: null, person: { ...touch, ...change } }, 10);
+  assert.equal(story({}), "Hand surely touched table: began between 2.314 and 2.316 s, ended between 2.500 and 2.520 s.");
+  assert.equal(story({ object: "", end: 12.5 }), "Hand surely touched something: began between 2.314 and 2.316 s, ended at 2.500 s.");
+  assert.equal(story({ beganBefore: true, goesOn: true }), "Hand surely touched table: had begun by 2.316 s, ended not before 2.500 s.");
+  assert.equal(story({ certain: null }), "Hand may have touched table between 2.314 and 2.520 s.");
+  assert.equal(story({ certain: null, beganBefore: true }), "Hand may have touched table up to 2.520 s.");
+  assert.equal(story({ certain: null, goesOn: true }), "Hand may have touched table from 2.314 s on.");
+  assert.equal(story({ certain: null, beganBefore: true, goesOn: true }), "Hand may have touched table at any time.");
+  assert.deepEqual(linesOfPerson(touch, 10), ["surely touched table", "began between 2.314 and 2.316 s", "ended between 2.500 and 2.520 s"]);
 });

@@ -2,6 +2,7 @@
 
 import type { Avatar, FootStance, RecordedFoot } from "../data/document.js";
 import type { Touch } from "./touch.js";
+import { plainBar } from "./touch.js";
 
 /** From here on a slide, or a depth, is told as one, metres: as `foretouch feet` does. */
 export const told = 0.002;
@@ -22,22 +23,15 @@ export function badness({ slide, depth, hover }: FootStance): number {
 /** As bars, by begin; they are no touches of links, and are not counted as such. */
 export function stancesOf(feet: readonly RecordedFoot[], avatars: readonly Avatar[]): Touch[] {
   return feet.flatMap(({ link, stances }) => stances.map((stance): Touch => ({
-    avatar: 0,
+    ...plainBar,
     link,
     linkName: avatars[0].links[link].name,
     object: "",
-    isOwn: false,
-    otherAvatar: null,
     begin: stance.begin,
     end: stance.end,
     begins: stance.beganBefore ? "inside" : "contact",
     ends: stance.goesOn ? "open" : "left",
     isGround: true,
-    isMissed: null,
-    isUndecided: false,
-    rows: [],
-    strength: null,
-    isStay: false,
     depth: stance.depth,
     stance,
   })));

@@ -1,7 +1,7 @@
 // Touches: a link and an object from their first contact to where it ends, over all steps. The
 // contacts of the single steps are the rows of a touch.
 
-import type { Avatar, FootStance, RecordedStay, RecordedTouch, Strength } from "../data/document.js";
+import type { Avatar, FootStance, PersonTouch, RecordedStay, RecordedTouch, Strength } from "../data/document.js";
 import type { Contact } from "./contact.js";
 
 export interface Touch {
@@ -32,7 +32,32 @@ export interface Touch {
   readonly depth: number | null;
   /** Of a whole foot: how it stands. It is no touch of a link. */
   readonly stance: FootStance | null;
+  /** Of the person: how sure it is, and of what. It is no touch of the model. */
+  readonly person: PersonTouch | null;
 }
+
+/** Whose a bar is: the model's link, a whole foot, or the person. */
+export type Whose = "link" | "foot" | "person";
+
+export function whose({ stance, person }: Touch): Whose {
+  return stance !== null ? "foot" : person !== null ? "person" : "link";
+}
+
+/** What bars of which no contact is a row have in common. */
+export const plainBar = {
+  avatar: 0,
+  isOwn: false,
+  otherAvatar: null,
+  isGround: false,
+  isMissed: null,
+  isUndecided: false,
+  rows: [],
+  strength: null,
+  isStay: false,
+  depth: null,
+  stance: null,
+  person: null,
+} as const;
 
 /** Of the document, in its order: by begin. `contacts` as allContacts() has them. */
 export function recordedTouches(
@@ -51,6 +76,7 @@ export function recordedTouches(
       isUndecided: touch.unresolved !== null,
       isStay: false,
       stance: null,
+      person: null,
     };
   });
   return touches.sort((a, b) => a.begin - b.begin);
@@ -59,24 +85,18 @@ export function recordedTouches(
 /** Who is in triggers, as bars. */
 export function recordedStays(stays: readonly RecordedStay[], avatars: readonly Avatar[]): Touch[] {
   return stays.map((stay): Touch => ({
+    ...plainBar,
     avatar: stay.avatar,
     link: stay.link,
     linkName: avatars[stay.avatar].name,
     object: avatars[stay.trigger].name,
-    isOwn: false,
     otherAvatar: stay.trigger,
     begin: stay.begin,
     end: stay.end,
     begins: stay.begins === "inside" ? "inside" : "contact",
     ends: stay.ends,
-    isGround: false,
-    isMissed: null,
     isUndecided: stay.isUnresolved,
-    rows: [],
-    strength: null,
     isStay: true,
-    depth: null,
-    stance: null,
   }));
 }
 
@@ -101,6 +121,7 @@ export function touchOfRow(contact: Contact): Touch {
     isStay: false,
     depth: contact.penetration,
     stance: null,
+    person: null,
   };
 }
 
@@ -162,7 +183,7 @@ export interface TouchCount {
 
 /** As the program counts: touches of own links are another question, and the ground is counted apart. */
 export function countTouches(touches: readonly Touch[]): TouchCount {
-  const ofScene = touches.filter((touch) => !touch.isOwn && !touch.isStay && touch.stance === null && (!touch.isUndecided || touch.rows.length > 0));
+  const ofScene = touches.filter((touch) => !touch.isOwn && !touch.isStay && whose(touch) === "link" && (!touch.isUndecided || touch.rows.length > 0));
   const met = ofScene.filter((touch) => !touch.isGround);
   return {
     all: met.length,

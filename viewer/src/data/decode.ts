@@ -1,9 +1,10 @@
 // From the text of a view document to a checked ViewDocument, or one sentence on what is wrong.
 
 import type { Avatar, Kind, SummaryLine, ViewDocument } from "./document.js";
-import { Malformed, Reader } from "./reader.js";
+import { Malformed, present, Reader } from "./reader.js";
 import { decodeAvatar } from "./decode_avatar.js";
 import { decodeFoot } from "./decode_feet.js";
+import { decodePerson } from "./decode_person.js";
 import { decodeScene, emptyScene } from "./decode_scene.js";
 import { decodeCheck, decodeStay, decodeTouch } from "./decode_touch.js";
 
@@ -28,7 +29,7 @@ function decodeValue(value: unknown): ViewDocument {
   const root = new Reader(value, "");
   requireFormat(root);
   const kind = root.field("kind").oneOf(kinds);
-  const scene = root.optional("scene");
+  const scene = root.optional("scene"), person = present(root, "person");
   const avatars = together(root, (root.optional("avatars")?.items() ?? []).map(decodeAvatar));
   return {
     kind,
@@ -46,6 +47,7 @@ function decodeValue(value: unknown): ViewDocument {
     stays: (root.optional("stays")?.items() ?? []).map((item) => decodeStay(item, avatars)),
     frameTime: root.optional("frame_time")?.number(1e-9) ?? null,
     feet: (root.optional("feet")?.items() ?? []).map((item) => decodeFoot(item, avatars)),
+    person: person === null ? null : decodePerson(person, avatars),
     checks: (root.optional("checks")?.items() ?? []).map(decodeCheck),
     events: kind === "live" ? eventsAddress(root) : null,
   };

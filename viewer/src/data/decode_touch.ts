@@ -2,7 +2,7 @@ import type { Avatar, Check, RecordedStay, RecordedTouch, Strength } from "./doc
 import { present, type Reader } from "./reader.js";
 
 /** What rounding may put the end of a touch before its begin, seconds. */
-const rounding = 1e-6;
+export const rounding = 1e-6;
 
 export function decodeTouch(item: Reader, avatars: readonly Avatar[]): RecordedTouch {
   const avatar = item.optional("avatar")?.index(avatars.length) ?? 0;

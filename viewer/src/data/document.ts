@@ -23,6 +23,8 @@ export interface ViewDocument {
   readonly frameTime: number | null;
   /** Of a replay: how feet rest. */
   readonly feet: readonly RecordedFoot[];
+  /** Of a replay with bounds: what the person touched, not the model; null where nobody asked. */
+  readonly person: RecordedPerson | null;
   /** Of inspections: what the program says about unit, axis and place. */
   readonly checks: readonly Check[];
   /** Where live events come from; null where the document is no live one. */
@@ -251,6 +253,34 @@ export interface FootStance {
   readonly hover: number;
   /** On the ground; empty where it does not slide. */
   readonly trace: readonly Vector[];
+}
+
+export interface RecordedPerson {
+  /** The file of the bounds, and the motion between two poses that they are about. */
+  readonly bounds: string;
+  readonly between: string;
+  /** Of the poses that were asked. */
+  readonly rateHz: number;
+  readonly touches: readonly PersonTouch[];
+}
+
+/** What the person touched, whatever they did within the bounds. Seconds. */
+export interface PersonTouch {
+  /** Of the first avatar. */
+  readonly link: number;
+  /** The other one's name where it is an own link; "" where it is not known. */
+  readonly object: string;
+  readonly isOwn: boolean;
+  /** Nothing is touched before, and nothing after. */
+  readonly begin: number;
+  readonly end: number;
+  /** By when it had begun, and until when it had not ended; null of what is only possible. */
+  readonly certain: { readonly from: number; readonly to: number } | null;
+  /** The clip begins, or ends, in it. */
+  readonly beganBefore: boolean;
+  readonly goesOn: boolean;
+  /** The farthest that person and model may be apart in it, metres; null where it is not known. */
+  readonly growth: number | null;
 }
 
 /** Somebody is in a trigger, or nothing is known of that. */

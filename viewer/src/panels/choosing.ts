@@ -6,7 +6,7 @@ import { firstAfter } from "../contacts/contact.js";
 import { isDeep } from "../contacts/feet.js";
 import { momentOf } from "../contacts/opening.js";
 import type { Touch } from "../contacts/touch.js";
-import { firstTouchAfter } from "../contacts/touch.js";
+import { firstTouchAfter, whose } from "../contacts/touch.js";
 import type { Model } from "../model.js";
 import type { Store } from "../state.js";
 
@@ -42,8 +42,8 @@ export function timeOf({ stance, begin, end }: Touch): number {
 /** The touch before (-1) or after (1) the chosen one, or else the time shown, of those that are shown. */
 export function walkTouches(store: Store, model: Model, direction: -1 | 1): void {
   const { touch, time, search, showsGround } = store.state;
-  const isOfFeet = touch !== null && touch.stance !== null;
-  const touches = model.shownTouches(search, showsGround).filter(({ stance }) => (stance !== null) === isOfFeet);
+  const walked = touch === null ? "link" : whose(touch);
+  const touches = model.shownTouches(search, showsGround).filter((one) => whose(one) === walked);
   const chosen = touch === null ? -1 : touches.indexOf(touch);
   const next = chosen >= 0 ? chosen + direction : neighbour(firstTouchAfter(touches, time), direction);
   if (touches[next] !== undefined) chooseTouch(store, model, touches[next]);

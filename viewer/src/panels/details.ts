@@ -4,12 +4,13 @@ import { isSlide } from "../contacts/feet.js";
 import { discreteCount } from "../contacts/discrete.js";
 import type { Contact } from "../contacts/contact.js";
 import { verdictNames } from "../contacts/contact.js";
+import type { PersonTouch } from "../data/document.js";
 import type { Model } from "../model.js";
 import type { LinkChoice, Store } from "../state.js";
 import type { Touch } from "../contacts/touch.js";
 import { chooseContact } from "./choosing.js";
 import { button, definitionTable, element } from "./dom.js";
-import { count, framesOf, length, millimetres, plural, seconds, speed, tally, vector } from "./words.js";
+import { count, framesOf, length, millimetres, plural, seconds, speed, tally, vector, whenOfPerson } from "./words.js";
 
 /** How hard the two meet. */
 function linesOfForce({ strength }: Touch): Line[] {
@@ -20,6 +21,15 @@ function linesOfForce({ strength }: Touch): Line[] {
   if (effectiveMass !== null) lines.push(["effective mass", `${effectiveMass.toPrecision(3)} kg`, "that meets the other along the normal"]);
   if (impulse !== null) lines.push(["impulse", `${impulse.toPrecision(3)} N s`, "that would take the approach away"]);
   return lines;
+}
+
+/** The first line: what it is, of whom, and with what. */
+function who(swatch: string, linkName: string, rest: string): HTMLElement {
+  return element("p", { class: "who" }, element("span", { class: `swatch ${swatch}` }), element("strong", { text: linkName }), element("span", { text: rest }));
+}
+
+function besides(object: string): string {
+  return object === "" ? "" : ` × ${object}`;
 }
 
 /** Of one touch, in the list of its contacts. */
@@ -46,11 +56,12 @@ export class Details {
     const { contact, touch, link } = this.store.state, { knowsTouches } = this.model;
     const title = this.node.querySelector("h2");
     const isLink = contact === null && touch === null && link !== null;
-    if (title !== null) title.textContent = isLink ? "Link" : knowsTouches ? "Touch" : "Contact";
+    if (title !== null) title.textContent = isLink ? "Link" : touch !== null && touch.person !== null ? "The person" : knowsTouches ? "Touch" : "Contact";
     this.body.replaceChildren(...this.content(contact, knowsTouches ? touch : null, link));
   }
 
   private content(contact: Contact | null, touch: Touch | null, link: LinkChoice | null): Node[] {
+    if (touch !== null && touch.person !== null) return this.ofPerson(touch, touch.person);
     if (touch !== null) return this.ofTouch(touch, contact);
     if (contact !== null) return this.ofContact(contact);
     if (link !== null) return this.ofLink(link);
@@ -64,11 +75,7 @@ export class Details {
     const zero = this.model.timeZero;
     const kind = touch.stance !== null && isSlide(touch.stance) ? "slide" : touch.isStay ? "trigger" : touch.isGround ? "ground" : touch.isUndecided ? "undecided" : touch.begins === "inside" ? "starts_in_contact" : "contact";
     const isFoot = touch.stance !== null;
-    const parts: Node[] = [element("p", { class: "who" },
-      element("span", { class: `swatch ${kind}` }),
-      element("strong", { text: touch.linkName }),
-      element("span", { text: isFoot ? " on the ground" : touch.object === "" ? "" : touch.isStay ? ` in ${touch.object}` : ` × ${touch.object}` }),
-    )];
+    const parts: Node[] = [who(kind, touch.linkName, isFoot ? " on the ground" : touch.isStay && touch.object !== "" ? ` in ${touch.object}` : besides(touch.object))];
     if (touch.isUndecided) parts.push(element("p", { class: "badge", text: "Nothing is claimed in this time" }));
     if (touch.isMissed === true) parts.push(element("p", { class: "badge", text: "A check of the poses misses it" }));
     parts.push(definitionTable([
@@ -81,6 +88,21 @@ export class Details {
     if (touch.rows.length > 0) parts.push(this.rowsOf(touch, contact));
     if (contact !== null) parts.push(this.stepOf(contact));
     return parts;
+  }
+
+  /** What is true of the person, whatever they did within the bounds. */
+  private ofPerson(touch: Touch, person: PersonTouch): Node[] {
+    const [began, ended] = whenOfPerson(person, this.model.timeZero), isCertain = ended !== undefined;
+    const { bounds = "", between = "", rateHz = 0 } = this.model.document.person ?? {};
+    const lines: Line[] = [
+      isCertain ? ["certain", "surely touched"] : ["possible", "may have touched"],
+      [isCertain ? "began" : "when", began, person.beganBefore ? "the clip begins in it" : ""],
+      ...(isCertain ? [["ended", ended, person.goesOn ? "the clip ends in it" : ""] as const] : []),
+      ...this.linesOfBadness(touch),
+      ...(person.growth === null ? [] : [["apart", length(person.growth), "at most: the person, and the model that is shown"] as const]),
+      ["bounds", bounds, `${between}, ${Number(rateHz.toFixed(2))} poses a second`],
+    ];
+    return [who(isCertain ? "person" : "perhaps", touch.linkName, besides(touch.object)), definitionTable(lines)];
   }
 
   /** What a person looks for first: how deep, how far it slides, which frames. */
@@ -121,11 +143,7 @@ export class Details {
   }
 
   private ofContact(contact: Contact): Node[] {
-    const heading = element("p", { class: "who" },
-      element("span", { class: `swatch ${contact.verdict}` }),
-      element("strong", { text: contact.linkName }),
-      element("span", { text: contact.object === null ? "" : ` × ${contact.object}` }),
-    );
+    const heading = who(contact.verdict, contact.linkName, besides(contact.object ?? ""));
     const badge = element("p", { class: "badge", text: "A check of the poses misses it" });
     const parts: Node[] = [heading];
     if (contact.missedByPoses === true) parts.push(badge);

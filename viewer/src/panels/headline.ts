@@ -2,6 +2,7 @@
 
 import { discreteCount } from "../contacts/discrete.js";
 import { worstBy } from "../contacts/feet.js";
+import { countPerson } from "../contacts/person.js";
 import type { Model } from "../model.js";
 import { byId } from "./dom.js";
 import { count, length, millimetres, personOf, placeOf, plural, seconds, tally } from "./words.js";
@@ -9,7 +10,7 @@ import { count, length, millimetres, personOf, placeOf, plural, seconds, tally }
 export function showHeadline(model: Model): void {
   byId("title").textContent = model.document.title;
   document.title = `${model.document.title} · Foretouch`;
-  byId("headline").textContent = `${headline(model)}${ofFeet(model)}`;
+  byId("headline").textContent = `${headline(model)}${ofFeet(model)}${ofPerson(model)}`;
 }
 
 /** The foot that slides farthest, and the deepest. */
@@ -20,6 +21,13 @@ function ofFeet(model: Model): string {
   if (deep?.stance != null) parts.push(`${deep.linkName} is ${millimetres(deep.stance.depth)} deep in (${framed(model, deep.stance.depthAt)})`);
   if (parts.length > 0) return ` ${parts.join(", and ")}.`;
   return model.document.feet.length > 0 ? " No foot slides or sinks in." : "";
+}
+
+/** What is true of the person, not of the model. */
+function ofPerson({ document: { person } }: Model): string {
+  if (person === null) return "";
+  const { certain, possible } = countPerson(person);
+  return ` The person: ${count(certain)} surely touched, ${count(possible)} perhaps.`;
 }
 
 function framed(model: Model, time: number): string {

@@ -1,5 +1,6 @@
 // Everything that the view can draw, by name; what is not drawn right now is grey.
 
+import type { Touch } from "../contacts/touch.js";
 import type { Model } from "../model.js";
 import type { Store } from "../state.js";
 import { element } from "./dom.js";
@@ -11,6 +12,10 @@ interface Entry {
   readonly name: string;
   readonly meaning: string;
   readonly isDrawn: boolean;
+}
+
+function isVeiled({ person }: Touch): boolean {
+  return person !== null && person.growth !== null;
 }
 
 export class Legend {
@@ -38,7 +43,8 @@ export class Legend {
     const { model } = this, { state } = this.store;
     const isInspection = model.document.kind === "inspection";
     if (isInspection) return [...this.bodies(), this.entry("asked", "where a click puts it", "The body at the place to copy.", state.place !== null)];
-    const isStill = !state.isPlaying && !state.follows && !state.showsDiscrete;
+    const isOfPerson = state.touch !== null && state.touch.person !== null;
+    const isStill = !isOfPerson && !state.isPlaying && !state.follows && !state.showsDiscrete;
     const hasStep = state.contact !== null || isStill;
     const hasSwept = model.avatars.some((avatar) => avatar.swept.length > 0);
     const isElsewhere = state.contact !== null && state.time !== state.contact.at;
@@ -52,6 +58,7 @@ export class Legend {
         this.entry("at-contact", "pose at the contact", "The body where it first touches.", state.showsGhosts && isElsewhere && isStill),
       ]),
       ...(model.bodies.length < model.avatars.length ? [this.entry("trigger", "trigger", meaningOf("trigger"), true)] : []),
+      ...(model.personTouches.some(isVeiled) ? [this.entry("veil", "the person's link", "The chosen link, as thick as it is with the person's in it: they are at most that far apart.", isOfPerson && isVeiled(state.touch))] : []),
       ...(hasSwept ? [this.entry("swept", "swept volume", meaningOf("swept volume"), state.showsSwept && state.contact !== null)] : []),
       this.entry("mark contact", "contact", "Where a link first touches in a step; small and pale: at another instant.", true),
       this.entry("mark starts_in_contact", "starts in contact", meaningOf("starts in contact"), true),

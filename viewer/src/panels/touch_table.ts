@@ -1,6 +1,7 @@
 // The touches as a table: what the timeline and the view show, in words, and as a file.
 
 import type { Touch } from "../contacts/touch.js";
+import { whose } from "../contacts/touch.js";
 import type { Model } from "../model.js";
 import type { Store } from "../state.js";
 import { chooseTouch } from "./choosing.js";
@@ -44,7 +45,7 @@ export class TouchTable {
   }
 
   private touches(): readonly Touch[] {
-    return this.model.shownTouches(this.store.state.search, this.store.state.showsGround).filter(({ stance }) => stance === null);
+    return this.model.shownTouches(this.store.state.search, this.store.state.showsGround).filter((touch) => whose(touch) === "link");
   }
 
   private turn(pages: number): void {

@@ -3,7 +3,7 @@
 import type { Contact } from "../contacts/contact.js";
 import { isDeep, isSlide } from "../contacts/feet.js";
 import type { Touch } from "../contacts/touch.js";
-import type { FootStance, Strength, Vector, Verdict } from "../data/document.js";
+import type { FootStance, PersonTouch, Strength, Vector, Verdict } from "../data/document.js";
 
 export function seconds(value: number): string {
   return `${value.toFixed(3)} s`;
@@ -84,6 +84,7 @@ export function storyOfTouch(touch: Touch, timeZero: number): string {
   const object = touch.object === "" ? "the scene" : touch.object;
   const from = seconds(touch.begin - timeZero), to = seconds(touch.end - timeZero);
   if (touch.stance !== null) return `${touch.linkName} ${touch.stance.kind === "hovers" ? "rests" : "touches the ground"} from ${from} to ${to}: ${linesOfStance(touch.stance).join(", ")}.`;
+  if (touch.person !== null) return storyOfPerson(touch.linkName, touch.person, timeZero);
   if (touch.isStay) return touch.isUndecided ? `It is not known whether ${touch.linkName} is in ${object} from ${from} to ${to}.` : `${touch.linkName} is in ${object} from ${from} to ${to}${touch.ends === "open" ? ", and still when the clip ends" : ""}.`;
   if (touch.isUndecided && touch.rows.length === 0) return `Nothing is claimed of ${touch.linkName} and ${object} from ${from} to ${to}.`;
   const begins = touch.begins === "inside" ? `touches ${object} already at ${from}` : `touches ${object} from ${from}`;
@@ -99,6 +100,31 @@ export function linesOfStance(stance: FootStance): string[] {
   const lines = [isSlide(stance) ? `its ${stance.slides} slides ${millimetres(stance.slide)}` : "it does not slide"];
   if (isDeep(stance)) lines.push(`its ${stance.deepest} is ${millimetres(stance.depth)} deep in the ground`);
   return stance.kind === "under" ? [...lines, "in between it is below the ground"] : lines;
+}
+
+function storyOfPerson(linkName: string, person: PersonTouch, timeZero: number): string {
+  const [first, ...more] = linesOfPerson(person, timeZero);
+  return `${linkName} ${first}${more.length === 0 ? "" : `: ${more.join(", ")}`}.`;
+}
+
+/** Of the person: that they surely touched something, and between when it began and ended; or that they may have. */
+export function linesOfPerson(person: PersonTouch, timeZero: number): string[] {
+  const what = person.object === "" ? "something" : person.object, when = whenOfPerson(person, timeZero);
+  if (when.length === 1) return [`may have touched ${what} ${when[0]}`];
+  return [`surely touched ${what}`, `${person.beganBefore ? "had begun" : "began"} ${when[0]}`, `ended ${when[1]}`];
+}
+
+/** When it began and when it ended, if it is certain; else when it may have been. */
+export function whenOfPerson({ begin, end, certain, beganBefore, goesOn }: PersonTouch, timeZero: number): [string, string] | [string] {
+  const from = begin - timeZero, to = end - timeZero;
+  if (certain === null) return [beganBefore ? (goesOn ? "at any time" : `up to ${seconds(to)}`) : goesOn ? `from ${seconds(from)} on` : within(from, to)];
+  const begun = certain.from - timeZero, ended = certain.to - timeZero;
+  return [beganBefore ? `by ${seconds(begun)}` : within(from, begun), goesOn ? `not before ${seconds(ended)}` : within(ended, to)];
+}
+
+/** "between 2.314 and 2.316 s". */
+function within(from: number, to: number): string {
+  return from.toFixed(3) === to.toFixed(3) ? `at ${seconds(to)}` : `between ${from.toFixed(3)} and ${seconds(to)}`;
 }
 
 /** With a tenth: as `foretouch feet` says them. */

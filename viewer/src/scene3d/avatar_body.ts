@@ -2,7 +2,7 @@
 // blending. Ghosts share its vertices.
 
 import * as THREE from "three";
-import type { Avatar, LinkMesh } from "../data/document.js";
+import type { Avatar, LinkMesh, Lss } from "../data/document.js";
 import { transformSize } from "../motion/chain.js";
 import type { Shape } from "../state.js";
 import { appendCapsule, emptySurface, round, roundEnough } from "./capsule.js";
@@ -17,12 +17,17 @@ const maxCoarseTriangles = 8000;
 /** Vertices of a whole avatar, each moved by its link alone; in the other shape where it has but that. */
 export function bodyGeometry(avatar: Avatar, shape: Shape, isCoarse: boolean): THREE.BufferGeometry {
   const isMesh = avatar.lss.length === 0 || (shape === "mesh" && avatar.meshes.length > 0);
-  return isMesh ? meshGeometry(isCoarse ? coarseMeshes(avatar.meshes) : avatar.meshes) : capsuleGeometry(avatar, isCoarse);
+  return isMesh ? meshGeometry(isCoarse ? coarseMeshes(avatar.meshes) : avatar.meshes) : capsuleGeometry(avatar.lss, isCoarse);
 }
 
-function capsuleGeometry(avatar: Avatar, isCoarse: boolean): THREE.BufferGeometry {
+/** Vertices of one link's LSS, thicker by `growth`, metres; the link's bone moves them. */
+export function grownGeometry({ lss }: Avatar, link: number, growth: number): THREE.BufferGeometry {
+  return capsuleGeometry(lss.filter((one) => one.link === link).map((one) => ({ ...one, radius: one.radius + growth })), false);
+}
+
+function capsuleGeometry(all: readonly Lss[], isCoarse: boolean): THREE.BufferGeometry {
   const surface = emptySurface();
-  for (const lss of avatar.lss) appendCapsule(surface, lss, isCoarse ? roundEnough : round);
+  for (const lss of all) appendCapsule(surface, lss, isCoarse ? roundEnough : round);
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(surface.positions, 3));
   geometry.setAttribute("normal", new THREE.Float32BufferAttribute(surface.normals, 3));

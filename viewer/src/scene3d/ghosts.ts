@@ -1,13 +1,15 @@
-// Ghosts: the pose before a step, the pose that was asked for, the pose at the contact, and of a solid
-// avatar the one that its tracker says. Where the avatar itself is seen they are only hinted at, so that it keeps its colour.
+// Ghosts: the pose before a step, the pose that was asked for, the pose at the contact, of a solid
+// avatar the one that its tracker says, and of a link how far the person may be from it. Where the avatar itself is seen they are only hinted at, so that it keeps its colour.
 
 import * as THREE from "three";
 import { AvatarBody, bodyStencil } from "./avatar_body.js";
 import type { Palette } from "./palette.js";
 import { linkMaterial, setScreenColour } from "./shading.js";
 
+/** Of a whole body in a pose. */
 export type GhostName = "before" | "asked" | "atContact" | "tracked";
-const opacities: Record<GhostName, number> = { before: 0.3, asked: 0.5, atContact: 0.5, tracked: 0.5 };
+type Shown = GhostName | "veil";
+const opacities: Record<Shown, number> = { before: 0.3, asked: 0.5, atContact: 0.5, tracked: 0.5, veil: 0.45 };
 /** Of a ghost's opacity, in front of the avatar. */
 const hint = 0.22;
 
@@ -18,7 +20,7 @@ export class Ghost {
   private readonly colours: readonly THREE.ShaderMaterial[];
 
   constructor(
-    private readonly name: GhostName,
+    private readonly name: Shown,
     geometry: THREE.BufferGeometry,
     links: number,
     parent: THREE.Object3D,

@@ -24,6 +24,10 @@ export interface Palette {
   readonly ground: string;
   /** Of feet that slide, and of the way that they slid. */
   readonly slide: string;
+  /** Of the person, beside the model: what they surely touched, and perhaps; and around a link, how far they may be from it. */
+  readonly person: string;
+  readonly perhaps: string;
+  readonly veil: string;
   /** Of triggers, and who is in them. */
   readonly trigger: string;
   readonly ink: string;
@@ -55,6 +59,9 @@ export const palettes: Record<Theme, Palette> = {
     halo: "#ffffff",
     ground: "#c9c2b6",
     slide: "#7b3fb5",
+    person: "#0072b2",
+    perhaps: "#b2d5e8",
+    veil: "#1d2530",
     trigger: "#009e73",
     ink: "#1d2530",
     faint: "#6b7584",
@@ -77,6 +84,9 @@ export const palettes: Record<Theme, Palette> = {
     halo: "#14181e",
     ground: "#5d574f",
     slide: "#b48ae8",
+    person: "#6cc0f5",
+    perhaps: "#2b4659",
+    veil: "#e7ebf0",
     trigger: "#1fc297",
     ink: "#e7ebf0",
     faint: "#98a2b0",

@@ -5,7 +5,7 @@ import type { Avatar, Bounds, Vector } from "../data/document.js";
 import type { Clip, Instant } from "../motion/clip.js";
 import { Posture } from "../motion/clip.js";
 import type { Shape } from "../state.js";
-import { AvatarBody, bodyGeometry, bodyStencil, LinkColours } from "./avatar_body.js";
+import { AvatarBody, bodyGeometry, bodyStencil, grownGeometry, LinkColours } from "./avatar_body.js";
 import { boundsOfPosture } from "./bounds.js";
 import type { GhostName } from "./ghosts.js";
 import { Ghost } from "./ghosts.js";
@@ -28,6 +28,8 @@ export class Performer {
   private readonly body: AvatarBody;
   private readonly colours: LinkColours;
   private readonly ghosts: Record<GhostName, Ghost>;
+  /** Around a link: where the person's may be. */
+  private readonly veil: Ghost;
   private readonly ghostPosture: Posture;
   private readonly trackedPosture: Posture | null;
   /** Of a trigger, which has no body. */
@@ -57,6 +59,7 @@ export class Performer {
     this.outline = avatar.outline === null ? null : new Outline(avatar.outline, this.group);
     const ghost = (name: GhostName): Ghost => new Ghost(name, this.shown, links, this.group);
     this.ghosts = { before: ghost("before"), asked: ghost("asked"), atContact: ghost("atContact"), tracked: ghost("tracked") };
+    this.veil = new Ghost("veil", grownGeometry(avatar, -1, 0), links, this.group);
     this.group.visible = clip.hasPose;
   }
 
@@ -119,8 +122,16 @@ export class Performer {
     this.ghosts[name].show(world, this.origin);
   }
 
+  /** Shows a link as thick as it is with the person in it, where they are up to `growth` metres from it; hides it where that is null. */
+  showVeil(link: number, growth: number | null): void {
+    if (growth === null) return this.veil.hide();
+    this.veil.geometry = this.kept(`${link} ${growth}`, () => grownGeometry(this.avatar, link, growth));
+    this.veil.show(this.posture.world, this.origin);
+  }
+
   hideGhosts(): void {
     for (const ghost of Object.values(this.ghosts)) ghost.hide();
+    this.veil.hide();
   }
 
   /** `touching` in the colour of contacts; where the pose is held, all paler. */
@@ -137,7 +148,7 @@ export class Performer {
 
   paintGhosts(palette: Palette): void {
     this.outline?.paint(palette);
-    for (const ghost of Object.values(this.ghosts)) ghost.paint(palette);
+    for (const ghost of [...Object.values(this.ghosts), this.veil]) ghost.paint(palette);
   }
 
   /** Box of all links as they are now, in the world. */
@@ -146,9 +157,11 @@ export class Performer {
   }
 
   private geometryNow(): THREE.BufferGeometry {
-    const key = `${this.shape} ${this.isCoarse}`, known = this.geometries.get(key);
-    if (known !== undefined) return known;
-    const geometry = bodyGeometry(this.avatar, this.shape, this.isCoarse);
+    return this.kept(`${this.shape} ${this.isCoarse}`, () => bodyGeometry(this.avatar, this.shape, this.isCoarse));
+  }
+
+  private kept(key: string, make: () => THREE.BufferGeometry): THREE.BufferGeometry {
+    const geometry = this.geometries.get(key) ?? make();
     this.geometries.set(key, geometry);
     return geometry;
   }

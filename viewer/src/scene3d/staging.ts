@@ -91,6 +91,7 @@ export class Staging {
       performer.paint(palettes[state.theme], touchingOf(index, lit), this.chosenLink(index));
       if (state.place !== null) this.poseAtPlace(performer);
       else this.poseGhosts(performer, index);
+      performer.showVeil(state.touch?.link ?? 0, state.touch?.avatar === index ? (state.touch.person?.growth ?? null) : null);
     });
     const arrows = state.contact === null ? lit : [...new Set([state.contact, ...lit])];
     this.markers.hasTraces = true;
@@ -153,7 +154,7 @@ export class Staging {
     }
     const chosen = state.contact !== null && state.contact.avatar === index ? state.contact : null;
     const step = chosen?.step ?? performer.instant.step;
-    const isShown = state.showsGhosts && !state.showsDiscrete && !state.isPlaying && !state.follows && step >= 0;
+    const isShown = state.showsGhosts && state.touch?.person == null && !state.showsDiscrete && !state.isPlaying && !state.follows && step >= 0;
     performer.showGhost("before", step, isShown ? 0 : null);
     performer.showGhost("asked", step, isShown ? 1 : null);
     const isElsewhere = chosen !== null && Math.abs(state.time - chosen.at) > 1e-6;

@@ -13,7 +13,7 @@ import type { Performer } from "./performer.js";
 /** A body smaller than this share of the scene is not seen where all of the scene is. */
 const lostShare = 0.2;
 
-/** Of the body's radius: around a foot. */
+/** Of the body's radius: around a foot, or a link. */
 const closeUp = 0.35;
 /** Of the body's radius: what is to be placed is looked at with the floor that it stands on. */
 const surroundings = 1.7;
@@ -39,20 +39,31 @@ export class Subjects {
       centre: middle,
       radius: Math.max(0.86 * radius, middle.distanceTo(point) + 0.2 * radius),
       point,
-      body: this.limbsBeside(contact),
+      body: this.limbsBeside(contact.avatar, contact.link),
       wanted: [before, after],
       normal: contact.normal === null ? null : new THREE.Vector3(...contact.normal),
       motion: after.clone().sub(before),
     };
   }
 
-  /** The foot as it is now, from near, with the way that it slides. */
-  ofStance({ avatar, link, stance }: Touch): Subject {
+  /** The foot as it is now, from near, with the way that it slides; or the link of the person. */
+  ofLink({ avatar, link, stance }: Touch): Subject {
     const { posture } = this.performers[avatar], { radius } = ball(this.performers[avatar].bounds());
-    const transform = posture.transform(link), ankle = this.local([transform[9], transform[10], transform[11]]);
-    const trace = (stance?.trace ?? []).map((at) => this.local(at));
+    if (stance === null) {
+      const middle = this.middleOf(avatar, link);
+      return { centre: middle, radius: closeUp * radius, point: middle, wanted: [], body: this.limbsBeside(avatar, link), normal: null, motion: null };
+    }
+    const ankle = this.local(pointAt(posture.world, transformSize * link, [0, 0, 0])), trace = stance.trace.map((at) => this.local(at));
     const farthest = trace.reduce((most, at) => Math.max(most, at.distanceTo(ankle)), 0);
     return { centre: ankle, radius: Math.max(closeUp * radius, farthest), point: ankle, wanted: trace.slice(0, 1), body: [], normal: new THREE.Vector3(0, 1, 0), motion: null };
+  }
+
+  /** Of its LSS; its joint where it has none. */
+  private middleOf(avatar: number, link: number): THREE.Vector3 {
+    const { avatar: { lss }, posture } = this.performers[avatar];
+    const ends = lss.filter((one) => one.link === link).flatMap(({ a, b }) => [a, b]), all = ends.length === 0 ? [[0, 0, 0] as const] : ends;
+    const sum = all.reduce((to, end) => to.add(this.local(pointAt(posture.world, transformSize * link, end))), new THREE.Vector3());
+    return sum.divideScalar(all.length);
   }
 
   /** The bodies as they are now; with the scene where asked for, or where there is no body. */
@@ -78,9 +89,9 @@ export class Subjects {
   }
 
   /** All limbs but the one in contact and the one it moves with, as they are posed. */
-  private limbsBeside(contact: Contact): Limb[] {
-    const { avatar, posture } = this.performers[contact.avatar];
-    const beside = avatar.lss.filter(({ link }) => link !== contact.link && link !== avatar.links[contact.link].parent);
+  private limbsBeside(index: number, chosen: number): Limb[] {
+    const { avatar, posture } = this.performers[index];
+    const beside = avatar.lss.filter(({ link }) => link !== chosen && link !== avatar.links[chosen].parent);
     return beside.map(({ link, a, b, radius }) => {
       const at = transformSize * link;
       return { a: this.local(pointAt(posture.world, at, a)), b: this.local(pointAt(posture.world, at, b)), radius };

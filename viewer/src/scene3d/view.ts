@@ -2,6 +2,7 @@
 
 import * as THREE from "three";
 import { discreteCount } from "../contacts/discrete.js";
+import { whose } from "../contacts/touch.js";
 import type { Vector } from "../data/document.js";
 import type { Model } from "../model.js";
 import { chooseContact } from "../panels/choosing.js";
@@ -104,8 +105,8 @@ export class View3D {
     const { contact, touch } = this.store.state;
     this.staging.poseTruth();
     const isContact = scope === "body" && contact !== null && contact.point !== null;
-    const isStance = scope === "body" && touch !== null && touch.stance !== null;
-    const subject = isContact ? this.subjects.ofContact(contact) : isStance ? this.subjects.ofStance(touch) : this.subjects.ofAll(scope);
+    const isLink = scope === "body" && touch !== null && whose(touch) !== "link";
+    const subject = isContact ? this.subjects.ofContact(contact) : isLink ? this.subjects.ofLink(touch) : this.subjects.ofAll(scope);
     this.flight.to(sightOf(subject, this.stage.camera, this.occluders), isInstant);
     this.staging.poseTruth();
   }
@@ -116,10 +117,10 @@ export class View3D {
     this.frame(true, this.store.state.contact === null ? this.subjects.opening() : "body");
   }
 
-  /** Frames the chosen foot, or the chosen contact if it is not seen well already. */
+  /** Frames the chosen foot, or link of the person, or the chosen contact if it is not seen well already. */
   keepInSight(): void {
     const { contact, touch } = this.store.state, point = contact?.point ?? null;
-    if (touch !== null && touch.stance !== null) return this.frame(false);
+    if (touch !== null && whose(touch) !== "link") return this.frame(false);
     if (contact === null || point === null) return;
     const at = this.screenOf(point);
     const { clientWidth, clientHeight } = this.stage.canvas;

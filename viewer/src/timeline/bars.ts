@@ -2,7 +2,7 @@
 
 import { isDeep, isSlide } from "../contacts/feet.js";
 import type { Touch } from "../contacts/touch.js";
-import type { FootStance, Verdict } from "../data/document.js";
+import type { FootStance, PersonTouch, Verdict } from "../data/document.js";
 import type { Palette } from "../scene3d/palette.js";
 
 const minBarWidth = 3;
@@ -10,11 +10,15 @@ const minBarWidth = 3;
 const fullSpikeSpeed = 2, spikeHeight = 5, spikeWidth = 6;
 /** Of a notch: the depth, metres, at which it goes through the bar; less than this share is not seen. */
 const fullNotch = 0.03, leastNotch = 0.35, notchWidth = 7;
+/** Of what is certain within what is possible, CSS pixels. */
+const minSolidWidth = 2;
 /** Of full height; less is not seen. */
 const leastSpike = 0.15;
 
 export class BarPainter {
   private readonly hatches = new Map<string, CanvasPattern>();
+  /** x, y, width and height of what is certain of the person and not drawn yet. */
+  private readonly certain: [number, number, number, number][] = [];
 
   constructor(
     private readonly context: CanvasRenderingContext2D,
@@ -26,6 +30,7 @@ export class BarPainter {
     const { context } = this;
     const width = Math.max(minBarWidth, x1 - x0);
     if (touch.stance !== null) return this.stance(touch.stance, x0, width, y, height);
+    if (touch.person !== null) return this.person(touch.person, x0, width, y, height);
     const verdict = verdictOf(touch), colour = touch.isGround ? this.palette.ground : touch.isStay ? this.palette.trigger : this.palette.verdicts[verdict];
     context.strokeStyle = colour;
     context.lineWidth = 1;
@@ -61,6 +66,24 @@ export class BarPainter {
     context.lineTo(x + notchWidth / 2, y);
     context.lineTo(x, y + share * (height + spikeHeight));
     context.fill();
+  }
+
+  /** Of the person: light where it is possible, with an outline where it is nowhere certain. */
+  private person({ begin, end, certain }: PersonTouch, x0: number, width: number, y: number, height: number): void {
+    const { context, palette } = this, xOf = (time: number): number => x0 + (end > begin ? (time - begin) / (end - begin) : 0) * width;
+    context.fillStyle = palette.perhaps;
+    context.fillRect(x0, y, width, height);
+    context.strokeStyle = palette.person;
+    context.lineWidth = 1;
+    if (certain === null) return context.strokeRect(x0 + 0.5, y + 0.5, width - 1, height - 1);
+    const from = Math.min(xOf(certain.from), x0 + width - minSolidWidth);
+    this.certain.push([from, y, Math.max(minSolidWidth, xOf(certain.to) - from), height]);
+  }
+
+  /** What is certain of the bars so far: nothing that is but possible hides it. */
+  drawCertain(): void {
+    this.context.fillStyle = this.palette.person;
+    for (const area of this.certain.splice(0)) this.context.fillRect(...area);
   }
 
   /** How fast two approach where they meet, as the height of a spike above the bar's begin. */

@@ -75,8 +75,8 @@ function drawBars(context: CanvasRenderingContext2D, painter: BarPainter, palett
     if (touch.end < window.t0) continue;
     if (touch.begin > window.t1) break;
     const x0 = lanes.xOf(touch.begin), x1 = lanes.xOf(touch.end);
-    // Thousands of bars on one pixel look like one.
-    if (x1 < drawnTo + 0.5 && touch !== chosen) continue;
+    // Thousands of bars on one pixel look like one; what is certain is seen on what is but possible.
+    if (x1 < drawnTo + 0.5 && touch !== chosen && touch.person?.certain == null) continue;
     drawnTo = Math.max(drawnTo, x1, x0 + 1);
     painter.bar(touch, x0, x1, top, height, lanes.showsDiscrete && touch.isMissed === true);
     if (touch !== chosen || row.isHeading) continue;
@@ -84,5 +84,6 @@ function drawBars(context: CanvasRenderingContext2D, painter: BarPainter, palett
     context.lineWidth = 2;
     context.strokeRect(x0 - 2, top - 3, Math.max(3, x1 - x0) + 4, height + 6);
   }
+  painter.drawCertain();
   context.restore();
 }

@@ -1,6 +1,7 @@
 // The whole clip in a strip: how much touches when, and what part of it the timeline shows.
 
 import type { Touch } from "../contacts/touch.js";
+import { whose } from "../contacts/touch.js";
 import { element } from "../panels/dom.js";
 import type { Palette } from "../scene3d/palette.js";
 import { Gestures } from "./gestures.js";
@@ -46,7 +47,7 @@ export class Overview {
     if (context === null) return;
     const { whole, window, gutter, width } = strip;
     const span = Math.max(1, width - gutter), xOf = (time: number): number => gutter + ((time - whole.t0) / (whole.t1 - whole.t0)) * span;
-    const bins = Math.max(1, Math.floor(span / binWidth)), links = strip.touches.filter(({ stance }) => stance === null);
+    const bins = Math.max(1, Math.floor(span / binWidth)), links = strip.touches.filter((touch) => whose(touch) === "link");
     const all = densityOf(links, whole, bins), ground = densityOf(links.filter(({ isGround }) => isGround), whole, bins);
     const most = all.reduce((a, b) => Math.max(a, b), 1);
     // As the bars below: the ground at the foot of each column, in its colour.

@@ -1,7 +1,8 @@
 // Rows and windows of the timeline, without drawing: a row a link or an object, a bar a touch.
 
 import { badness } from "../contacts/feet.js";
-import type { Touch } from "../contacts/touch.js";
+import type { Touch, Whose } from "../contacts/touch.js";
+import { whose } from "../contacts/touch.js";
 import type { Avatar } from "../data/document.js";
 import { limbs, limbsOf, shortNames } from "../motion/limbs.js";
 
@@ -28,37 +29,51 @@ export interface Row {
 const thingGroup = "things", triggerGroup = "triggers";
 /** How feet stand: above all others. */
 export const feetGroup = "feet on the ground";
+/** What the person touched, not the model: below them. */
+export const personGroup = "the person";
 
-/** Without the rows of `folded` groups. */
+/** Without the rows of `folded` groups; `bounds` are those of the person. */
 export function rowsOf(
   touches: readonly Touch[],
   avatars: readonly Avatar[],
   grouping: Grouping,
   folded: ReadonlySet<string>,
+  bounds = "",
 ): Row[] {
-  const ofLinks = touches.filter(({ stance }) => stance === null);
-  if (grouping === "object") return rowsOfObjects(ofLinks);
-  const feet = grouping !== "limb" ? [] : withHeading(rowsOfFeet(touches.filter(({ stance }) => stance !== null)), feetGroup, folded);
-  return [...feet, ...rowsBesideFeet(ofLinks, avatars, grouping, folded)];
+  const of = (one: Whose): Touch[] => touches.filter((touch) => whose(touch) === one);
+  if (grouping === "object") return rowsOfObjects(of("link"));
+  const rows = rowsOfModel(of("link"), avatars, grouping, folded);
+  if (grouping !== "limb") return rows;
+  const person = withHeading(rowsOfPerson(of("person"), avatars), personGroup, folded, `${personGroup}, ${bounds}`);
+  return [...withHeading(rowsOfFeet(of("foot")), feetGroup, folded), ...person, ...rows];
+}
+
+/** A row a link, in their order. */
+function rowsOfPerson(touches: readonly Touch[], avatars: readonly Avatar[]): Row[] {
+  const short = shortNames((avatars[0]?.links ?? []).map(({ name }) => name));
+  return [...gathered(touches, ({ link }) => String(link)).values()].map((one) => rowOfGroup(one, short[one[0].link], personGroup)).sort((a, b) => a.link - b.link);
+}
+
+/** Of touches of one link. */
+function rowOfGroup(touches: readonly Touch[], name: string, group: string): Row {
+  const [{ linkName, avatar, link }] = touches;
+  return { isHeading: false, name, fullName: linkName, group, avatar, link, touches };
 }
 
 /** A row a foot, the one that slides farthest or is deepest first. */
 function rowsOfFeet(stances: readonly Touch[]): Row[] {
   const worst = (touches: readonly Touch[]): number => touches.reduce((most, { stance }) => Math.max(most, stance === null ? 0 : badness(stance)), 0);
-  return [...gathered(stances, ({ link }) => String(link)).values()].sort((a, b) => worst(b) - worst(a)).map((touches): Row => ({
-    isHeading: false, name: touches[0].linkName, fullName: touches[0].linkName, group: feetGroup,
-    avatar: touches[0].avatar, link: touches[0].link, touches,
-  }));
+  return [...gathered(stances, ({ link }) => String(link)).values()].sort((a, b) => worst(b) - worst(a)).map((touches) => rowOfGroup(touches, touches[0].linkName, feetGroup));
 }
 
-function withHeading(members: readonly Row[], group: string, folded: ReadonlySet<string>): Row[] {
+function withHeading(members: readonly Row[], group: string, folded: ReadonlySet<string>, name = group): Row[] {
   if (members.length === 0) return [];
   const touches = members.flatMap((row) => row.touches).sort((a, b) => a.begin - b.begin);
-  const heading: Row = { isHeading: true, name: group, fullName: group, group, avatar: -1, link: -1, touches };
+  const heading: Row = { isHeading: true, name, fullName: name, group, avatar: -1, link: -1, touches };
   return folded.has(group) ? [heading] : [heading, ...members];
 }
 
-function rowsBesideFeet(touches: readonly Touch[], avatars: readonly Avatar[], grouping: Grouping, folded: ReadonlySet<string>): Row[] {
+function rowsOfModel(touches: readonly Touch[], avatars: readonly Avatar[], grouping: Grouping, folded: ReadonlySet<string>): Row[] {
   const rows = rowsOfLinks(touches, avatars).filter((row) => grouping === "all" || row.touches.length > 0);
   return grouping === "limb" ? byGroup(rows, folded) : rows;
 }

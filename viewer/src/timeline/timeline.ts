@@ -88,7 +88,7 @@ export class Timeline {
   }
 
   private refreshRows(): void {
-    this.rows = rowsOf(this.shownTouches(), this.model.avatars, this.grouping, this.folded);
+    this.rows = rowsOf(this.shownTouches(), this.model.avatars, this.grouping, this.folded, this.model.document.person?.bounds);
   }
 
   private shownTouches(): readonly Touch[] {
@@ -247,7 +247,7 @@ export class Timeline {
       this.movePlayhead();
       if (this.isNew) this.showRow();
       this.isNew = false;
-      const words = plural(this.rows.filter((row) => !row.isHeading).length, this.grouping === "object" ? "object" : "link");
+      const words = plural(new Set(this.rows.flatMap((row) => (row.isHeading ? [] : [row.fullName]))).size, this.grouping === "object" ? "object" : "link");
       setText(this.hint, words);
       this.canvas.setAttribute("aria-label", `Timeline: ${words}. The table has them in words.`);
       this.axis.setAttribute("aria-label", "Time axis");

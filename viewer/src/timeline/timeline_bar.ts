@@ -1,8 +1,10 @@
 // What stands above the timeline: what its colours mean, what is looked for, and how it is zoomed.
 
 import { isSlide } from "../contacts/feet.js";
+import { countPerson } from "../contacts/person.js";
 import { walkTouches } from "../panels/choosing.js";
 import { element, button } from "../panels/dom.js";
+import { meaningOf } from "../panels/glossary.js";
 import type { Model } from "../model.js";
 import type { Store } from "../state.js";
 import type { Grouping } from "./rows.js";
@@ -41,14 +43,21 @@ function legendOf(model: Model): HTMLElement {
   for (const verdict of ["contact", "starts_in_contact", "undecided"] as const) {
     const count = model.touches.filter((touch) => !touch.isGround && verdictOf(touch) === verdict).length;
     if (count === 0 && !model.isLive) continue;
-    const text = model.isLive ? beginnings[verdict] : `${count} ${beginnings[verdict]}`;
-    legend.append(element("span", { class: `swatch ${verdict}` }), element("span", { text, title: meanings[verdict] }));
+    legend.append(entry(verdict, model.isLive ? beginnings[verdict] : `${count} ${beginnings[verdict]}`, meanings[verdict]));
   }
   const { ground } = model.countTouches();
-  if (ground > 0) legend.append(element("span", { class: "swatch ground" }), element("span", { text: `${ground} ground`, title: "Touches that stand on the ground." }));
+  if (ground > 0) legend.append(entry("ground", `${ground} ground`, "Touches that stand on the ground."));
   const slides = model.stances.filter(({ stance }) => stance !== null && isSlide(stance)).length;
-  if (slides > 0) legend.append(element("span", { class: "swatch slide" }), element("span", { text: `${slides} ${slides === 1 ? "slides" : "slide"}`, title: "Touches of feet that slide 2 mm or more; the notch in a bar says how deep the foot is." }));
+  if (slides > 0) legend.append(entry("slide", `${slides} ${slides === 1 ? "slides" : "slide"}`, "Touches of feet that slide 2 mm or more; the notch in a bar says how deep the foot is."));
+  if (model.document.person !== null) {
+    const { certain, possible } = countPerson(model.document.person);
+    legend.append(element("span", { text: "the person:" }), entry("person", `${certain} certain`, meaningOf("certain")), entry("perhaps", `${possible} possible`, meaningOf("possible")));
+  }
   return legend;
+}
+
+function entry(swatch: string, text: string, title: string): HTMLElement {
+  return element("span", { class: "entry" }, element("span", { class: `swatch ${swatch}` }), element("span", { text, title }));
 }
 
 function searchOf(model: Model, store: Store): HTMLElement {

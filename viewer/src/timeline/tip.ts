@@ -2,7 +2,7 @@
 
 import type { Touch } from "../contacts/touch.js";
 import { element } from "../panels/dom.js";
-import { forceOf, length, linesOfStance, plural, seconds } from "../panels/words.js";
+import { forceOf, length, linesOfPerson, linesOfStance, plural, seconds } from "../panels/words.js";
 import type { Row } from "./rows.js";
 
 /** From the pointer, CSS pixels. */
@@ -36,6 +36,7 @@ export function linesOfTouch(touch: Touch, timeZero: number, knowsTouches: boole
   const from = seconds(touch.begin - timeZero), to = seconds(touch.end - timeZero);
   const lines = [`${touch.linkName}${touch.object === "" ? "" : ` × ${touch.object}`}`];
   if (touch.stance !== null) return [...lines, `${from} to ${to}`, ...linesOfStance(touch.stance)];
+  if (touch.person !== null) return [...lines, ...linesOfPerson(touch.person, timeZero)];
   if (touch.isStay) return [...lines, ...linesOfStay(touch, from, to)];
   if (touch.isUndecided && touch.rows.length === 0) return [...lines, `${from} to ${to}: nothing is claimed of the two`];
   if (touch.isUndecided) return [...lines, `free until ${from}; until ${to} not decided`];
@@ -57,6 +58,7 @@ function linesOfStay(touch: Touch, from: string, to: string): string[] {
 export function linesOfRow(row: Row, word: string): string[] {
   if (row.touches.length === 0) return [row.fullName, "touches nothing"];
   if (row.touches[0].stance !== null) return [row.fullName, "how this foot stands, slides, sinks in and hovers"];
+  if (row.touches[0].person !== null) return [row.fullName, "what the person touched: solid where it is certain, light where it is possible"];
   if (row.touches[0].isStay) return [row.fullName, `a trigger: somebody is in it ${plural(row.touches.length, "time")}`];
   const missed = row.touches.filter((touch) => touch.isMissed === true).length;
   return [row.fullName, `${plural(row.touches.length, word, word === "touch" ? "touches" : "contacts")}${missed > 0 ? `, ${missed} missed by a check of the poses` : ""}`];
