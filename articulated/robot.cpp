@@ -68,7 +68,8 @@ Result<Done> checkJoint(const Skeleton& skeleton, const std::vector<RobotJoint>&
   return Done{};
 }
 
-/// Of a joint's rotation in a computed pose (rad), and per unit of the largest coordinate (robot.md 2).
+/// Of a joint's rotation in a computed pose (rad), and per unit of the largest coordinate (robot.md
+/// 2).
 constexpr double kTurnOfPose = 256.0 * kUnitRoundoff, kTurnPerCoordinate = 8.0 * kUnitRoundoff;
 
 /// The rest pose, then a turn about a unit axis.
@@ -155,8 +156,9 @@ void Robot::boundRounding() {
       arm += 2.0 * kMaxJointCoordinate;
     }
     reach[i] = arm + (parent == kNoParent ? 0.0 : reach[slotOf(parent)]);
-    shares[i] = (joint.kind == RobotJointKind::Fixed ? 0.0 : kTurnOfPose + kTurnPerCoordinate * most) +
-                (parent == kNoParent ? 0.0 : shares[slotOf(parent)]);
+    shares[i] =
+        (joint.kind == RobotJointKind::Fixed ? 0.0 : kTurnOfPose + kTurnPerCoordinate * most) +
+        (parent == kNoParent ? 0.0 : shares[slotOf(parent)]);
     double own = 0.0;
     for (const Lss& lss : avatar_.lss(static_cast<LinkId>(i))) {
       own = std::max({own, lss.a.norm(), lss.b.norm()});

@@ -203,7 +203,7 @@ def gappa(text):
 
 def goals(text):
     """The constants below each bound, in order."""
-    own = dict(re.findall(r"^(\w+)\s*=\s*(.*?);", text, re.M | re.S))
+    own = dict(re.findall(r"(?:^|;)\s*(\w+) = ([^;]*)(?=;)", text, re.M))
     conclusion = text.rsplit("->", 1)[1]
     found = []
     for goal in re.findall(r"(.*?)\s<= 1(?=\s)", conclusion.replace("\n", " ") + " "):

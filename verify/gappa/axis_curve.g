@@ -1,7 +1,8 @@
 #@ -Eprecision=128
-# tessellation/axis_curve.cpp, placeEnd(), endsAt(); lss_polynomials.md 5. x - x_c: u of both reaches, at.reach each, and
-# rho; the turn into the frame, Frobenius, of |x - x_c| <= weighted / 2. Horner: coefficient j passes 2 j + 1 roundings
-# and moves with x, which is off by 6 u, by j: in 2 j + 2, at most that of j = 7. The rate: j ways of 13, and 18 u.
+# tessellation/axis_curve.cpp, placeEnd(), endsAt(); lss_polynomials.md 5. x - x_c: u of both
+# reaches, at.reach each, and rho; the turn into the frame, Frobenius, of |x - x_c| <= weighted /
+# 2. Horner: coefficient j passes 2 j + 1 roundings and moves with x, which is off by 6 u, by j:
+# in 2 j + 2, at most that of j = 7. The rate: j ways of 13, and 18 u.
 kFrameSum = 4;
 kFrameTurn = 16;
 kHorner = 8 + 8;

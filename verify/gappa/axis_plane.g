@@ -1,7 +1,8 @@
 #@ -Eprecision=128
-# middleware/lanes/lss_pairs-inl.h, planeAlong(), trianglesOf(), spheresOf(); lss_pairs.md 2. A height passes a product and two sums;
-# the vertex its difference, too; then two differences, by v of |a| + |V| each and of reach. A sum of three terms, and
-# v reach. The largest coordinate times the root of three; a sphere's radius rounds with the last difference.
+# middleware/lanes/lss_pairs-inl.h, planeAlong(), trianglesOf(), spheresOf(); lss_pairs.md 2. A
+# height passes a product and two sums; the vertex its difference, too; then two differences, by v
+# of |a| + |V| each and of reach. A sum of three terms, and v reach. The largest coordinate times
+# the root of three; a sphere's radius rounds with the last difference.
 @fl = float<ieee_32, ne>;
 kAxisPlaneRounding = 12 * 0x1p-24;
 kRoundingOfCoordinate = fl(1.7321 * 12 * 0x1p-24);

@@ -1,8 +1,9 @@
 #@ -Eprecision=128
-# middleware/lanes/blend_lanes.cpp, sumsOf(), boundsOf(), blendHull(). Sums in float of K shares: two products, their sum and up
-# to K more, the weight's own rounding, in double six more: K + 6 of 64 + 8 K; shown for K = 1 and the slope in K.
-# A box: a term's seven sums, the two last operations, 2 v of all (p^12 of terms); the pad's three sums and its product.
-# A product may lose 2^-126 times a coordinate below 2^27: 32 K + 64 of them, K at most 64 in what a float can blend.
+# middleware/lanes/blend_lanes.cpp, sumsOf(), boundsOf(), blendHull(). Sums in float of K shares:
+# two products, their sum and up to K more, the weight's own rounding, in double six more: K + 6
+# of 64 + 8 K; shown for K = 1 and the slope in K. A box: a term's seven sums, the two last
+# operations, 2 v of all (p^12 of terms); the pad's three sums and its product. A product may lose
+# 2^-126 times a coordinate below 2^27: 32 K + 64 of them, K at most 64 in what a float can blend.
 kBoundRoundings = 64;
 kShareRoundings = 8;
 kBlendUnderflow = 0x1p-90;

@@ -1,8 +1,9 @@
 #@ -Eprecision=128
-# articulated/motion.cpp, composed(): R_p R, a row of three products and two sums (path), Frobenius norms of
-# the root of three each; R_p times the translation at t, which itself passes a product and a sum, of parts at
-# most l and 2 l; p_p + arm and w_p + R rate, one sum; v_p + w x arm + R rate', two, and kProduct's share of
-# both products: the cross product's 2/sqrt(3) of two roundings twice (2 Omega f l).
+# articulated/motion.cpp, composed(): R_p R, a row of three products and two sums (path),
+# Frobenius norms of the root of three each; R_p times the translation at t, which itself passes a
+# product and a sum, of parts at most l and 2 l; p_p + arm and w_p + R rate, one sum; v_p + w x
+# arm + R rate', two, and kProduct's share of both products: the cross product's 2/sqrt(3) of two
+# roundings twice (2 Omega f l).
 kProduct = 16 * 0x1p-53;
 kSum = 2 * 0x1p-53;
 kVelocitySum = 4 * 0x1p-53;

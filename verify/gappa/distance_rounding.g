@@ -1,8 +1,9 @@
 #@ -Eprecision=128
-# lss/fit.cpp, growToContain(): axisDistance() computes |w - s u|, w = p - a, u = b - a, for some s in [0,1]
-# (clamped); any such s is a point of the axis, so the true distance is at most the exact |w - s u|. A
-# component of w passes its difference and the last one, of s u also a product; then the norm. Relative
-# to |w| + |u|, of which the code takes norms, a sum and a product (n^6, down). The radius is their sum (t).
+# lss/fit.cpp, growToContain(): axisDistance() computes |w - s u|, w = p - a, u = b - a, for some
+# s in [0,1] (clamped); any such s is a point of the axis, so the true distance is at most the
+# exact |w - s u|. A component of w passes its difference and the last one, of s u also a product;
+# then the norm. Relative to |w| + |u|, of which the code takes norms, a sum and a product (n^6,
+# down). The radius is their sum (t).
 kDistanceRounding = 16 * 0x1p-53;
 norm = sqrt((1 + s1) * (1 + s2) * (1 + s3)) * (1 + r) * (1 + t);
 ofW = (1 + a) * (1 + b) * norm - 1;

@@ -1,8 +1,9 @@
 #@ -Eprecision=128
-# tessellation/lss_polynomials.cpp; lss_polynomials.md 4. Of coefficient 7 Horner's rule makes 15 roundings and its own
-# to float one (p^16): 16 v and, of second order, kEvaluation. Thirty operations may underflow by a least normal float each.
-# frame_lanes.cpp, placeAxis(): R x + p: the product with z and three sums (p^4) of the root of three (a rotation to
-# 1e-3) times rho, and x rounded to float; p passes three sums.
+# tessellation/lss_polynomials.cpp; lss_polynomials.md 4. Of coefficient 7 Horner's rule makes 15
+# roundings and its own to float one (p^16): 16 v and, of second order, kEvaluation. Thirty
+# operations may underflow by a least normal float each. frame_lanes.cpp, placeAxis(): R x + p:
+# the product with z and three sums (p^4) of the root of three (a rotation to 1e-3) times rho, and
+# x rounded to float; p passes three sums.
 @rnd = float<ieee_64, ne>;
 kEvaluation = rnd(1 + rnd(1e-5));
 kPolynomialUnderflow = 1e-36;

@@ -1,7 +1,8 @@
 #@ -Eprecision=128
-# lss/rounding.h, floatPaddedAbove(): static_cast<float>(x + |x| * kFloatPadding + kFloatUnderflow), all
-# in double but the last (f); tessellation/swept_boxes.cpp, downward(), the same in lanes, fused or not.
-# The padded sum is a float's normal number, or below one; |x| <= 3e38 (docs/guarantees.md 7).
+# lss/rounding.h, floatPaddedAbove(): static_cast<float>(x + |x| * kFloatPadding +
+# kFloatUnderflow), all in double but the last (f); tessellation/swept_boxes.cpp, downward(), the
+# same in lanes, fused or not. The padded sum is a float's normal number, or below one; |x| <=
+# 3e38 (docs/guarantees.md 7).
 @fl = float<ieee_32, ne>;
 kFloatPadding = 0x1p-23;
 kFloatUnderflow = 1e-40;

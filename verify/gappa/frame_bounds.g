@@ -1,7 +1,8 @@
 #@ -Eprecision=128
-# middleware/lanes/frame_lanes.cpp, bound(), placeLanes(), rateRounding(); frame_lanes.md 2 and 3: a product, a sum, the factor's
-# product, |q| and five of the frame's own error; the pad has its sum and a second factor. A rate: 13 roundings of Horner's
-# and four of the product with q and the sums (p^17). Underflow: eight operations.
+# middleware/lanes/frame_lanes.cpp, bound(), placeLanes(), rateRounding(); frame_lanes.md 2 and 3:
+# a product, a sum, the factor's product, |q| and five of the frame's own error; the pad has its
+# sum and a second factor. A rate: 13 roundings of Horner's and four of the product with q and the
+# sums (p^17). Underflow: eight operations.
 kBoundInflation = 1 + 16 * 0x1p-24;
 kRateRounding = 20 * 0x1p-24;
 kFrameUnderflow = 0x1p-90;

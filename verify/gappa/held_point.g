@@ -1,7 +1,8 @@
 #@ -Eprecision=128
-# middleware/events/contact_hold.cpp, heldPoint() and Slack::at(). A weighted point: an edge's difference, a product, a sum,
-# twice (p^5); the difference of two, the drift's product and sum (p^3), the norm; then four differences. A determinant:
-# the differences (three), product, difference, product and two sums (p^8), of at most 2/sqrt(3) of the lengths.
+# middleware/events/contact_hold.cpp, heldPoint() and Slack::at(). A weighted point: an edge's
+# difference, a product, a sum, twice (p^5); the difference of two, the drift's product and sum
+# (p^3), the norm; then four differences. A determinant: the differences (three), product,
+# difference, product and two sums (p^8), of at most 2/sqrt(3) of the lengths.
 kPointRounding = 32 * 0x1p-53;
 kDeterminantRounding = 64 * 0x1p-53;
 p = 1 + d; p2 = p * p; p4 = p2 * p2;

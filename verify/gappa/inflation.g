@@ -1,7 +1,7 @@
 #@ -Eprecision=128
-# lss/rounding.h. What is computed of terms of one sign is off by one factor 1 + d per rounding. A bound
-# has at most the 4,096 of them below, its product with the factor itself included: a norm has four,
-# the longest formula that is multiplied by it some sixty.
+# lss/rounding.h. What is computed of terms of one sign is off by one factor 1 + d per rounding. A
+# bound has at most the 4,096 of them below, its product with the factor itself included: a norm
+# has four, the longest formula that is multiplied by it some sixty.
 @rnd = float<ieee_64, ne>;
 kInflation = rnd(1 + rnd(1e-12));
 p1 = 1 + d; p2 = p1 * p1; p4 = p2 * p2; p8 = p4 * p4; p16 = p8 * p8; p32 = p16 * p16;

@@ -1,6 +1,7 @@
 #@ -Eprecision=128
-# tessellation/ball_polytope.cpp, swept_surface.cpp: rounding to the lattice moves each coordinate by half a spacing.
-# A norm of integers: conversions, squares, two sums, the root, a quotient and the product: (1 + d)^8.
+# tessellation/ball_polytope.cpp, swept_surface.cpp: rounding to the lattice moves each coordinate
+# by half a spacing. A norm of integers: conversions, squares, two sums, the root, a quotient and
+# the product: (1 + d)^8.
 @rnd = float<ieee_64, ne>;
 kCornerRounding = 0.8661;
 kOutward = rnd(1 + rnd(1e-14));

@@ -1,9 +1,11 @@
 #@ -Eprecision=128
-# middleware/lanes/triangle_planes-inl.h and triangle_pairs.cpp, slackOf(), answer(); triangle_pairs.md 2 and 3. A height passes the
-# vertex's difference, a product and two sums (p^4), then the difference of both and of the slack, by v of X + Y each.
-# The extent, two roots of squares and their sum, and the products lose seven (e^7). Velocities have no difference before;
-# two of them, where both move, a relative speed's. The pad's product, its sum (of 2^-80: no rounding above 2^-55) and the
-# slack's, and v of it in the last difference. A norm whose square vanishes is below 2^-62.
+# middleware/lanes/triangle_planes-inl.h and triangle_pairs.cpp, slackOf(), answer();
+# triangle_pairs.md 2 and 3. A height passes the vertex's difference, a product and two sums
+# (p^4), then the difference of both and of the slack, by v of X + Y each. The extent, two roots
+# of squares and their sum, and the products lose seven (e^7). Velocities have no difference
+# before; two of them, where both move, a relative speed's. The pad's product, its sum (of 2^-80:
+# no rounding above 2^-55) and the slack's, and v of it in the last difference. A norm whose
+# square vanishes is below 2^-62.
 kPairPlaneRounding = 6.5 * 0x1p-24;
 kSpeedRounding = 4.5 * 0x1p-24;
 kRelativeSpeedRounding = 5.5 * 0x1p-24;

@@ -1,6 +1,7 @@
 #@ -Eprecision=128
-# middleware/lanes/triangle_pairs.cpp, rootOf(): as safe_step.g, in float. Clearance and acceleration are at least the two least
-# ones (compared there), so that a flushed square or product is below v / 4 of the radicand.
+# middleware/lanes/triangle_pairs.cpp, rootOf(): as safe_step.g, in float. Clearance and
+# acceleration are at least the two least ones (compared there), so that a flushed square or
+# product is below v / 4 of the radicand.
 kPairStepShrink = 1 - 8 * 0x1p-24;
 kLeastClearance = 0x1p-60;
 kLeastAcceleration = 0x1p-40;

@@ -1,6 +1,7 @@
 #@ -Eprecision=128
-# middleware/lanes/triangle_planes-inl.h, tryDirection(): as unit_shrink.g, in float; squares between kLeastSquare and
-# kMostSquare, so that what three flushed squares lose (2^-126 each) is below v / 128 of the least.
+# middleware/lanes/triangle_planes-inl.h, tryDirection(): as unit_shrink.g, in float; squares
+# between kLeastSquare and kMostSquare, so that what three flushed squares lose (2^-126 each) is
+# below v / 128 of the least.
 kPairUnitShrink = 1 - 5 * 0x1p-24;
 kLeastSquare = 0x1p-90;
 inverse = sqrt((1 + s1) * (1 + s2) * (1 + s3) - lost) * (1 + r) / ((1 + q) * (1 + m));

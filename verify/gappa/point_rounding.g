@@ -1,7 +1,8 @@
 #@ -Eprecision=128
-# tessellation/point_lanes-inl.h, pointAt(): p - shift, then three fused or unfused sums of R's row. R x: a product and
-# its three sums' share, Frobenius; |shift| <= reach + 2 rho (point_rounding.h), so |p - shift| <= 2 (reach + rho). Each
-# sum rounds by u of |p - shift| + sqrt(3) rho a component: as vectors |p - shift| + 3 rho.
+# tessellation/point_lanes-inl.h, pointAt(): p - shift, then three fused or unfused sums of R's
+# row. R x: a product and its three sums' share, Frobenius; |shift| <= reach + 2 rho
+# (point_rounding.h), so |p - shift| <= 2 (reach + rho). Each sum rounds by u of |p - shift| +
+# sqrt(3) rho a component: as vectors |p - shift| + 3 rho.
 kArm = 16 * 0x1p-53;
 kSum = 32 * 0x1p-53;
 ofProduct = sqrt(3) * d;

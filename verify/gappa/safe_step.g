@@ -1,8 +1,8 @@
 #@ -Eprecision=128
-# lss/safe_step.h: root = sqrt(speed * speed + 2 A clearance), all terms >= 0 (asserted). The radicand
-# passes a product and a sum (a b), the root one (r), the sum with |speed| one (s), then a quotient (q)
-# and the product with kStepShrink (m). The clearance itself is a difference that rounds (c), and the
-# step grows with it no faster than in proportion.
+# lss/safe_step.h: root = sqrt(speed * speed + 2 A clearance), all terms >= 0 (asserted). The
+# radicand passes a product and a sum (a b), the root one (r), the sum with |speed| one (s), then
+# a quotient (q) and the product with kStepShrink (m). The clearance itself is a difference that
+# rounds (c), and the step grows with it no faster than in proportion.
 @rnd = float<ieee_64, ne>;
 kStepShrink = rnd(1 - rnd(1e-12));
 root = sqrt((1 + a) * (1 + b)) * (1 + r) * (1 + s);

@@ -1,7 +1,8 @@
 #@ -Eprecision=128
-# middleware/pair/part_lanes.cpp, setFrame(), add(), box(), put(); frame_lanes.md 4. A vertex less the origin, in double, then float;
-# the norm's own (k^4). The origin is a sum of two. A bound: the difference with the pad, and the last one, by v of the
-# bound each. Floor and radius: a sum, once more where two parts share it, and the product.
+# middleware/pair/part_lanes.cpp, setFrame(), add(), box(), put(); frame_lanes.md 4. A vertex less
+# the origin, in double, then float; the norm's own (k^4). The origin is a sum of two. A bound:
+# the difference with the pad, and the last one, by v of the bound each. Floor and radius: a sum,
+# once more where two parts share it, and the product.
 kVertexRounding = 2 * 0x1p-24;
 kOriginRounding = 2 * 0x1p-53;
 kSceneBoxRounding = 8 * 0x1p-24;

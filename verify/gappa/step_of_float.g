@@ -1,6 +1,6 @@
 #@ -Eprecision=128
-# middleware/lanes/lss_pairs-inl.h, EndSteps: as safe_step.g, in float; the bend's sum and two products under the root. next = (time +
-# step) - kTimeRounding, both results below 2: absolute.
+# middleware/lanes/lss_pairs-inl.h, EndSteps: as safe_step.g, in float; the bend's sum and two
+# products under the root. next = (time + step) - kTimeRounding, both results below 2: absolute.
 @fl = float<ieee_32, ne>;
 kStepShrinkOfFloat = 1 - 16 * 0x1p-24;
 kTimeRounding = 0x1p-22;

@@ -1,5 +1,6 @@
 #@ -Eprecision=128
-# middleware/pair/still_axis.cpp, stillAxis(): a coordinate to float; in double a difference and R^T of it, Frobenius.
+# middleware/pair/still_axis.cpp, stillAxis(): a coordinate to float; in double a difference and
+# R^T of it, Frobenius.
 kToFloat = 2 * 0x1p-24;
 kTurned = 32 * 0x1p-53;
 p = 1 + d;
