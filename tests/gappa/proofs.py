@@ -142,7 +142,7 @@ def tie():
                 wrong.append(f"{place}: {script} has {own.get(name, 'none')}, expected {value}")
         if not scripts_of(shown) and not re.match(r"(argument|no bound): \w", shown):
             wrong.append(f"{place}: expected a script, or 'argument: ..' or 'no bound: ..', found '{shown}'")
-        if re.match(r"[\d.e-]+$", used) and 3 * float(used) < 1 and not large:
+        if used != "-" and 3 * float(used) < 1 and not large:
             wrong.append(f"{place}: three times too large: expected what a tighter one is worth")
     for path in sources():
         where = str(path.relative_to(ROOT))
@@ -185,7 +185,7 @@ def wrong_notes(listed):
         for name, told in NOTED.findall(text):
             if name not in values:
                 continue
-            told = told.strip().rstrip("+-* ")
+            told = told.strip(" .*+-")
             number_told = evaluated(told, units)
             near = [one for one in values[name] if (ROOT / one[0]).parent == note.parent] or values[name]
             read += 1
