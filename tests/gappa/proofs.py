@@ -88,8 +88,9 @@ def constants(path):
 
 
 def is_of_rounding(name, initialiser):
-    return bool(re.search(r"(Inflation|Padding|Roundings?|Roundoff|Shrink|Underflow)$", name) or
-                re.search(r"Roundoff|0x1(\.\w+)?p-[2-9]\d|0x1p-1\d\d\d?|\b1\.0[fF]?\s*[+-]\s*(1e-|0x)", initialiser))
+    small = r"Roundoff|0x1(\.\w+)?p-[2-9]\d|0x1p-1\d\d\d?|\b1\.0[fF]?\s*[+-]\s*(1e-|0x)"
+    ending = r"(Inflation|Padding|Roundings?|Roundoff|Shrink|Underflow)$"
+    return bool(re.search(ending, name) or re.search(small, initialiser))
 
 
 def sources():
@@ -156,6 +157,9 @@ def tie():
     return wrong + wrong_inlines() + wrong_notes(listed)
 
 
+UNNAMED = r"[\d.]+ \* (?:double\{)?kUnitRoundoff\w*|= kUnitRoundoff(?:OfFloat)? \*"
+
+
 def wrong_inlines():
     """Roundings without a name: the page lists how many each file has."""
     listed = dict(re.findall(r"^\| `([\w/.-]+\.(?:h|cpp))` \| (\d+) \|", PAGE.read_text(), re.M))
@@ -163,9 +167,10 @@ def wrong_inlines():
     for path in sources():
         where = str(path.relative_to(ROOT))
         text = DECLARED.sub("", re.sub(r"//[^\n]*", "", path.read_text()))
-        found = len(re.findall(r"[\d.]+ \* (?:double\{)?kUnitRoundoff\w*|= kUnitRoundoff(?:OfFloat)? \*", text))
-        if found != int(listed.get(where, 0)):
-            wrong.append(f"{where}: {found} roundings without a name, {PAGE.name} lists {listed.get(where, 0)}")
+        found = len(re.findall(UNNAMED, text))
+        told = int(listed.get(where, 0))
+        if found != told:
+            wrong.append(f"{where}: {found} roundings without a name, {PAGE.name} lists {told}")
     return wrong
 
 
@@ -219,7 +224,8 @@ def shares(path):
     """What each constant's script needs of it."""
     text = path.read_text()
     _, output = gappa(re.sub(r" <= 1(?=\s)", " in ?", text))
-    most = [float(upper) for upper in re.findall(r"\bin \[[^,\]]*(?:\{[^}]*\})?, [^{\]]*?\{?([-\d.e+]+)(?:, [^}]*\})?\]", output)]
+    bound = r"\bin \[[^,\]]*(?:\{[^}]*\})?, [^{\]]*?\{?([-\d.e+]+)(?:, [^}]*\})?\]"
+    most = [float(upper) for upper in re.findall(bound, output)]
     needed = {}
     for names, share in zip(goals(text), most):
         for name in names:
@@ -257,29 +263,32 @@ def prove_by_gappa(listed, wrong):
                 wrong.append(f"{name}: {script.name} needs {needed[name]:.2g} of it, {PAGE.name} says {used}")
 
 
+def prove_by_sollya(wrong):
+    for script in sorted(SCRIPTS.glob("*.sollya")):
+        ran = subprocess.run(["sollya", script], capture_output=True, text=True, timeout=120)
+        if ran.stdout.split()[-1:] != ["true"] or "arning" in ran.stderr:
+            wrong.append(f"{script.name}: {ran.stdout} {ran.stderr}")
+
+
 def prove():
     wrong, listed = tie(), list(rows())
-    if shutil.which("gappa"):
+    has = {program: shutil.which(program) is not None for program in ("gappa", "sollya", "coqc")}
+    if has["gappa"]:
         prove_by_gappa(listed, wrong)
-    else:
-        print("proofs: no gappa: its scripts are skipped")
-    if shutil.which("sollya"):
-        for script in sorted(SCRIPTS.glob("*.sollya")):
-            ran = subprocess.run(["sollya", script], capture_output=True, text=True, timeout=120)
-            if ran.stdout.split()[-1:] != ["true"] or "arning" in ran.stderr:
-                wrong.append(f"{script.name}: {ran.stdout} {ran.stderr}")
-    else:
-        print("proofs: no sollya: its scripts are skipped")
-    if shutil.which("gappa") and shutil.which("coqc"):
-        if not certificate_is_checked():
-            wrong.append(f"{SAMPLE}: Coq refuses its certificate")
-    else:
-        print("proofs: no gappa or no coqc: no certificate is checked")
+    if has["sollya"]:
+        prove_by_sollya(wrong)
+    if has["gappa"] and has["coqc"] and not certificate_is_checked():
+        wrong.append(f"{SAMPLE}: Coq refuses its certificate")
+    for program in has:
+        print(f"{program}: {'run' if has[program] else 'SKIPPED, not installed'}")
     shown = [row[3] for row in listed]
-    print(f"{len(listed)} constants: {sum(bool(re.search('[.]g`', s)) for s in shown)} by {len(list(SCRIPTS.glob('*.g')))} "
-          f"scripts of Gappa, {sum('.sollya`' in s for s in shown)} by {len(list(SCRIPTS.glob('*.sollya')))} of Sollya, "
-          f"{sum(s.startswith('argument') for s in shown)} by argument, {sum(s.startswith('no bound') for s in shown)} "
-          f"that bound nothing; {len(wrong)} unproven without a named reason")
+    for kind, program in (("g", "Gappa"), ("sollya", "Sollya")):
+        count = sum(f".{kind}`" in one for one in shown)
+        print(f"{count} constants by {len(list(SCRIPTS.glob('*.' + kind)))} scripts of {program}")
+    arguments = sum(one.startswith("argument: ") for one in shown)
+    nothing = sum(one.startswith("no bound: ") for one in shown)
+    print(f"{arguments} constants by argument, {nothing} that bound nothing")
+    print(f"{len(listed)} constants, {len(wrong)} unproven without a named reason")
     return wrong
 
 
