@@ -68,6 +68,10 @@ Result<Done> checkJoint(const Skeleton& skeleton, const std::vector<RobotJoint>&
   return Done{};
 }
 
+/// Of a joint's rotation in a computed pose (rad), and per unit of the largest coordinate (robot.md
+/// 2).
+constexpr double kTurnOfPose = 256.0 * kUnitRoundoff, kTurnPerCoordinate = 8.0 * kUnitRoundoff;
+
 /// The rest pose, then a turn about a unit axis.
 Quaternion turned(const Quaternion& rest, const Vector3d& axis, double angle) {
   const double sine = std::sin(0.5 * angle);
@@ -138,7 +142,6 @@ void Robot::listCoordinates() {
 // articulated/robot.md 2 derives the factors.
 void Robot::boundRounding() {
   const Skeleton& skeleton = avatar_.skeleton();
-  constexpr double u = kUnitRoundoff;
   std::vector<double> reach(joints_.size()), shares(joints_.size());
   double farthest = 0.0, sum = 0.0;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
@@ -153,8 +156,9 @@ void Robot::boundRounding() {
       arm += 2.0 * kMaxJointCoordinate;
     }
     reach[i] = arm + (parent == kNoParent ? 0.0 : reach[slotOf(parent)]);
-    shares[i] = (joint.kind == RobotJointKind::Fixed ? 0.0 : 256.0 * u + 8.0 * u * most) +
-                (parent == kNoParent ? 0.0 : shares[slotOf(parent)]);
+    shares[i] =
+        (joint.kind == RobotJointKind::Fixed ? 0.0 : kTurnOfPose + kTurnPerCoordinate * most) +
+        (parent == kNoParent ? 0.0 : shares[slotOf(parent)]);
     double own = 0.0;
     for (const Lss& lss : avatar_.lss(static_cast<LinkId>(i))) {
       own = std::max({own, lss.a.norm(), lss.b.norm()});

@@ -1,5 +1,7 @@
 #include "middleware/pair/side.h"
 
+#include <algorithm>
+
 #include "lss/assert.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
@@ -9,16 +11,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Adds one link's share of a skinned vertex. Sums of a handful of terms: twice the rounding of a
-/// point for each covers the products and the sum.
+/// Of a blended point, in its links' own: the second time covers the products and sums of so many
+/// shares; more of them cost in proportion.
+constexpr double kBlendedRounding = 2.0, kSharesCovered = 16.0;
+
+/// Adds one link's share of a skinned vertex. `roundings` of a point's count for each.
 void addInfluence(const SkinInfluence& influence, const LinkState& state,
-                  const MotionBounds& bounds, std::size_t corner, MovingHull& moving) {
+                  const MotionBounds& bounds, double roundings, std::size_t corner,
+                  MovingHull& moving) {
   const double w = influence.weight, rho = influence.p_L.norm() * kInflation;
   moving.hull.points[corner] += w * state.pointAt(influence.p_L);
   moving.velocity[corner] += w * state.velocityAt(influence.p_L);
   moving.acceleration[corner] += w * bounds.accelerationAt(rho) * kInflation;
-  moving.positionRounding[corner] += 2.0 * w * bounds.positionRoundingAt(rho) * kInflation;
-  moving.velocityRounding[corner] += 2.0 * w * bounds.velocityRoundingAt(rho) * kInflation;
+  moving.positionRounding[corner] += roundings * w * bounds.positionRoundingAt(rho) * kInflation;
+  moving.velocityRounding[corner] += roundings * w * bounds.velocityRoundingAt(rho) * kInflation;
 }
 
 MovingHull meshTriangle(const Side& parts, std::int32_t index, const LinkState& state) {
@@ -71,9 +77,11 @@ MovingHull Side::skinTriangle(std::int32_t index, const std::vector<LinkState>& 
     moving.hull.points[i].setZero();
     moving.velocity[i].setZero();
     const std::int32_t vertex = skin->triangle(link, index)[i];
-    for (const SkinInfluence& influence : skin->skin.vertices[slotOf(vertex)]) {
-      addInfluence(influence, states[slotOf(influence.link)], motion().bounds(influence.link), i,
-                   moving);
+    const std::vector<SkinInfluence>& influences = skin->skin.vertices[slotOf(vertex)];
+    const double crowd = static_cast<double>(influences.size()) / kSharesCovered;
+    for (const SkinInfluence& influence : influences) {
+      addInfluence(influence, states[slotOf(influence.link)], motion().bounds(influence.link),
+                   kBlendedRounding * std::max(1.0, crowd), i, moving);
     }
   }
   return moving;

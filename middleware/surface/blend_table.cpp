@@ -25,6 +25,9 @@ constexpr double kMergeRounding = 64.0 * kUnitRoundoff;
 /// Of sums of weights, and of their means over the vertices of a cluster, in double.
 constexpr double kWeightRounding = 256.0 * kUnitRoundoff;
 
+/// Both are for so many shares of a vertex; more cost in proportion.
+constexpr double kCountedShares = 8.0;
+
 double sumOf(const std::vector<SkinInfluence>& vertex) {
   double sum = 0.0;
   for (const SkinInfluence& influence : vertex) sum += influence.weight;
@@ -91,6 +94,7 @@ class BlendTableBuilder {
   void placeVertices() {
     double off = 0.0;
     for (const Influences& vertex : skin_.skin.vertices) {
+      crowd_ = std::max(crowd_, static_cast<double>(vertex.size()) / kCountedShares);
       Vector3d place = Vector3d::Zero();
       Influences merged;
       for (const SkinInfluence& influence : vertex) {
@@ -102,7 +106,7 @@ class BlendTableBuilder {
       vertices_.push_back(std::move(merged));
     }
     // Of the vertices' sums, and of the clusters', each against 1.
-    made_.sumError_ = 4.0 * (off + kWeightRounding);
+    made_.sumError_ = 4.0 * (off + crowd_ * kWeightRounding);
   }
 
   /// The link's own LSS, which no skin covers.
@@ -148,7 +152,7 @@ class BlendTableBuilder {
       }
       Lss hull = fitLss(points);
       // Merged points are off by a few roundings.
-      hull.radius += kMergeRounding * (hull.a.norm() + hull.b.norm() + hull.radius);
+      hull.radius += crowd_ * kMergeRounding * (hull.a.norm() + hull.b.norm() + hull.radius);
       carry(mover, link, hull);
     }
     addClusters(link, first, static_cast<std::ptrdiff_t>(made_.order_.size()), own);
@@ -289,12 +293,13 @@ class BlendTableBuilder {
     // Coordinates that nearly cancel leave their rounding.
     double extent = 0.0;
     for (const BlendShare& share : shares) extent = std::max(extent, share.rho);
-    return radius * kInflation + kMergeRounding * (extent + radius);
+    return radius * kInflation + crowd_ * kMergeRounding * (extent + radius);
   }
 
   const Avatar& avatar_;
   const SkinParts& skin_;
   BlendTable& made_;
+  double crowd_ = 1.0;  // the most shares of a vertex, in kCountedShares
   std::vector<LinkState> rest_;
   std::vector<Vector3d> places_;  // at rest, per vertex
   std::vector<Influences> vertices_;

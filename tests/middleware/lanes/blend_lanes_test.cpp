@@ -317,6 +317,25 @@ TEST_P(BlendLanes, ContainTheTrianglesOfClustersAndPartsAtEveryInstant) {
   EXPECT_GT(used.part, 0.9);
 }
 
+// Merged one after the other, a thousand shares of one place leave it by hundreds of roundings.
+TEST(BlendTable, HoldsVerticesOfAThousandShares) {
+  Random random(1);
+  const Avatar avatar = avatarOf(test::randomMotion(random, 2).skeleton);
+  const Vector3d p(1.3, 1.7, 1.1);
+  std::vector<SkinInfluence> shares(1, {0, 0.5, p});
+  shares.resize(1001, {0, 0.5 / 1000.0, p});
+  Skin skin{std::vector<std::vector<SkinInfluence>>(3, shares), {{0, 1, 2}}};
+  std::vector<std::size_t> counts(countOf(avatar.numLinks()));
+  counts[0] = 1;
+  const auto surface = SkinnedSurface::build(avatar, std::move(skin), counts);
+  ASSERT_TRUE(surface.ok());
+  const BlendTable& table = *surface.value().parts().blends;
+  const BlendShare& made = *table.shares(table[table.table().first(0)]);
+  const double off = (Vector3d(made.a[0], made.a[1], made.a[2]) - p).norm();
+  EXPECT_GT(off, 256.0 * kUnitRoundoff * p.norm());
+  EXPECT_LE(off, table[table.table().first(0)].radius);
+}
+
 // The last link has no triangle, so its own LSS is asked: a blend of one share.
 TEST_P(BlendLanes, ContainTheLssOfALinkWithoutTriangles) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
