@@ -13,6 +13,7 @@
 
 #include "articulated/try.h"
 #include "bench/machine.h"
+#include "bench/person/ahead_trial.h"
 #include "bench/person/pair_trial.h"
 #include "bench/person/person_trial.h"
 #include "bench/solid/busy_places.h"
@@ -97,6 +98,52 @@ class PersonTable {
   BenchTable table_;
 };
 
+/// What is said before it happens, by rate and way.
+class AheadTable {
+ public:
+  void add(double rateHz, const std::vector<AheadTally>& tallies) {
+    auto& rows = tallies_[-rateHz];
+    rows.resize(std::max(rows.size(), tallies.size()));
+    for (std::size_t way = 0; way < tallies.size(); ++way) rows[way].add(tallies[way]);
+  }
+  [[nodiscard]] std::uint64_t late() const {
+    std::uint64_t sum = 0;
+    for (const auto& [rate, rows] : tallies_) {
+      for (const AheadTally& tally : rows) sum += tally.late;
+    }
+    return sum;
+  }
+  [[nodiscard]] BenchTable table(double horizonS) const {
+    BenchTable table{
+        "ahead",
+        fmt::format("Not before: what may be touched within {:g} s of a pose", horizonS),
+        {{"rate_hz", "Hz", 0},
+         {"by", "by"},
+         {"asked", "links and poses"},
+         {"touched", "touched"},
+         {"late", "later than the truth"},
+         {"early_p50_ms", "early p50 ms", 1},
+         {"early_p90_ms", "p90 ms", 1},
+         {"alarms_percent", "false alarms %", 2},
+         {"us", "us per pose", 1}},
+        {}};
+    for (const auto& [rate, rows] : tallies_) {
+      for (std::size_t way = 0; way < rows.size(); ++way) {
+        const AheadTally& t = rows[way];
+        const Percentiles early = percentilesOf(t.earlyMs);
+        table.rows.push_back({-rate, std::string(toString(static_cast<AheadWay>(way))),
+                              cell(t.asked), cell(t.touched), cell(t.late), early.p50, early.p90,
+                              percent(t.alarms, t.asked - t.touched),
+                              t.poses > 0 ? t.us / static_cast<double>(t.poses) : 0.0});
+      }
+    }
+    return table;
+  }
+
+ private:
+  std::map<double, std::vector<AheadTally>> tallies_;  // by falling rate
+};
+
 /// The names of clips begin with who made them.
 std::string makerOf(const SolidActor& actor) {
   return actor.name.substr(0, actor.name.find('_'));
@@ -134,11 +181,19 @@ class PersonRuns {
   PersonRuns(const PersonBenchRequest& request, const SolidStage& stage, const Cast& cast)
       : request_(request), stage_(stage), cast_(cast) {}
 
+  void addAhead(const SolidActor& actor, AheadTable& table) const {
+    const BusyPlaceRequest places = placesOf(actor);
+    for (const BusyPlace& place : busyPlaces(stage_, actor, places)) {
+      const SolidActor part = partOf(actor, place, places.seconds);
+      for (const double rateHz : request_.ratesHz) {
+        if (rateHz * actor.clip.frameTimeS > 1.0 + 1e-9) continue;
+        table.add(rateHz, judgeAhead(stage_, part, place.placement, {rateHz, request_.aheadS}));
+      }
+    }
+  }
+
   void add(const SolidActor& actor, std::map<Kind, PersonTally>& tallies) const {
-    BusyPlaceRequest places;
-    places.count = request_.places;
-    places.seconds = std::min(request_.seconds, actor.clip.durationS());
-    places.seed = request_.seed;
+    const BusyPlaceRequest places = placesOf(actor);
     std::optional<Strangers> strangers;
     if (request_.learned > 0.0) strangers.emplace(request_, cast_.actors, actor);
     const SolidActor& next = after(actor);
@@ -160,6 +215,14 @@ class PersonRuns {
   }
 
  private:
+  [[nodiscard]] BusyPlaceRequest placesOf(const SolidActor& actor) const {
+    BusyPlaceRequest places;
+    places.count = request_.places;
+    places.seconds = std::min(request_.seconds, actor.clip.durationS());
+    places.seed = request_.seed;
+    return places;
+  }
+
   /// The next of the cast, who stands beside the others.
   [[nodiscard]] const SolidActor& after(const SolidActor& actor) const {
     const auto at = static_cast<std::size_t>(&actor - cast_.actors.data());
@@ -174,10 +237,8 @@ class PersonRuns {
 
   void addPair(PersonOfPair one, const SolidActor& next, double rateHz, MotionModel model,
                std::map<Kind, PersonTally>& tallies) const {
-    BusyPlaceRequest anyPlace;
+    BusyPlaceRequest anyPlace = placesOf(next);
     anyPlace.count = 1;
-    anyPlace.seconds = std::min(request_.seconds, next.clip.durationS());
-    anyPlace.seed = request_.seed;
     const auto places = busyPlaces(stage_, next, anyPlace);
     if (places.empty()) return;
     const SolidActor part = partOf(next, places.front(), anyPlace.seconds);
@@ -207,11 +268,13 @@ Result<PersonBench> measurePerson(const PersonBenchRequest& request) {
   report.date = dateNow();
   report.machine = machineFacts();
   std::map<Kind, PersonTally> tallies;
+  AheadTable ahead;
   ProgressBar progress("body", static_cast<std::int64_t>(cast.stages.size() * cast.actors.size()));
   std::int64_t done = 0;
   for (const SolidStage& stage : cast.stages) {
     for (const SolidActor& actor : cast.actors) {
-      PersonRuns(request, stage, cast).add(actor, tallies);
+      const PersonRuns runs(request, stage, cast);
+      request.aheadS > 0.0 ? runs.addAhead(actor, ahead) : runs.add(actor, tallies);
       progress.advanceTo(++done);
     }
   }
@@ -223,7 +286,8 @@ Result<PersonBench> measurePerson(const PersonBenchRequest& request) {
     bench.violations += tally.missed + tally.lied;
     for (const std::string& finding : tally.findings) report.notes.push_back(finding);
   }
-  report.tables.push_back(table.table());
+  report.tables.push_back(request.aheadS > 0.0 ? ahead.table(request.aheadS) : table.table());
+  bench.violations += ahead.late();
   std::vector<std::string> clips;
   for (const SolidActor& actor : cast.actors) clips.push_back(actor.name);
   report.workload.emplace_back("clips", listed(clips));

@@ -26,6 +26,7 @@ struct PersonBenchRequest {
   /// Above 0: bounds are learned at this quantile, on all clips of other makers than the judged
   /// one's; touches that are missed or invented are then counted, and no violation.
   double learned = 0.0;
+  double aheadS = 0.0;  ///< Above 0: instead, what is said of this long after each pose.
   std::string command;
 };
 

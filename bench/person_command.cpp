@@ -64,6 +64,8 @@ Command bodyCommand() {
                   "Of the bounds that hold: below 1, touches are missed");
   settings.number("--learned", "Q", request.learned, NumberRange{0.0, 1.0},
                   "Instead by bounds of the clips of other makers, learned at this quantile");
+  settings.number("--ahead", "S", request.aheadS, NumberRange{0.0, 2.0},
+                  "Instead: what is said of this long after each pose, beside grown capsules");
   addFigures(settings, asked->json, asked->csv, "Also write the table to a file");
   Command command{"body",
                   "What brackets say of persons whose poses are held back; exit code 1 where a "

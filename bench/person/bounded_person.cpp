@@ -10,8 +10,6 @@
 namespace foretouch::tools {
 namespace {
 
-/// The judge looks at some instants: bounds hold in between with this much more.
-constexpr double kBetween = 1.01, kBetweenM = 1e-6;
 /// Bounds follow from here on (m).
 constexpr double kFollowFloor = 5e-5;
 

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "bench/person/held_back.h"
+
 namespace foretouch::tools {
 namespace {
 
-/// The judge rounds (m).
-constexpr double kJudgeRounding = 1e-8;
 constexpr std::size_t kMostFindings = 10;
 
 void find(std::string text, PersonTally& tally) {

@@ -104,6 +104,18 @@ const std::vector<HeldBack::Axis>& HeldBack::modelAt(const HeldBackStep& step, M
   return judge_.endsAt(modelled(step, model, u));
 }
 
+const std::vector<HeldBack::Axis>& HeldBack::aheadAt(const HeldBackStep& step, double steps) {
+  const PlainPose &from = frames_[step.from], &to = frames_[step.to];
+  PlainPose pose = to;
+  for (std::size_t joint = 0; joint < pose.rotations.size(); ++joint) {
+    pose.rotations[joint] =
+        numbersOf(turnOf(to, joint) * turnBy(steps * turnBetween(from, to, joint)));
+    pose.translations[joint] =
+        to.translations[joint] + steps * (to.translations[joint] - from.translations[joint]);
+  }
+  return judge_.endsAt(pose);
+}
+
 /// All given poses are as far apart, so central differences are means.
 PlainPose HeldBack::modelled(const HeldBackStep& step, MotionModel model, double u) {
   const PlainPose &from = frames_[step.from], &to = frames_[step.to];

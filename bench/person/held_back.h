@@ -13,6 +13,9 @@
 
 namespace foretouch::tools {
 
+/// The judge rounds (m), and looks at instants: bounds hold in between with this much more.
+inline constexpr double kJudgeRounding = 1e-8, kBetween = 1.01, kBetweenM = 1e-6;
+
 /// Of a step, u in [0,1].
 struct HeldBackStep {
   std::size_t from = 0, to = 0;       ///< Frames.
@@ -33,6 +36,8 @@ class HeldBack {
   [[nodiscard]] const std::vector<Axis>& truthAt(const HeldBackStep& step, double u);
   [[nodiscard]] const std::vector<Axis>& modelAt(const HeldBackStep& step, MotionModel model,
                                                  double u);
+  /// Of the model that goes on as it went in the step, so many steps after its end.
+  [[nodiscard]] const std::vector<Axis>& aheadAt(const HeldBackStep& step, double steps);
   /// Of one given pose.
   [[nodiscard]] const std::vector<Axis>& posedAt(std::size_t frame);
   [[nodiscard]] const std::vector<int>& linkOf() const { return judge_.linkOf(); }

@@ -1,0 +1,45 @@
+// bench/person/ahead_trial.h: what is said before it happens, judged: at each given pose, when a
+// link may touch the scene first, by chains of joints and by capsules; and when it did. Metres,
+// seconds.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/person/bounded_person.h"
+#include "bench/solid/stage.h"
+
+namespace foretouch::tools {
+
+/// What stands for the person after the last pose.
+enum class AheadWay : std::uint8_t {
+  Chain,        ///< Foretouch: joints go on turning, and their links with them.
+  Capsule,      ///< Each capsule goes on in a line and grows, as the ACCEL model of SaRA has it.
+  WiderCapsule  ///< Each capsule stays and grows by its greatest speed, as the VEL model has it.
+};
+[[nodiscard]] const char* toString(AheadWay way);
+
+struct AheadTally {
+  std::uint64_t asked = 0;    ///< Links at poses that touch nothing there.
+  std::uint64_t touched = 0;  ///< Of them, within the horizon.
+  std::uint64_t late = 0;     ///< Said to be free for longer than they were.
+  std::uint64_t alarms = 0;   ///< Said to touch, perhaps, within the horizon, and did not.
+  std::vector<double>
+      earlyMs;  ///< Of those that touched: how much before it was said to be possible.
+  std::uint64_t poses = 0;
+  double us = 0.0;  ///< Of all poses; of capsules none.
+
+  void add(const AheadTally& other);
+};
+
+struct AheadTrial {
+  double rateHz = 30.0;  ///< Of given poses.
+  double horizonS = 0.3;
+};
+
+/// One tally per way, in their order. Every way has the bounds that hold on the clip.
+[[nodiscard]] std::vector<AheadTally> judgeAhead(const SolidStage& stage, const SolidActor& actor,
+                                                 const Placement& place, const AheadTrial& trial);
+
+}  // namespace foretouch::tools
