@@ -1,0 +1,74 @@
+// tools/repair/demands.h: what a repair has to see to, gathered from the faults of one round after
+// the other: a demand that was made once stays.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "tools/repair/faults.h"
+
+namespace foretouch::tools {
+
+/// Steps in which a link has to keep to one side of an object, or of another link.
+struct Side {
+  LinkId link = 0, other = -1;  ///< `other`: of own links.
+  ObjectId object = -1;
+  std::int32_t first = 0, last = 0;  ///< Steps.
+  Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();  ///< To that side; zero: not known.
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();       ///< On the surface, where it was met.
+  bool isLost = false;  ///< It came through and does not come back: no way is known.
+  bool isGivenUp = false;
+};
+
+/// Steps in which a part of a foot must not slide.
+struct Hold {
+  std::size_t part = 0;
+  std::int32_t first = 0, last = 0;
+};
+
+class Demands {
+ public:
+  /// `stage` must outlive it.
+  explicit Demands(const Stage& stage) : stage_(stage) {}
+
+  /// Takes up the faults of the stage's poses. True if any demand is new.
+  bool take(const Faults& faults);
+  /// Drops what is still at fault after many rounds, so that it does not pull on the rest; once.
+  void giveUp(const Faults& faults);
+
+  [[nodiscard]] const std::vector<Side>& sides() const { return sides_; }
+  [[nodiscard]] const std::vector<Hold>& holds() const { return holds_; }
+  /// Part and pose: above the ground.
+  [[nodiscard]] const std::set<std::pair<std::size_t, std::int32_t>>& lifts() const {
+    return lifts_;
+  }
+  /// Knob and pose: within its limits.
+  [[nodiscard]] const std::set<std::pair<std::int32_t, std::int32_t>>& limits() const {
+    return limits_;
+  }
+  /// Instants of a step at which contacts began.
+  [[nodiscard]] const std::map<std::int32_t, std::set<double>>& instants() const {
+    return instants_;
+  }
+
+ private:
+  bool takeContact(const StepFault& fault);
+  [[nodiscard]] Side begun(const StepFault& fault) const;
+  [[nodiscard]] bool endsBehind(const Side& side) const;
+  void joinThroughs();
+
+  const Stage& stage_;
+  std::vector<Side> sides_;
+  std::vector<Hold> holds_;
+  std::set<std::pair<std::size_t, std::int32_t>> lifts_;
+  std::set<std::pair<std::int32_t, std::int32_t>> limits_;
+  std::map<std::int32_t, std::set<double>> instants_;
+  bool isFirst_ = true;
+};
+
+}  // namespace foretouch::tools

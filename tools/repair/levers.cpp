@@ -1,0 +1,72 @@
+#include "tools/repair/levers.h"
+
+#include <cmath>
+
+#include "lss/index.h"
+
+namespace foretouch::tools {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// d of exp(v + d) = exp(v) exp(tilt * d), to first order: the right Jacobian of rotations.
+Matrix3d tiltOf(const Vector3d& v) {
+  const double angle = v.norm();
+  Matrix3d cross;
+  cross << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  if (angle < 1e-6) return Matrix3d::Identity() - 0.5 * cross;
+  const double square = angle * angle;
+  return Matrix3d::Identity() - (1.0 - std::cos(angle)) / square * cross +
+         (angle - std::sin(angle)) / (square * angle) * cross * cross;
+}
+
+}  // namespace
+
+Levers::Levers(const Stage& stage) : stage_(stage), R_WClip_(stage.R_WClip()) {
+  const Skeleton& skeleton = stage.body().skeleton();
+  const auto& sources = stage.feet().played.match.clipJointOf;
+  levers_.resize(countOf(skeleton.numJoints()));
+  for (LinkId link = 0; link < skeleton.numJoints(); ++link) {
+    std::vector<Lever>& own = levers_[slotOf(link)];
+    if (const JointId above = skeleton.parent(link); above != kNoParent) own = levers_[slotOf(above)];
+    for (std::size_t k = 0; k < stage.knobs().size(); ++k) {
+      for (const Drive& drive : stage.knobs()[k].drives) {
+        if (drive.joint != sources[slotOf(link)]) continue;
+        own.push_back({static_cast<std::int32_t>(k), link, drive.joint, drive.turns, drive.along});
+      }
+    }
+  }
+}
+
+void Levers::setChanges(const Changes& changes) {
+  const std::size_t joints = countOf(stage_.feet().played.clip.skeleton.numJoints());
+  tilts_.resize(slotOf(changes.cols()));
+  for (std::size_t pose = 0; pose < tilts_.size(); ++pose) {
+    const auto turns =
+        turnsOf(stage_.knobs(), changes.col(static_cast<Eigen::Index>(pose)), joints);
+    tilts_[pose].clear();
+    for (const Vector3d& turn : turns) tilts_[pose].push_back(tiltOf(turn));
+  }
+}
+
+void Levers::add(const SeenPoint& point, const std::vector<LinkState>& states, std::int32_t pose,
+                 double share, std::vector<RowTerm>& terms) const {
+  if (share == 0.0) return;
+  const Skeleton& skeleton = stage_.body().skeleton();
+  for (const Lever& lever : levers_[slotOf(point.link)]) {
+    const LinkState& joint = states[slotOf(lever.joint)];
+    Vector3d moves_W;
+    if (lever.turns) {
+      const Matrix3d& tilt = tilts_[slotOf(pose)][slotOf(lever.clipJoint)];
+      moves_W = (joint.R_WL * (tilt * lever.along)).cross(point.p_W - joint.p_WL);
+    } else {
+      const JointId above = skeleton.parent(lever.joint);
+      moves_W = (above == kNoParent ? R_WClip_ : states[slotOf(above)].R_WL) * lever.along;
+    }
+    const double by = share * point.along_W.dot(moves_W);
+    if (by != 0.0) terms.push_back({pose, lever.knob, by});
+  }
+}
+
+}  // namespace foretouch::tools
