@@ -277,7 +277,7 @@ void Walk::keepLook(std::int64_t step, const RestingPart& part, const CornerMoti
   const PartCorner& corner = part.corners[motion.corner];
   const LinkState& state = states_[slotOf(corner.link)];
   const Vector3d p_W = motion.p_W + motion.share * corner.radius * normal_W;
-  stance.looks.push_back({step, corner.link, state.R_WL.transpose() * (p_W - state.p_WL), normal_W,
+  stance.looks.push_back({step, corner.link, motion.corner, state.R_WL.transpose() * (p_W - state.p_WL), normal_W,
                           motion.slide_W.norm()});
 }
 

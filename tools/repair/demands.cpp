@@ -32,13 +32,14 @@ Side Demands::begun(const StepFault& fault) const {
   side.p_W = fault.p_W;
   if (fault.kind == FaultKind::Own || fault.triangle < 0) return side;
   const Vector3d front = stage_.feet().level.normal(fault.triangle);
+  // Nothing belongs below a plain floor, and no foot below what it stands on.
   const bool isGround = std::abs(front.y()) >= kWalkableUp;
-  if (!fault.isStart) {
-    if (side.normal_W.isZero(0.0)) side.normal_W = front;
+  if (isGround && (stage_.feet().isPlain || isUnder(fault))) {
+    side.normal_W = front.y() < 0.0 ? Vector3d(-front) : front;
     return side;
   }
-  if (isGround && stage_.feet().isPlain) {
-    side.normal_W = front.y() < 0.0 ? Vector3d(-front) : front;
+  if (!fault.isStart) {
+    if (side.normal_W.isZero(0.0)) side.normal_W = front;
     return side;
   }
   std::vector<LinkState> states;
@@ -52,6 +53,18 @@ Side Demands::begun(const StepFault& fault) const {
   const Depth depth = depthIn(placed, stage_.feet().level.scene(), scratch);
   if (depth.isCertified && depth.wayOut.norm() > 0.0) side.normal_W = depth.wayOut.normalized();
   return side;
+}
+
+/// Of a foot: part of it is below its ground, about then.
+bool Demands::isUnder(const StepFault& fault) const {
+  const auto& parts = stage_.feet().body.parts;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    if (stage_.linkOf(parts[part].links.front()) != fault.link) continue;
+    const auto next = lifts_.lower_bound({part, fault.step - kSame});
+    if (next != lifts_.end() && next->first == part && next->second <= fault.step + kSame)
+      return true;
+  }
+  return false;
 }
 
 bool Demands::takeContact(const StepFault& fault) {
@@ -112,34 +125,89 @@ void Demands::joinThroughs() {
 
 bool Demands::take(const Faults& faults) {
   bool isNew = false;
+  if (isFirst_) before_ = stage_.poses();
   for (const StepFault& fault : faults.all) {
-    switch (fault.kind) {
-      case FaultKind::Scene:
-      case FaultKind::Own:
-        if (!fault.isUndecided) isNew = takeContact(fault) || isNew;
-        break;
-      case FaultKind::Under:
-        isNew = lifts_.insert({fault.part, fault.step}).second || isNew;
-        lifts_.insert({fault.part, fault.step + 1});
-        break;
-      case FaultKind::Limit: isNew = limits_.insert({fault.link, fault.step}).second || isNew; break;
-      case FaultKind::Slide: break;
+    if (fault.kind == FaultKind::Limit) {
+      isNew = limits_.insert({fault.link, fault.step}).second || isNew;
+    } else if (fault.kind == FaultKind::Under) {
+      isNew = lifts_.insert({fault.part, fault.step}).second || isNew;
+      lifts_.insert({fault.part, fault.step + 1});
     }
   }
-  for (const FootStance& stance : faults.feet.stances) {
-    if (stance.looks.empty() || !isSlide(stance, stage_)) continue;
-    if (stage_.feet().body.parts[stance.part].isHand()) continue;
-    const Hold hold{stance.part, static_cast<std::int32_t>(stance.looks.front().step),
-                    static_cast<std::int32_t>(stance.looks.back().step)};
-    const bool isKnown = std::any_of(holds_.begin(), holds_.end(), [&](const Hold& known) {
-      return known.part == hold.part && known.first <= hold.first && hold.last <= known.last;
-    });
-    if (isKnown) continue;
-    holds_.push_back(hold);
-    isNew = true;
+  for (const StepFault& fault : faults.all) {
+    const bool isContact = fault.kind == FaultKind::Scene || fault.kind == FaultKind::Own;
+    if (isContact && !fault.isUndecided) isNew = takeContact(fault) || isNew;
   }
-  if (isFirst_) joinThroughs();
+  for (const FootStance& stance : faults.feet.stances) {
+    const bool isHand = stage_.feet().body.parts[stance.part].isHand();
+    if (!isHand && isSlide(stance, stage_)) isNew = takeSlide(stance) || isNew;
+  }
+  if (isFirst_) {
+    joinThroughs();
+    findRests(faults.feet);
+  }
   isFirst_ = false;
+  return takeRaised(faults.feet) || isNew;
+}
+
+bool Demands::swings(const RestLook& look) const {
+  const LinkId link = stage_.linkOf(look.link);
+  std::vector<LinkState> from, to;
+  placeLinks(stage_.body().skeleton(), before_[slotOf(look.step)], from);
+  placeLinks(stage_.body().skeleton(), before_[slotOf(look.step + 1)], to);
+  const Vector3d way = to[slotOf(link)].pointAt(look.p_L) - from[slotOf(link)].pointAt(look.p_L);
+  const Vector3d along = way - look.normal_W.dot(way) * look.normal_W;
+  return along.norm() > kSwingSpeed * stage_.feet().stepS();
+}
+
+/// One look of each step, the one in its middle. What counts may be another corner in another round:
+/// then both are held.
+bool Demands::takeSlide(const FootStance& stance) {
+  bool isNew = false;
+  for (std::size_t i = 0, looks = 1; i < stance.looks.size(); i += looks, looks = 1) {
+    while (i + looks < stance.looks.size() && stance.looks[i + looks].step == stance.looks[i].step)
+      ++looks;
+    const RestLook& look = stance.looks[i + looks / 2];
+    const auto pose = static_cast<std::int32_t>(look.step);
+    if (swings(look)) {
+      isNew = clears_.insert({stance.part, pose}).second || isNew;
+      isNew = clears_.insert({stance.part, pose + 1}).second || isNew;
+    } else {
+      isNew = holds_.insert_or_assign({stance.part, look.step, look.corner}, look).second || isNew;
+    }
+  }
+  return isNew;
+}
+
+/// Where each foot rests before anything is changed: its lowest part.
+void Demands::findRests(const FeetAnswer& feet) {
+  const auto& parts = stage_.feet().body.parts;
+  const auto heightOf = [&](std::int64_t pose, std::size_t part) {
+    return feet.sample(pose, part, parts.size()).height;
+  };
+  for (const FootStance& stance : feet.stances) {
+    if (stance.kind == StanceKind::Hovers || parts[stance.part].isHand()) continue;
+    for (const RestLook& look : stance.looks) {
+      const float height = heightOf(look.step, stance.part);
+      bool isLowest = !std::isnan(height);
+      for (std::size_t other = 0; other < parts.size(); ++other) {
+        isLowest = isLowest && !(parts[other].limb == parts[stance.part].limb &&
+                                 heightOf(look.step, other) < height);
+      }
+      if (!isLowest) continue;
+      rests_[{stance.part, static_cast<std::int32_t>(look.step)}] =
+          std::max(static_cast<double>(height), stage_.request().gap) + kRestBand;
+    }
+  }
+}
+
+bool Demands::takeRaised(const FeetAnswer& feet) {
+  bool isNew = false;
+  const std::size_t parts = stage_.feet().body.parts.size();
+  for (const auto& [place, most] : rests_) {
+    if (feet.sample(place.second, place.first, parts).height <= most) continue;
+    isNew = keeps_.emplace(place, most).second || isNew;
+  }
   return isNew;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -25,11 +26,11 @@ struct Side {
   bool isGivenUp = false;
 };
 
-/// Steps in which a part of a foot must not slide.
-struct Hold {
-  std::size_t part = 0;
-  std::int32_t first = 0, last = 0;
-};
+/// A foot that rests is lifted by no more than this (m) above the gap, or above where it was.
+inline constexpr double kRestBand = 0.001;
+/// A foot that goes by this fast (m/s along the ground) is on its way to a step: what it drags is
+/// lifted, not held.
+inline constexpr double kSwingSpeed = 0.4;
 
 class Demands {
  public:
@@ -42,10 +43,20 @@ class Demands {
   void giveUp(const Faults& faults);
 
   [[nodiscard]] const std::vector<Side>& sides() const { return sides_; }
-  [[nodiscard]] const std::vector<Hold>& holds() const { return holds_; }
+  /// Part, step and corner: what must not move along the ground.
+  using Holds = std::map<std::tuple<std::size_t, std::int64_t, std::size_t>, RestLook>;
+  [[nodiscard]] const Holds& holds() const { return holds_; }
   /// Part and pose: above the ground.
   [[nodiscard]] const std::set<std::pair<std::size_t, std::int32_t>>& lifts() const {
     return lifts_;
+  }
+  /// Part and pose, and how high it may be: it rested, and is not to be lifted.
+  [[nodiscard]] const std::map<std::pair<std::size_t, std::int32_t>, double>& keeps() const {
+    return keeps_;
+  }
+  /// Part and pose: off the ground, as it swings.
+  [[nodiscard]] const std::set<std::pair<std::size_t, std::int32_t>>& clears() const {
+    return clears_;
   }
   /// Knob and pose: within its limits.
   [[nodiscard]] const std::set<std::pair<std::int32_t, std::int32_t>>& limits() const {
@@ -58,14 +69,22 @@ class Demands {
 
  private:
   bool takeContact(const StepFault& fault);
+  [[nodiscard]] bool isUnder(const StepFault& fault) const;
   [[nodiscard]] Side begun(const StepFault& fault) const;
   [[nodiscard]] bool endsBehind(const Side& side) const;
   void joinThroughs();
+  void findRests(const FeetAnswer& feet);
+  bool takeSlide(const FootStance& stance);
+  /// Whether what was looked at went by, before anything was changed, faster than what slides.
+  [[nodiscard]] bool swings(const RestLook& look) const;
+  bool takeRaised(const FeetAnswer& feet);
 
   const Stage& stage_;
   std::vector<Side> sides_;
-  std::vector<Hold> holds_;
-  std::set<std::pair<std::size_t, std::int32_t>> lifts_;
+  Holds holds_;
+  std::vector<Pose> before_;
+  std::set<std::pair<std::size_t, std::int32_t>> lifts_, clears_;
+  std::map<std::pair<std::size_t, std::int32_t>, double> rests_, keeps_;
   std::set<std::pair<std::int32_t, std::int32_t>> limits_;
   std::map<std::int32_t, std::set<double>> instants_;
   bool isFirst_ = true;

@@ -3,26 +3,10 @@
 #include <Eigen/Geometry>
 
 #include "lss/index.h"
-#include "tools/floor/resting_body.h"
 
 namespace foretouch::tools {
-namespace {
 
 using Eigen::Vector3d;
-
-/// What turning costs beside what it moves: as if each joint carried something at 0.1 m. Without it
-/// fingers and toes, which move little, would turn far.
-constexpr double kTurnCost = 0.01;
-/// The same of shifts: the share of the body that they count as at least.
-constexpr double kShiftCost = 0.05;
-
-bool isBelow(const Skeleton& skeleton, JointId joint, JointId top) {
-  while (joint > top) joint = skeleton.parent(joint);
-  return joint == top;
-}
-
-}  // namespace
-
 std::vector<Vector3d> turnsOf(const std::vector<Knob>& knobs, const Eigen::VectorXd& change,
                               std::size_t joints) {
   std::vector<Vector3d> turns(joints, Vector3d::Zero());
@@ -50,26 +34,6 @@ Pose changedPose(const Pose& pose, const std::vector<Knob>& knobs, const Eigen::
     }
   }
   return changed;
-}
-
-void weigh(const Skeleton& skeleton, std::vector<Knob>& knobs) {
-  std::vector<LinkState> states;
-  placeLinks(skeleton, restPose(skeleton), states);
-  const double joints = static_cast<double>(skeleton.numJoints());
-  for (Knob& knob : knobs) {
-    double weight = 0.0;
-    for (const Drive& drive : knob.drives) {
-      const double square = drive.along.squaredNorm();
-      double moved = 0.0;
-      for (JointId j = drive.joint; j < skeleton.numJoints(); ++j) {
-        if (!isBelow(skeleton, j, drive.joint)) continue;
-        const Vector3d arm = states[slotOf(j)].p_WL - states[slotOf(drive.joint)].p_WL;
-        moved += drive.turns ? arm.squaredNorm() : 1.0;
-      }
-      weight += square * (moved / joints + (drive.turns ? kTurnCost : kShiftCost));
-    }
-    knob.weight = weight;
-  }
 }
 
 }  // namespace foretouch::tools

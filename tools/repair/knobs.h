@@ -26,8 +26,6 @@ struct Drive {
 struct Knob {
   std::string name;
   std::vector<Drive> drives;
-  /// What one unit costs, squared: m^2, the mean over the body's joints of how far it moves them.
-  double weight = 1.0;
   /// What the knob's number may be, where it has limits; `values`: what it is, per frame of the clip.
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -47,8 +45,5 @@ using Changes = Eigen::MatrixXd;
 /// `pose` of the clip with the change of a column.
 [[nodiscard]] Pose changedPose(const Pose& pose, const std::vector<Knob>& knobs,
                                const Eigen::VectorXd& change);
-
-/// Fills in the knobs' weights, by the rest pose of the clip's skeleton.
-void weigh(const Skeleton& skeleton, std::vector<Knob>& knobs);
 
 }  // namespace foretouch::tools

@@ -2,36 +2,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
-#include <Eigen/SparseCholesky>
+#include "lss/index.h"
+#include "tools/repair/banded.h"
 
 namespace foretouch::tools {
 namespace {
 
-using Sparse = Eigen::SparseMatrix<double>;
-using Triplets = std::vector<Eigen::Triplet<double>>;
-
-/// Above the stiffness of the smoothest change by so much that a row is missed by no more than a
-/// thousandth of what it asks after one round of multipliers; below what doubles resolve beside it.
-constexpr double kStiffness = 1e8;
+/// Cost per square metre (or unit) that a row is missed by. Above the stiffness of most changes, so
+/// that few rounds of multipliers do; and no higher, so that rows which contradict each other do not
+/// tear at the body.
+constexpr double kStiffness = 1e6;
+/// The same of wishes: a millimetre costs as much as the body's way over some poses.
+constexpr double kWish = 1e3;
 /// Rounds of multipliers, and of the choice of rows that push in each.
-constexpr int kMultiplierRounds = 4, kChoices = 8;
+constexpr int kMultiplierRounds = 5, kChoices = 6;
 /// A row is met within this (m, or the knob's unit).
 constexpr double kMet = 1e-6;
 /// Smoothing over more poses than this is no smoother to the eye, and doubles cannot tell.
 constexpr double kMostReach = 14.0;
 
 /// Differences of order 0 to 3, and what each counts in (1 - reach^2 d^2)^3: times reach^(2 order).
-constexpr std::size_t kOrders = 4;
+constexpr std::int32_t kOrders = 4;
 constexpr double kDifference[kOrders][kOrders] = {
     {1.0, 0.0, 0.0, 0.0}, {-1.0, 1.0, 0.0, 0.0}, {1.0, -2.0, 1.0, 0.0}, {-1.0, 3.0, -3.0, 1.0}};
 constexpr double kCounts[kOrders] = {1.0, 3.0, 3.0, 1.0};
 
 class Solver {
  public:
-  Solver(const std::vector<Knob>& knobs, std::int32_t poses, std::vector<Row>& rows,
+  Solver(const Eigen::MatrixXd& metric, std::int32_t poses, std::vector<Row>& rows,
          const LeastChangeOptions& options)
-      : knobs_(knobs), poses_(poses), rows_(rows), options_(options) {
+      : metric_(metric), poses_(poses), rows_(rows), options_(options) {
     findPlaces();
   }
 
@@ -45,32 +48,33 @@ class Solver {
   };
 
   void findPlaces();
-  void addCost(Triplets& entries) const;
-  void addDifference(std::size_t order, std::int32_t pose, std::int32_t knob, double scale,
-                     Triplets& entries) const;
+  void addCost(BandedSystem& system) const;
   [[nodiscard]] std::vector<Pull> pullsAt(const Eigen::VectorXd& x) const;
   [[nodiscard]] bool solveFor(const std::vector<Pull>& pulls, Eigen::VectorXd& x);
   [[nodiscard]] double valueOf(const Row& row, const Eigen::VectorXd& x) const;
-  [[nodiscard]] int placeOf(std::int32_t pose, std::int32_t knob) const {
-    if (pose < 0 || pose >= poses_) return -1;
-    const int at = poseAt_[static_cast<std::size_t>(pose)];
-    return at < 0 ? -1 : at * numKnobs_ + knobAt_[static_cast<std::size_t>(knob)];
+  /// Among the poses that change, -1: it does not.
+  [[nodiscard]] int placeOf(std::int32_t pose) const {
+    return pose < 0 || pose >= poses_ ? -1 : poseAt_[slotOf(pose)];
+  }
+  /// Of a number that changes.
+  [[nodiscard]] int placeOf(const RowTerm& term) const {
+    return placeOf(term.pose) * numKnobs_ + knobAt_[slotOf(term.knob)];
   }
 
-  const std::vector<Knob>& knobs_;
+  const Eigen::MatrixXd& metric_;
   std::int32_t poses_;
   std::vector<Row>& rows_;
   const LeastChangeOptions& options_;
   std::vector<int> poseAt_, knobAt_;  // -1: does not change
   std::vector<std::int32_t> changing_;  // knobs
   int numPoses_ = 0, numKnobs_ = 0;
-  Sparse cost_;
+  std::unique_ptr<const BandedSystem> cost_;
 };
 
 /// The poses and knobs that may change.
 void Solver::findPlaces() {
   std::vector<std::uint8_t> isNear(static_cast<std::size_t>(poses_), 0);
-  std::vector<std::uint8_t> isNamed(knobs_.size(), 0);
+  std::vector<std::uint8_t> isNamed(slotOf(metric_.rows()), 0);
   for (const Row& row : rows_) {
     for (const RowTerm& term : row.terms) {
       isNear[static_cast<std::size_t>(term.pose)] = 1;
@@ -91,45 +95,44 @@ void Solver::findPlaces() {
   for (std::size_t pose = 0; pose < mayChange.size(); ++pose) {
     if (mayChange[pose] != 0) poseAt_[pose] = numPoses_++;
   }
-  knobAt_.assign(knobs_.size(), -1);
-  for (std::size_t knob = 0; knob < knobs_.size(); ++knob) {
+  knobAt_.assign(slotOf(metric_.rows()), -1);
+  for (std::size_t knob = 0; knob < slotOf(metric_.rows()); ++knob) {
     if (isNamed[knob] == 0) continue;
     knobAt_[knob] = numKnobs_++;
     changing_.push_back(static_cast<std::int32_t>(knob));
   }
 }
 
-void Solver::addCost(Triplets& entries) const {
+void Solver::addCost(BandedSystem& system) const {
   const double square = std::pow(std::min(options_.reach, kMostReach), 2);
-  for (const std::int32_t knob : changing_) {
-    double scale = knobs_[static_cast<std::size_t>(knob)].weight;
-    for (std::size_t order = 0; order < kOrders; ++order, scale *= square) {
-      const auto last = static_cast<std::int32_t>(order);
-      for (std::int32_t pose = -last; pose < poses_; ++pose) {
-        // Beyond an end that is free nothing is known.
-        const bool isBeyond =
-            (pose < 0 && options_.isFreeBefore) || (pose + last >= poses_ && options_.isFreeAfter);
-        if (!isBeyond) addDifference(order, pose, knob, scale * kCounts[order], entries);
-      }
+  Eigen::MatrixXd metric(numKnobs_, numKnobs_);
+  for (Eigen::Index k = 0; k < numKnobs_; ++k) {
+    for (Eigen::Index l = 0; l < numKnobs_; ++l) {
+      metric(k, l) = metric_(changing_[slotOf(k)], changing_[slotOf(l)]);
     }
   }
-}
-
-void Solver::addDifference(std::size_t order, std::int32_t pose, std::int32_t knob, double scale,
-                           Triplets& entries) const {
-  for (std::size_t i = 0; i <= order; ++i) {
-    const int one = placeOf(pose + static_cast<std::int32_t>(i), knob);
-    for (std::size_t j = 0; j <= order && one >= 0; ++j) {
-      const int other = placeOf(pose + static_cast<std::int32_t>(j), knob);
-      const double by = scale * kDifference[order][i] * kDifference[order][j];
-      if (other >= 0) entries.emplace_back(one, other, by);
+  double scale = 1.0;
+  for (std::int32_t order = 0; order < kOrders; ++order, scale *= square) {
+    for (std::int32_t pose = -order; pose < poses_; ++pose) {
+      // Beyond an end that is free nothing is known.
+      const bool isBeyond =
+          (pose < 0 && options_.isFreeBefore) || (pose + order >= poses_ && options_.isFreeAfter);
+      for (std::int32_t i = 0; i <= order && !isBeyond; ++i) {
+        const int one = placeOf(pose + i);
+        for (std::int32_t j = 0; j <= i && one >= 0; ++j) {
+          const int other = placeOf(pose + j);
+          if (other < 0) continue;
+          const double by = kDifference[order][i] * kDifference[order][j];
+          system.block(slotOf(one), slotOf(one - other)) += scale * kCounts[order] * by * metric;
+        }
+      }
     }
   }
 }
 
 double Solver::valueOf(const Row& row, const Eigen::VectorXd& x) const {
   double value = 0.0;
-  for (const RowTerm& term : row.terms) value += term.by * x[placeOf(term.pose, term.knob)];
+  for (const RowTerm& term : row.terms) value += term.by * x[placeOf(term)];
   return value;
 }
 
@@ -138,7 +141,7 @@ std::vector<Solver::Pull> Solver::pullsAt(const Eigen::VectorXd& x) const {
   std::vector<Pull> pulls;
   pulls.reserve(rows_.size());
   for (const Row& row : rows_) {
-    const double shifted = valueOf(row, x) - row.push / kStiffness;
+    const double shifted = valueOf(row, x) - (row.isWish ? 0.0 : row.push / kStiffness);
     if (shifted < row.lower) {
       pulls.push_back({true, row.lower});
     } else if (shifted > row.upper) {
@@ -151,40 +154,39 @@ std::vector<Solver::Pull> Solver::pullsAt(const Eigen::VectorXd& x) const {
 }
 
 bool Solver::solveFor(const std::vector<Pull>& pulls, Eigen::VectorXd& x) {
-  Triplets entries;
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(cost_.rows());
+  BandedSystem system = *cost_;
+  x.setZero();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     if (!pulls[r].isOn) continue;
     const auto& terms = rows_[r].terms;
-    const double towards = kStiffness * pulls[r].bound + rows_[r].push;
+    const double stiffness = rows_[r].isWish ? kWish : kStiffness;
+    const double towards = stiffness * pulls[r].bound + (rows_[r].isWish ? 0.0 : rows_[r].push);
     for (const RowTerm& one : terms) {
-      const int at = placeOf(one.pose, one.knob);
-      right[at] += one.by * towards;
+      const int at = placeOf(one.pose);
+      x[placeOf(one)] += one.by * towards;
       for (const RowTerm& other : terms) {
-        const int beside = placeOf(other.pose, other.knob);
-        if (beside <= at) entries.emplace_back(at, beside, kStiffness * one.by * other.by);
+        const int beside = placeOf(other.pose);
+        if (beside > at) continue;
+        system.block(slotOf(at), slotOf(at - beside))(knobAt_[slotOf(one.knob)],
+                                                      knobAt_[slotOf(other.knob)]) +=
+            stiffness * one.by * other.by;
       }
     }
   }
-  Sparse system(cost_.rows(), cost_.cols());
-  system.setFromTriplets(entries.begin(), entries.end());
-  system += cost_.triangularView<Eigen::Lower>();
-  const Eigen::SimplicialLDLT<Sparse> factor(system);
-  if (factor.info() != Eigen::Success) return false;
-  x = factor.solve(right);
+  if (!system.factorize()) return false;
+  system.solve(x);
   return x.allFinite();
 }
 
 LeastChange Solver::solve() {
   LeastChange answer;
-  answer.changes = Changes::Zero(static_cast<Eigen::Index>(knobs_.size()), poses_);
+  answer.changes = Changes::Zero(metric_.rows(), poses_);
   answer.isSolved = true;
   const int size = numPoses_ * numKnobs_;
   if (size == 0) return answer;
-  Triplets entries;
-  addCost(entries);
-  cost_.resize(size, size);
-  cost_.setFromTriplets(entries.begin(), entries.end());
+  auto cost = std::make_unique<BandedSystem>(slotOf(numPoses_), numKnobs_);
+  addCost(*cost);
+  cost_ = std::move(cost);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(size);
   for (Row& row : rows_) row.push = 0.0;
   for (int round = 0; round < kMultiplierRounds && answer.isSolved; ++round) {
@@ -202,6 +204,7 @@ LeastChange Solver::solve() {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       Row& row = rows_[r];
       const double value = valueOf(row, x);
+      if (row.isWish) continue;
       answer.worst = std::max({answer.worst, row.lower - value, value - row.upper});
       row.push = pulls[r].isOn ? row.push + kStiffness * (pulls[r].bound - value) : 0.0;
     }
@@ -210,8 +213,7 @@ LeastChange Solver::solve() {
   if (!answer.isSolved) return answer;
   for (std::int32_t pose = 0; pose < poses_; ++pose) {
     for (const std::int32_t knob : changing_) {
-      const int at = placeOf(pose, knob);
-      if (at >= 0) answer.changes(knob, pose) = x[at];
+      if (placeOf(pose) >= 0) answer.changes(knob, pose) = x[placeOf({pose, knob, 0.0})];
     }
   }
   return answer;
@@ -219,9 +221,9 @@ LeastChange Solver::solve() {
 
 }  // namespace
 
-LeastChange leastChange(const std::vector<Knob>& knobs, std::int32_t poses, std::vector<Row>& rows,
+LeastChange leastChange(const Eigen::MatrixXd& metric, std::int32_t poses, std::vector<Row>& rows,
                         const LeastChangeOptions& options) {
-  return Solver(knobs, poses, rows, options).solve();
+  return Solver(metric, poses, rows, options).solve();
 }
 
 }  // namespace foretouch::tools

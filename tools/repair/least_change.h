@@ -1,7 +1,7 @@
 // tools/repair/least_change.h: the least smooth change of a whole clip that keeps rows of linear
-// bounds: min sum over knobs and poses of weight * (change^2 + 3 reach^2 (first difference)^2 + 3
-// reach^4 (second)^2 + reach^6 (third)^2) subject to lower <= row * change <= upper. Why these:
-// tools/repair/repair.md 2.
+// bounds: min sum over poses of |change|^2 + 3 reach^2 |first difference|^2 + 3 reach^4 |second|^2 +
+// reach^6 |third|^2, with |x|^2 = x.metric x over the knobs, subject to lower <= row * change <=
+// upper. Why these: tools/repair/repair.md 2.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +24,8 @@ struct Row {
   std::vector<RowTerm> terms;
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
+  /// A wish: it pulls as a spring does, and gives way to what others ask.
+  bool isWish = false;
   /// Its push at the answer, in units of the cost per unit of the row: above 0 towards larger
   /// values. Filled in by leastChange().
   double push = 0.0;
@@ -44,9 +46,9 @@ struct LeastChange {
   bool isSolved = false;
 };
 
-/// Rows that contradict each other are met in the least squares, as nearly as can be. Only poses
+/// `metric`: of the knobs, symmetric and positive. Rows that contradict each other are met in the least squares, as nearly as can be. Only poses
 /// within the margin of a row change, and only knobs that a row names. O(poses * knobs^3).
-[[nodiscard]] LeastChange leastChange(const std::vector<Knob>& knobs, std::int32_t poses,
+[[nodiscard]] LeastChange leastChange(const Eigen::MatrixXd& metric, std::int32_t poses,
                                       std::vector<Row>& rows, const LeastChangeOptions& options);
 
 }  // namespace foretouch::tools

@@ -1,11 +1,21 @@
 #include "tools/repair/levers.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lss/index.h"
+#include "tools/floor/resting_body.h"
 
 namespace foretouch::tools {
 namespace {
+
+/// What turning costs beside what it moves: as if each joint carried something at 5 cm. Without it
+/// fingers and toes, which move little, would turn far.
+constexpr double kTurnCost = 0.0025;
+/// The same of shifts: the share of the body that they count as at least.
+constexpr double kShiftCost = 0.02;
+/// Poses over which costs are averaged.
+constexpr std::int32_t kMetricPoses = 32;
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -67,6 +77,37 @@ void Levers::add(const SeenPoint& point, const std::vector<LinkState>& states, s
     const double by = share * point.along_W.dot(moves_W);
     if (by != 0.0) terms.push_back({pose, lever.knob, by});
   }
+}
+
+Eigen::MatrixXd Levers::metric() const {
+  const auto knobs = static_cast<Eigen::Index>(stage_.knobs().size());
+  Eigen::MatrixXd metric = Eigen::MatrixXd::Zero(knobs, knobs);
+  const Skeleton& skeleton = stage_.body().skeleton();
+  std::vector<LinkState> states;
+  const std::int32_t looks = std::min(kMetricPoses, stage_.numPoses());
+  const double share = 1.0 / (static_cast<double>(looks) * skeleton.numJoints());
+  for (std::int32_t look = 0; look < looks; ++look) {
+    const std::int32_t pose = static_cast<std::int32_t>(
+        static_cast<std::int64_t>(look) * stage_.numPoses() / looks);
+    placeLinks(skeleton, stage_.poses()[slotOf(pose)], states);
+    for (LinkId link = 0; link < skeleton.numJoints(); ++link) {
+      for (int axis = 0; axis < 3; ++axis) {
+        std::vector<RowTerm> terms;
+        add({link, states[slotOf(link)].p_WL, Vector3d::Unit(axis)}, states, pose, 1.0, terms);
+        for (const RowTerm& one : terms) {
+          for (const RowTerm& other : terms) {
+            metric(one.knob, other.knob) += share * one.by * other.by;
+          }
+        }
+      }
+    }
+  }
+  for (Eigen::Index k = 0; k < knobs; ++k) {
+    for (const Drive& drive : stage_.knobs()[slotOf(k)].drives) {
+      metric(k, k) += (drive.turns ? kTurnCost : kShiftCost) * drive.along.squaredNorm();
+    }
+  }
+  return metric;
 }
 
 }  // namespace foretouch::tools

@@ -29,6 +29,9 @@ class Levers {
   /// the point is seen.
   void add(const SeenPoint& point, const std::vector<LinkState>& states, std::int32_t pose,
            double share, std::vector<RowTerm>& terms) const;
+  /// What changes cost (m^2): the mean over the body's joints of how far they move, squared; over
+  /// some of the poses that the changes are about.
+  [[nodiscard]] Eigen::MatrixXd metric() const;
 
  private:
   struct Lever {

@@ -93,7 +93,6 @@ Result<std::unique_ptr<MakerFile>> MakerFile::open(const ClipRequest& request, c
     case ClipFormat::JointTable: file = openTable(request); break;
     case ClipFormat::Model: break;
   }
-  if (file.ok()) weigh(clip.skeleton, file.value()->knobs_);
   return file;
 }
 

@@ -1,6 +1,9 @@
 #include "tools/repair/repair.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstdio>
+#include <map>
 #include <cmath>
 #include <utility>
 
@@ -28,10 +31,25 @@ LeastChangeOptions optionsOf(const Stage& stage) {
   return options;
 }
 
-/// From one change towards another one, as far as rows are to be trusted.
-Changes stepped(const Changes& from, const Changes& to) {
-  const double most = (to - from).cwiseAbs().maxCoeff();
-  return most <= kMostTurnPerRound ? to : Changes(from + (kMostTurnPerRound / most) * (to - from));
+/// From one change towards another one, as far as rows are to be trusted: less about poses that
+/// would be turned far.
+Changes stepped(const Changes& from, const Changes& to, std::int32_t reach) {
+  const Changes way = to - from;
+  const Eigen::Index poses = way.cols(), around = 2 * reach;
+  Eigen::VectorXd share(poses);
+  for (Eigen::Index p = 0; p < poses; ++p) {
+    const Eigen::Index first = std::max<Eigen::Index>(0, p - around);
+    const Eigen::Index count = std::min(poses, p + around + 1) - first;
+    const double most = way.middleCols(first, count).cwiseAbs().maxCoeff();
+    share[p] = std::min(1.0, kMostTurnPerRound / std::max(most, kMostTurnPerRound));
+  }
+  Changes stepped = from;
+  for (Eigen::Index p = 0; p < poses; ++p) {
+    const Eigen::Index first = std::max<Eigen::Index>(0, p - around);
+    const Eigen::Index count = std::min(poses, p + around + 1) - first;
+    stepped.col(p) += share.segment(first, count).mean() * way.col(p);
+  }
+  return stepped;
 }
 
 /// The rounds, and the best of them.
@@ -48,19 +66,35 @@ class Rounds {
   Demands demands_;
   Levers levers_;
   Rows rows_;
+  Eigen::MatrixXd metric_;
 };
 
 /// False: there is no more to do.
 Result<bool> Rounds::next(Faults& faults) {
   const Changes changes = stage_.changes();
   levers_.setChanges(changes);
-  Rows rows = rowsOf(stage_, levers_, demands_, faults, changes);
+  Rows rows = rowsOf(stage_, levers_, demands_, changes);
   if (rows.rows.empty()) return false;
+  if (metric_.size() == 0) metric_ = levers_.metric();
   const LeastChange least =
-      leastChange(stage_.knobs(), stage_.numPoses(), rows.rows, optionsOf(stage_));
+      leastChange(metric_, stage_.numPoses(), rows.rows, optionsOf(stage_));
+  if (getenv("DBG")) {
+    std::fprintf(stderr, "rows %zu worst %.3g step %.3g solved %d\n", rows.rows.size(), least.worst,
+                 (least.changes - changes).cwiseAbs().maxCoeff(), least.isSolved);
+    std::map<int, std::pair<double, int>> worst;
+    for (std::size_t r = 0; r < rows.rows.size(); ++r) {
+      double v = 0;
+      for (const auto& t : rows.rows[r].terms) v += t.by * least.changes(t.knob, t.pose);
+      const double miss = std::max(rows.rows[r].lower - v, v - rows.rows[r].upper);
+      auto& w = worst[(int)rows.owners[r].kind];
+      if (miss > w.first) w = {miss, rows.owners[r].step};
+    }
+    for (auto& [k, w] : worst) std::fprintf(stderr, "   kind %s miss %.4g step %d\n", toString((FaultKind)k), w.first, w.second);
+  }
   if (!least.isSolved) return false;
   rows_ = std::move(rows);
-  FORETOUCH_CHECK(stage_.change(stepped(changes, least.changes)));
+  const auto reach = static_cast<std::int32_t>(std::ceil(optionsOf(stage_).reach));
+  FORETOUCH_CHECK(stage_.change(stepped(changes, least.changes, reach)));
   FORETOUCH_TRY(faults, faultsOf(stage_));
   return true;
 }
@@ -70,9 +104,10 @@ Result<Done> Rounds::run(const std::function<bool(std::int32_t)>& progress, Repa
   Changes best = stage_.changes();
   std::int64_t fewest = faults.faulty;
   Rows pushing;
-  for (std::int32_t round = 0; round < kMostRounds && faults.faulty > 0; ++round) {
+  for (std::int32_t round = 0; round < kMostRounds; ++round) {
     if (!progress(round)) return Done{};
-    demands_.take(faults);
+    const bool asksMore = demands_.take(faults);
+    if (faults.faulty == 0 && (round == 0 || !asksMore)) break;
     if (round == kGiveUpAfter) {
       pushing = rows_;
       demands_.giveUp(faults);
@@ -80,6 +115,11 @@ Result<Done> Rounds::run(const std::function<bool(std::int32_t)>& progress, Repa
     FORETOUCH_TRY(const bool goesOn, next(faults));
     if (!goesOn) break;
     repair.rounds = round + 1;
+    if (getenv("DBG")) {
+      std::fprintf(stderr, "round %d: faulty %ld", round, (long)faults.faulty);
+      for (int k = 0; k < 5; ++k) std::fprintf(stderr, " %ld", (long)faults.countOf((FaultKind)k));
+      std::fprintf(stderr, " lifts %zu clears %zu keeps %zu holds %zu\n", demands_.lifts().size(), demands_.clears().size(), demands_.keeps().size(), demands_.holds().size());
+    }
     if (faults.faulty > fewest) continue;
     fewest = faults.faulty;
     best = stage_.changes();

@@ -18,8 +18,6 @@ using Eigen::Vector3d;
 constexpr double kReach = 0.02;
 /// A feature whose normal is this near (cosine) to a side's is turned to that side.
 constexpr double kAlong = 0.3;
-/// A foot that was lifted comes to rest within this much (m) above the gap.
-constexpr double kRestBand = 0.001;
 /// An axis this near to a triangle's plane (m) crosses it.
 constexpr double kCrosses = 1e-6;
 
@@ -33,17 +31,19 @@ struct Placed {
 
 class Builder {
  public:
-  Builder(const Stage& stage, const Levers& levers, const Demands& demands, const Faults& faults,
-          const Changes& changes)
-      : stage_(stage), levers_(levers), demands_(demands), faults_(faults), changes_(changes) {}
+  Builder(const Stage& stage, const Levers& levers, const Demands& demands, const Changes& changes)
+      : stage_(stage), levers_(levers), demands_(demands), changes_(changes) {}
 
   Rows build() {
     for (const Side& side : demands_.sides()) {
       if (side.isLost || side.isGivenUp) continue;
       for (std::int32_t step = side.first; step <= side.last; ++step) addSide(side, step);
     }
-    for (const auto& [part, pose] : demands_.lifts()) addLift(part, pose);
-    for (const FootStance& stance : faults_.feet.stances) addHolds(stance);
+    const double gap = stage_.request().gap, off = 2.0 * stage_.request().tolerance + gap;
+    for (const auto& [part, pose] : demands_.lifts()) addLift(part, pose, gap);
+    for (const auto& [part, pose] : demands_.clears()) addLift(part, pose, off);
+    for (const auto& [place, most] : demands_.keeps()) addKeep(place.first, place.second, most);
+    for (const auto& [place, look] : demands_.holds()) addHold(look);
     for (const auto& [knob, pose] : demands_.limits()) addLimit(knob, pose);
     return std::move(rows_);
   }
@@ -52,8 +52,8 @@ class Builder {
   void addSide(const Side& side, std::int32_t step);
   void addScene(const Side& side);
   void addOwn(const Side& side);
-  void addLift(std::size_t part, std::int32_t pose);
-  void addHolds(const FootStance& stance);
+  void addLift(std::size_t part, std::int32_t pose, double height);
+  void addKeep(std::size_t part, std::int32_t pose, double most);
   void addHold(const RestLook& look);
   void addLimit(std::int32_t knob, std::int32_t pose);
   void pose(std::int32_t step, double t);
@@ -66,7 +66,6 @@ class Builder {
   const Stage& stage_;
   const Levers& levers_;
   const Demands& demands_;
-  const Faults& faults_;
   const Changes& changes_;
   Rows rows_;
   // The instant that is looked at.
@@ -207,8 +206,8 @@ void Builder::addOwn(const Side& side) {
   }
 }
 
-/// Every corner of the part above what it stands on; and the lowest one not far above it.
-void Builder::addLift(std::size_t part, std::int32_t at) {
+/// Every corner of the part so high above what it stands on.
+void Builder::addLift(std::size_t part, std::int32_t at, double height) {
   const FeetInputs& inputs = stage_.feet();
   const RestingPart& of = inputs.body.parts[part];
   at == stage_.numPoses() - 1 ? pose(at - 1, 1.0) : pose(at, 0.0);
@@ -219,27 +218,34 @@ void Builder::addLift(std::size_t part, std::int32_t at) {
     const auto ground = inputs.groundBelow(p_W - Vector3d(0, corner.radius, 0));
     if (!ground) continue;
     addContact(owner, {link, p_W, ground->normal_W}, nullptr, ground->heightOf(p_W),
-               corner.radius);
+               corner.radius + height - stage_.request().gap);
   }
+}
+
+/// The lowest corner of the part at most so high.
+void Builder::addKeep(std::size_t part, std::int32_t at, double most) {
+  const FeetInputs& inputs = stage_.feet();
+  const RestingPart& of = inputs.body.parts[part];
+  at == stage_.numPoses() - 1 ? pose(at - 1, 1.0) : pose(at, 0.0);
+  const PartCorner* lowest = nullptr;
+  double least = 0.0;
+  for (const PartCorner& corner : of.corners) {
+    const double y =
+        states_[slotOf(stage_.linkOf(corner.link))].pointAt(corner.center_L).y() - corner.radius;
+    if (lowest == nullptr || y < least) lowest = &corner, least = y;
+  }
+  const LinkId link = stage_.linkOf(lowest->link);
+  const Vector3d p_W = states_[slotOf(link)].pointAt(lowest->center_L);
+  const auto ground = inputs.groundBelow(p_W - Vector3d(0, lowest->radius, 0));
+  if (!ground) return;
+  Row row;
+  levers_.add({link, p_W, ground->normal_W}, states_, at, 1.0, row.terms);
+  row.upper = lowest->radius + most;
+  row.isWish = true;
+  push(std::move(row), {FaultKind::Under, link, -1, -1, at}, ground->heightOf(p_W));
 }
 
 /// What counted for the slide does not move from one pose to the next.
-void Builder::addHolds(const FootStance& stance) {
-  std::int64_t last = -1;
-  for (std::size_t i = 0; i < stance.looks.size(); ++i) {
-    const RestLook& look = stance.looks[i];
-    const bool isHeld = std::any_of(
-        demands_.holds().begin(), demands_.holds().end(), [&](const Hold& hold) {
-          return hold.part == stance.part && hold.first <= look.step && look.step <= hold.last;
-        });
-    // One look of a step, the one in its middle.
-    std::size_t looks = 1;
-    while (i + looks < stance.looks.size() && stance.looks[i + looks].step == look.step) ++looks;
-    if (isHeld && look.step != last) addHold(stance.looks[i + looks / 2]);
-    last = look.step;
-  }
-}
-
 void Builder::addHold(const RestLook& look) {
   const auto step = static_cast<std::int32_t>(look.step);
   const LinkId link = stage_.linkOf(look.link);
@@ -273,9 +279,9 @@ void Builder::addLimit(std::int32_t knob, std::int32_t at) {
 
 }  // namespace
 
-Rows rowsOf(const Stage& stage, const Levers& levers, const Demands& demands, const Faults& faults,
+Rows rowsOf(const Stage& stage, const Levers& levers, const Demands& demands,
             const Changes& changes) {
-  return Builder(stage, levers, demands, faults, changes).build();
+  return Builder(stage, levers, demands, changes).build();
 }
 
 }  // namespace foretouch::tools

@@ -24,6 +24,6 @@ struct Rows {
 
 /// Rows of the total changes, around `changes`, which the stage is posed with.
 [[nodiscard]] Rows rowsOf(const Stage& stage, const Levers& levers, const Demands& demands,
-                          const Faults& faults, const Changes& changes);
+                          const Changes& changes);
 
 }  // namespace foretouch::tools

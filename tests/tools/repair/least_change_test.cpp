@@ -9,10 +9,13 @@
 namespace foretouch::tools {
 namespace {
 
-Knob knobOf(double weight) {
-  Knob knob;
-  knob.weight = weight;
-  return knob;
+using Eigen::MatrixXd;
+
+/// Of two knobs that move much the same.
+MatrixXd coupled() {
+  MatrixXd metric(2, 2);
+  metric << 1.0, 0.2, 0.2, 0.1;
+  return metric;
 }
 
 double valueOf(const Row& row, const Changes& changes) {
@@ -22,20 +25,18 @@ double valueOf(const Row& row, const Changes& changes) {
 }
 
 /// The cost as the header says it, by its definition.
-double costOf(const std::vector<Knob>& knobs, const Changes& changes, double reach) {
-  double cost = 0.0;
-  const auto at = [&](Eigen::Index knob, Eigen::Index pose) {
-    return pose < 0 || pose >= changes.cols() ? 0.0 : changes(knob, pose);
+double costOf(const MatrixXd& metric, const Changes& changes, double reach) {
+  const auto at = [&](Eigen::Index pose) -> Eigen::VectorXd {
+    if (pose < 0 || pose >= changes.cols()) return Eigen::VectorXd::Zero(changes.rows());
+    return changes.col(pose);
   };
+  const auto square = [&](const Eigen::VectorXd& x) { return x.dot(metric * x); };
   const double r2 = reach * reach;
-  for (Eigen::Index k = 0; k < changes.rows(); ++k) {
-    double sum = 0.0;
-    for (Eigen::Index p = -3; p < changes.cols(); ++p) {
-      const double a = at(k, p), b = at(k, p + 1), c = at(k, p + 2), d = at(k, p + 3);
-      sum += a * a + 3 * r2 * (b - a) * (b - a) + 3 * r2 * r2 * std::pow(c - 2 * b + a, 2) +
-             r2 * r2 * r2 * std::pow(d - 3 * c + 3 * b - a, 2);
-    }
-    cost += knobs[static_cast<std::size_t>(k)].weight * sum;
+  double cost = 0.0;
+  for (Eigen::Index p = -3; p < changes.cols(); ++p) {
+    cost += square(at(p)) + 3 * r2 * square(at(p + 1) - at(p)) +
+            3 * r2 * r2 * square(at(p + 2) - 2 * at(p + 1) + at(p)) +
+            r2 * r2 * r2 * square(at(p + 3) - 3 * at(p + 2) + 3 * at(p + 1) - at(p));
   }
   return cost;
 }
@@ -52,7 +53,7 @@ TEST(LeastChange, IsLeastAmongItsNeighbours) {
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
-    const std::vector<Knob> knobs{knobOf(1.0), knobOf(0.1)};
+    const MatrixXd knobs = coupled();
     constexpr int kPoses = 40;
     std::vector<Row> rows;
     for (int i = 0; i < 6; ++i) {
@@ -90,7 +91,7 @@ TEST(LeastChange, IsLeastAmongItsNeighbours) {
 
 /// A change fades without swinging past zero.
 TEST(LeastChange, FadesWithoutOvershoot) {
-  const std::vector<Knob> knobs{knobOf(1.0)};
+  const MatrixXd knobs = MatrixXd::Identity(1, 1);
   std::vector<Row> rows(1);
   rows[0].terms = {{100, 0, 1.0}};
   rows[0].lower = 0.01;
@@ -106,7 +107,7 @@ TEST(LeastChange, FadesWithoutOvershoot) {
 
 /// Poses beyond the margin, and knobs that no row names, stay as they are.
 TEST(LeastChange, ChangesNothingFarAway) {
-  const std::vector<Knob> knobs{knobOf(1.0), knobOf(1.0)};
+  const MatrixXd knobs = MatrixXd::Identity(2, 2);
   std::vector<Row> rows(1);
   rows[0].terms = {{50, 0, 1.0}};
   rows[0].lower = rows[0].upper = 0.02;
@@ -122,7 +123,7 @@ TEST(LeastChange, ChangesNothingFarAway) {
 
 /// Rows that contradict each other push against each other, and are met half way.
 TEST(LeastChange, MeetsContradictionsHalfWay) {
-  const std::vector<Knob> knobs{knobOf(1.0)};
+  const MatrixXd knobs = MatrixXd::Identity(1, 1);
   std::vector<Row> rows(2);
   rows[0].terms = rows[1].terms = {{10, 0, 1.0}};
   rows[0].lower = 0.02;

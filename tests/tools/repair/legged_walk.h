@@ -87,7 +87,7 @@ class LeggedWalk {
   }
 
   [[nodiscard]] std::string row(double timeS) const {
-    constexpr double kHips = 0.93;  // above the floor
+    constexpr double kHips = 0.85;  // above the floor: low enough for the longest step
     const Place l = left.soleAt(timeS), r = right.soleAt(timeS);
     const double z = 0.5 * (l.z + r.z);
     const ArmTurn turn = arm(timeS);
