@@ -45,7 +45,7 @@ struct RestLook {
   std::size_t corner = 0;  ///< Of the part.
   Eigen::Vector3d p_L = Eigen::Vector3d::Zero();       ///< The slowest point.
   Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();  ///< Of the ground.
-  double slide = 0.0;                                  ///< m/s
+  Eigen::Vector3d way_W = Eigen::Vector3d::Zero();     ///< That it slid, of this look (m).
 };
 
 struct FootStance {

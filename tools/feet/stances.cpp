@@ -77,8 +77,8 @@ class Walk {
   void sampleSpeeds();
   void lookBetween(std::int64_t step, double t, double lengthS);
   [[nodiscard]] CornerMotion motionOf(const RestingPart& part, const GroundSurface& surface) const;
-  void keepLook(std::int64_t step, const RestingPart& part, const CornerMotion& motion,
-                const Vector3d& normal_W, FootStance& stance) const;
+  void keepLook(std::int64_t step, std::size_t part, const CornerMotion& motion,
+                const Vector3d& normal_W, double lengthS);
   void deepen(OpenStance& open, const RestingPart& part, double depth, double timeS) const;
   [[nodiscard]] std::vector<Lss> placed(const RestingPart& part) const;
 
@@ -272,13 +272,15 @@ CornerMotion Walk::motionOf(const RestingPart& part, const GroundSurface& surfac
   return *slowest;
 }
 
-void Walk::keepLook(std::int64_t step, const RestingPart& part, const CornerMotion& motion,
-                    const Vector3d& normal_W, FootStance& stance) const {
-  const PartCorner& corner = part.corners[motion.corner];
+/// Of the stance that is open there.
+void Walk::keepLook(std::int64_t step, std::size_t part, const CornerMotion& motion,
+                    const Vector3d& normal_W, double lengthS) {
+  const PartCorner& corner = parts_[part].corners[motion.corner];
   const LinkState& state = states_[slotOf(corner.link)];
   const Vector3d p_W = motion.p_W + motion.share * corner.radius * normal_W;
-  stance.looks.push_back({step, corner.link, motion.corner, state.R_WL.transpose() * (p_W - state.p_WL), normal_W,
-                          motion.slide_W.norm()});
+  open_[cursor_[part]].stance.looks.push_back({step, corner.link, motion.corner,
+                                               state.R_WL.transpose() * (p_W - state.p_WL),
+                                               normal_W, lengthS * motion.slide_W});
 }
 
 void Walk::lookBetween(std::int64_t step, double t, double lengthS) {
@@ -293,7 +295,7 @@ void Walk::lookBetween(std::int64_t step, double t, double lengthS) {
       deepen(*open, parts_[part], -surface->heightOf(motion.p_W), timeS);
     }
     if (std::abs(motion.normalSpeed) > kRestNormalSpeed) continue;
-    if (inputs_.keepsLooks) keepLook(step, parts_[part], motion, surface->normal_W, open->stance);
+    if (inputs_.keepsLooks) keepLook(step, part, motion, surface->normal_W, lengthS);
     // From one point on: another one that touches later adds its way, not how far away it is.
     if (!open->from_W) open->from_W = motion.p_W;
     if (open->path.add(lengthS * motion.slide_W)) {

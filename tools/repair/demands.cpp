@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "lss/index.h"
 #include "middleware/depth/depth.h"
@@ -138,31 +139,33 @@ bool Demands::take(const Faults& faults) {
     const bool isContact = fault.kind == FaultKind::Scene || fault.kind == FaultKind::Own;
     if (isContact && !fault.isUndecided) isNew = takeContact(fault) || isNew;
   }
-  for (const FootStance& stance : faults.feet.stances) {
-    const bool isHand = stage_.feet().body.parts[stance.part].isHand();
-    if (!isHand && isSlide(stance, stage_)) isNew = takeSlide(stance) || isNew;
+  for (const BearingStance& stance : faults.bearing) {
+    if (stance.isFault(stage_.request().mostSlide)) isNew = takeSlide(stance) || isNew;
   }
   if (isFirst_) {
     joinThroughs();
     findRests(faults.feet);
   }
   isFirst_ = false;
-  return takeRaised(faults.feet) || isNew;
+  return isNew;
 }
 
-bool Demands::swings(const RestLook& look) const {
+Vector3d Demands::wayBefore(const RestLook& look) const {
   const LinkId link = stage_.linkOf(look.link);
   std::vector<LinkState> from, to;
   placeLinks(stage_.body().skeleton(), before_[slotOf(look.step)], from);
   placeLinks(stage_.body().skeleton(), before_[slotOf(look.step + 1)], to);
   const Vector3d way = to[slotOf(link)].pointAt(look.p_L) - from[slotOf(link)].pointAt(look.p_L);
-  const Vector3d along = way - look.normal_W.dot(way) * look.normal_W;
-  return along.norm() > kSwingSpeed * stage_.feet().stepS();
+  return way - look.normal_W.dot(way) * look.normal_W;
 }
 
-/// One look of each step, the one in its middle. What counts may be another corner in another round:
-/// then both are held.
-bool Demands::takeSlide(const FootStance& stance) {
+bool Demands::swings(const RestLook& look) const {
+  return wayBefore(look).norm() > kSwingSpeed * stage_.feet().stepS();
+}
+
+/// One look of each step, the one in its middle. What counts may be another corner than in the round
+/// before.
+bool Demands::takeSlide(const BearingStance& stance) {
   bool isNew = false;
   for (std::size_t i = 0, looks = 1; i < stance.looks.size(); i += looks, looks = 1) {
     while (i + looks < stance.looks.size() && stance.looks[i + looks].step == stance.looks[i].step)
@@ -173,7 +176,7 @@ bool Demands::takeSlide(const FootStance& stance) {
       isNew = clears_.insert({stance.part, pose}).second || isNew;
       isNew = clears_.insert({stance.part, pose + 1}).second || isNew;
     } else {
-      isNew = holds_.insert_or_assign({stance.part, look.step, look.corner}, look).second || isNew;
+      isNew = holds_.insert_or_assign({stance.part, look.step}, look).second || isNew;
     }
   }
   return isNew;
@@ -195,20 +198,10 @@ void Demands::findRests(const FeetAnswer& feet) {
                                  heightOf(look.step, other) < height);
       }
       if (!isLowest) continue;
-      rests_[{stance.part, static_cast<std::int32_t>(look.step)}] =
+      keeps_[{stance.part, static_cast<std::int32_t>(look.step)}] =
           std::max(static_cast<double>(height), stage_.request().gap) + kRestBand;
     }
   }
-}
-
-bool Demands::takeRaised(const FeetAnswer& feet) {
-  bool isNew = false;
-  const std::size_t parts = stage_.feet().body.parts.size();
-  for (const auto& [place, most] : rests_) {
-    if (feet.sample(place.second, place.first, parts).height <= most) continue;
-    isNew = keeps_.emplace(place, most).second || isNew;
-  }
-  return isNew;
 }
 
 void Demands::giveUp(const Faults& faults) {

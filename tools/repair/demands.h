@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <set>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -43,13 +42,15 @@ class Demands {
   void giveUp(const Faults& faults);
 
   [[nodiscard]] const std::vector<Side>& sides() const { return sides_; }
-  /// Part, step and corner: what must not move along the ground.
-  using Holds = std::map<std::tuple<std::size_t, std::int64_t, std::size_t>, RestLook>;
+  /// Part and step: what must not move along the ground.
+  using Holds = std::map<std::pair<std::size_t, std::int64_t>, RestLook>;
   [[nodiscard]] const Holds& holds() const { return holds_; }
   /// Part and pose: above the ground.
   [[nodiscard]] const std::set<std::pair<std::size_t, std::int32_t>>& lifts() const {
     return lifts_;
   }
+  /// Where the point went along the ground from its step to the next, before anything was changed.
+  [[nodiscard]] Eigen::Vector3d wayBefore(const RestLook& look) const;
   /// Part and pose, and how high it may be: it rested, and is not to be lifted.
   [[nodiscard]] const std::map<std::pair<std::size_t, std::int32_t>, double>& keeps() const {
     return keeps_;
@@ -74,17 +75,16 @@ class Demands {
   [[nodiscard]] bool endsBehind(const Side& side) const;
   void joinThroughs();
   void findRests(const FeetAnswer& feet);
-  bool takeSlide(const FootStance& stance);
+  bool takeSlide(const BearingStance& stance);
   /// Whether what was looked at went by, before anything was changed, faster than what slides.
   [[nodiscard]] bool swings(const RestLook& look) const;
-  bool takeRaised(const FeetAnswer& feet);
 
   const Stage& stage_;
   std::vector<Side> sides_;
   Holds holds_;
   std::vector<Pose> before_;
   std::set<std::pair<std::size_t, std::int32_t>> lifts_, clears_;
-  std::map<std::pair<std::size_t, std::int32_t>, double> rests_, keeps_;
+  std::map<std::pair<std::size_t, std::int32_t>, double> keeps_;
   std::set<std::pair<std::int32_t, std::int32_t>> limits_;
   std::map<std::int32_t, std::set<double>> instants_;
   bool isFirst_ = true;

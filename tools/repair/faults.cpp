@@ -6,6 +6,7 @@
 
 #include "articulated/try.h"
 #include "lss/index.h"
+#include "tools/feet/slide_path.h"
 #include "tools/feet/stances.h"
 
 namespace foretouch::tools {
@@ -61,29 +62,64 @@ std::pair<std::int32_t, std::int32_t> posesOf(const FootStance& stance, const Fe
           static_cast<std::int32_t>(std::min(last, static_cast<double>(inputs.steps())))};
 }
 
-void addStances(const Stage& stage, const FeetAnswer& feet, std::vector<StepFault>& faults) {
+void addDepths(const Stage& stage, const FeetAnswer& feet, std::vector<StepFault>& faults) {
   const FeetInputs& inputs = stage.feet();
   const std::size_t parts = inputs.body.parts.size();
   for (const FootStance& stance : feet.stances) {
     if (stance.kind == StanceKind::Hovers || inputs.body.parts[stance.part].isHand()) continue;
     const auto [first, last] = posesOf(stance, inputs);
     StepFault fault;
+    fault.kind = FaultKind::Under;
     fault.part = stance.part;
     fault.link = stage.linkOf(inputs.body.parts[stance.part].links.front());
     for (std::int32_t pose = first; pose <= last; ++pose) {
       const PartSample& sample = feet.sample(pose, stance.part, parts);
+      if (!(sample.depth > kNoFault)) continue;
       fault.step = std::min(pose, stage.numPoses() - 2);
-      if (sample.depth > kNoFault) {
-        fault.kind = FaultKind::Under;
-        fault.by = sample.depth;
-        faults.push_back(fault);
-      }
-      if (isSlide(stance, stage) && sample.slide > 0.0F) {
-        fault.kind = FaultKind::Slide;
-        fault.by = stance.slide;
-        faults.push_back(fault);
-      }
+      fault.by = sample.depth;
+      faults.push_back(fault);
     }
+  }
+}
+
+bool bears(const Stage& stage, const FeetAnswer& feet, std::size_t part, std::int64_t pose) {
+  const auto& parts = stage.feet().body.parts;
+  const double height = feet.sample(pose, part, parts.size()).height;
+  for (std::size_t other = 0; other < parts.size(); ++other) {
+    if (parts[other].limb != parts[part].limb) continue;
+    if (feet.sample(pose, other, parts.size()).height < height - kBears) return false;
+  }
+  return true;
+}
+
+void addSlides(const Stage& stage, Faults& faults) {
+  for (const FootStance& stance : faults.feet.stances) {
+    if (stance.looks.empty() || stage.feet().body.parts[stance.part].isHand()) continue;
+    BearingStance bearing;
+    bearing.part = stance.part;
+    bearing.fromFrame = stance.fromFrame;
+    bearing.toFrame = stance.toFrame;
+    SlidePath path(kSlideRuler);
+    for (const RestLook& look : stance.looks) {
+      if (!bears(stage, faults.feet, stance.part, look.step)) continue;
+      bearing.looks.push_back(look);
+      path.add(look.way_W);
+    }
+    bearing.slide = path.length();
+    bearing.moved = path.farthest();
+    StepFault fault;
+    fault.kind = FaultKind::Slide;
+    fault.part = stance.part;
+    fault.link = stage.linkOf(stage.feet().body.parts[stance.part].links.front());
+    fault.by = bearing.slide;
+    for (const RestLook& look : bearing.looks) {
+      if (!bearing.isFault(stage.request().mostSlide)) break;
+      const auto step = static_cast<std::int32_t>(look.step);
+      if (look.way_W.isZero(0.0)) continue;
+      fault.step = step;
+      faults.all.push_back(fault);
+    }
+    faults.bearing.push_back(std::move(bearing));
   }
 }
 
@@ -129,15 +165,12 @@ std::int64_t Faults::countOf(FaultKind kind) const {
   return count;
 }
 
-bool isSlide(const FootStance& stance, const Stage& stage) {
-  return stance.slide >= kSlides && stance.moved <= stage.request().mostSlide;
-}
-
 Result<Faults> faultsOf(const Stage& stage) {
   Faults faults;
   addContacts(stage, faults.all);
   FORETOUCH_TRY(faults.feet, stancesOf(stage.feet(), [](std::int64_t) { return true; }));
-  addStances(stage, faults.feet, faults.all);
+  addDepths(stage, faults.feet, faults.all);
+  addSlides(stage, faults);
   addLimits(stage, faults.all);
   std::stable_sort(faults.all.begin(), faults.all.end(),
                    [](const StepFault& x, const StepFault& y) { return x.step < y.step; });

@@ -45,9 +45,28 @@ struct StepFault {
   double by = 0.0;
 };
 
+/// What of a stance bears: the looks at which the part is about the lowest of its foot. A heel that
+/// lifts over a ball that stands does not slide.
+struct BearingStance {
+  std::size_t part = 0;
+  std::vector<RestLook> looks;
+  double slide = 0.0, moved = 0.0;  ///< As FootStance, of these looks.
+  std::int64_t fromFrame = 0, toFrame = 0;
+
+  [[nodiscard]] bool isFault(double mostSlide) const {
+    return slide >= kSlides && moved <= mostSlide;
+  }
+  [[nodiscard]] bool isMeant(double mostSlide) const {
+    return slide >= kSlides && moved > mostSlide;
+  }
+};
+/// A part is about the lowest within this (m).
+inline constexpr double kBears = 0.002;
+
 struct Faults {
   std::vector<StepFault> all;          ///< By step.
   FeetAnswer feet;
+  std::vector<BearingStance> bearing;  ///< Of feet.
   std::vector<std::uint8_t> isFaulty;  ///< Per interval.
   std::int64_t faulty = 0;             ///< Intervals.
 
@@ -56,9 +75,6 @@ struct Faults {
 
 /// Asks the kernel of every interval, and how feet rest. Errors: as stancesOf().
 [[nodiscard]] Result<Faults> faultsOf(const Stage& stage);
-
-/// A stance that slides, and does not mean to.
-[[nodiscard]] bool isSlide(const FootStance& stance, const Stage& stage);
 
 /// Depths below this are rounding (m).
 inline constexpr double kNoFault = 1e-6;

@@ -11,14 +11,14 @@
 namespace foretouch::tools {
 namespace {
 
-/// Cost per square metre (or unit) that a row is missed by. Above the stiffness of most changes, so
-/// that few rounds of multipliers do; and no higher, so that rows which contradict each other do not
-/// tear at the body.
-constexpr double kStiffness = 1e6;
+/// Cost per square metre (or unit) that a row is missed by, in the first round of multipliers, and by
+/// how much it grows from one to the next: in the end above the stiffness of any smooth change, and
+/// no higher, so that rows which contradict each other do not tear at the body.
+constexpr double kFirstStiffness = 1e5, kGrowth = 10.0;
 /// The same of wishes: a millimetre costs as much as the body's way over some poses.
 constexpr double kWish = 1e3;
 /// Rounds of multipliers, and of the choice of rows that push in each.
-constexpr int kMultiplierRounds = 5, kChoices = 6;
+constexpr int kMultiplierRounds = 4, kChoices = 5;
 /// A row is met within this (m, or the knob's unit).
 constexpr double kMet = 1e-6;
 /// Smoothing over more poses than this is no smoother to the eye, and doubles cannot tell.
@@ -62,6 +62,7 @@ class Solver {
   }
 
   const Eigen::MatrixXd& metric_;
+  double stiffness_ = kFirstStiffness;
   std::int32_t poses_;
   std::vector<Row>& rows_;
   const LeastChangeOptions& options_;
@@ -141,7 +142,7 @@ std::vector<Solver::Pull> Solver::pullsAt(const Eigen::VectorXd& x) const {
   std::vector<Pull> pulls;
   pulls.reserve(rows_.size());
   for (const Row& row : rows_) {
-    const double shifted = valueOf(row, x) - (row.isWish ? 0.0 : row.push / kStiffness);
+    const double shifted = valueOf(row, x) - (row.isWish ? 0.0 : row.push / stiffness_);
     if (shifted < row.lower) {
       pulls.push_back({true, row.lower});
     } else if (shifted > row.upper) {
@@ -159,7 +160,7 @@ bool Solver::solveFor(const std::vector<Pull>& pulls, Eigen::VectorXd& x) {
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     if (!pulls[r].isOn) continue;
     const auto& terms = rows_[r].terms;
-    const double stiffness = rows_[r].isWish ? kWish : kStiffness;
+    const double stiffness = rows_[r].isWish ? kWish : stiffness_;
     const double towards = stiffness * pulls[r].bound + (rows_[r].isWish ? 0.0 : rows_[r].push);
     for (const RowTerm& one : terms) {
       const int at = placeOf(one.pose);
@@ -190,6 +191,7 @@ LeastChange Solver::solve() {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(size);
   for (Row& row : rows_) row.push = 0.0;
   for (int round = 0; round < kMultiplierRounds && answer.isSolved; ++round) {
+    stiffness_ = kFirstStiffness * std::pow(kGrowth, round);
     std::vector<Pull> pulls = pullsAt(x);
     for (int choice = 0; choice < kChoices && answer.isSolved; ++choice) {
       answer.isSolved = solveFor(pulls, x);
@@ -206,7 +208,7 @@ LeastChange Solver::solve() {
       const double value = valueOf(row, x);
       if (row.isWish) continue;
       answer.worst = std::max({answer.worst, row.lower - value, value - row.upper});
-      row.push = pulls[r].isOn ? row.push + kStiffness * (pulls[r].bound - value) : 0.0;
+      row.push = pulls[r].isOn ? row.push + stiffness_ * (pulls[r].bound - value) : 0.0;
     }
     if (answer.worst < kMet) break;
   }

@@ -9,9 +9,9 @@
 namespace foretouch::tools {
 namespace {
 
-/// What turning costs beside what it moves: as if each joint carried something at 5 cm. Without it
+/// What turning costs beside what it moves: as if each joint carried something at 10 cm. Without it
 /// fingers and toes, which move little, would turn far.
-constexpr double kTurnCost = 0.0025;
+constexpr double kTurnCost = 0.01;
 /// The same of shifts: the share of the body that they count as at least.
 constexpr double kShiftCost = 0.02;
 /// Poses over which costs are averaged.

@@ -141,10 +141,8 @@ Result<Repair> repaired(Stage& stage, const std::function<bool(std::int32_t)>& p
   const std::vector<Pose> before = stage.poses();
   FORETOUCH_CHECK(Rounds(stage).run(progress, repair));
   repair.measures = measuresOf(stage, before);
-  for (const FootStance& stance : repair.before.feet.stances) {
-    const bool isHand = stage.feet().body.parts[stance.part].isHand();
-    const bool isFar = stance.slide >= kSlides && stance.moved > stage.request().mostSlide;
-    if (isFar && !isHand) repair.meant.push_back(stance);
+  for (const BearingStance& stance : repair.before.bearing) {
+    if (stance.isMeant(stage.request().mostSlide)) repair.meant.push_back(stance);
   }
   return repair;
 }

@@ -30,7 +30,7 @@ struct Repair {
   Measures measures;
   std::vector<Unmended> unmended;
   /// Stances that move too far to be a slide: they were left as they are.
-  std::vector<FootStance> meant;
+  std::vector<BearingStance> meant;
   std::int32_t rounds = 0;
   std::string bytes;  ///< The file.
 };

@@ -84,7 +84,7 @@ std::string unmendedText(const Stage& stage, const Repair& repair) {
     text += fmt::format("and {} more that are not mended: --json has all\n",
                         repair.unmended.size() - kMostLines);
   }
-  for (const FootStance& stance : repair.meant) {
+  for (const BearingStance& stance : repair.meant) {
     const FeetInputs& inputs = stage.feet();
     text += fmt::format("left as it is: frames {} to {}: {} moves {:.0f} mm while it touches\n",
                         stance.fromFrame, stance.toFrame,
@@ -191,7 +191,7 @@ std::string repairJson(const Stage& stage, const Repair& repair) {
     out.field("reason", fault.reason);
     out.endObject();
   });
-  out.list("meant", repair.meant, [&](const FootStance& stance) {
+  out.list("meant", repair.meant, [&](const BearingStance& stance) {
     const FeetInputs& inputs = stage.feet();
     out.beginObject();
     out.field("part", inputs.body.nameOf(inputs.body.parts[stance.part]));

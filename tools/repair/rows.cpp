@@ -245,7 +245,7 @@ void Builder::addKeep(std::size_t part, std::int32_t at, double most) {
   push(std::move(row), {FaultKind::Under, link, -1, -1, at}, ground->heightOf(p_W));
 }
 
-/// What counted for the slide does not move from one pose to the next.
+/// What counted for a slide does not move from one pose to the next.
 void Builder::addHold(const RestLook& look) {
   const auto step = static_cast<std::int32_t>(look.step);
   const LinkId link = stage_.linkOf(look.link);
