@@ -14,11 +14,11 @@ namespace {
 /// Cost per square metre (or unit) that a row is missed by, in the first round of multipliers, and by
 /// how much it grows from one to the next: in the end above the stiffness of any smooth change, and
 /// no higher, so that rows which contradict each other do not tear at the body.
-constexpr double kFirstStiffness = 1e5, kGrowth = 10.0;
+constexpr double kFirstStiffness = 1e5, kGrowth = 10.0, kMostStiffness = 1e6;
 /// The same of wishes: a millimetre costs as much as the body's way over some poses.
 constexpr double kWish = 1e3;
 /// Rounds of multipliers, and of the choice of rows that push in each.
-constexpr int kMultiplierRounds = 4, kChoices = 5;
+constexpr int kMultiplierRounds = 5, kChoices = 5;
 /// A row is met within this (m, or the knob's unit).
 constexpr double kMet = 1e-6;
 /// Smoothing over more poses than this is no smoother to the eye, and doubles cannot tell.
@@ -191,7 +191,7 @@ LeastChange Solver::solve() {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(size);
   for (Row& row : rows_) row.push = 0.0;
   for (int round = 0; round < kMultiplierRounds && answer.isSolved; ++round) {
-    stiffness_ = kFirstStiffness * std::pow(kGrowth, round);
+    stiffness_ = std::min(kMostStiffness, kFirstStiffness * std::pow(kGrowth, round));
     std::vector<Pull> pulls = pullsAt(x);
     for (int choice = 0; choice < kChoices && answer.isSolved; ++choice) {
       answer.isSolved = solveFor(pulls, x);

@@ -1,7 +1,7 @@
 // tools/repair/least_change.h: the least smooth change of a whole clip that keeps rows of linear
 // bounds: min sum over poses of |change|^2 + 3 reach^2 |first difference|^2 + 3 reach^4 |second|^2 +
 // reach^6 |third|^2, with |x|^2 = x.metric x over the knobs, subject to lower <= row * change <=
-// upper. Why these: tools/repair/repair.md 2.
+// upper. Why these: docs/repair.md.
 #pragma once
 
 #include <cstddef>

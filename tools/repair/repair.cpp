@@ -1,9 +1,6 @@
 #include "tools/repair/repair.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <cstdio>
-#include <map>
 #include <cmath>
 #include <utility>
 
@@ -16,9 +13,9 @@ namespace foretouch::tools {
 namespace {
 
 /// What is still at fault after so many rounds no longer pulls on the rest.
-constexpr std::int32_t kGiveUpAfter = 9;
+constexpr std::int32_t kGiveUpAfter = 14;
 /// No joint turns by more in one round (rad): rows are linear.
-constexpr double kMostTurnPerRound = 0.35;
+constexpr double kMostTurnPerRound = 0.2;
 /// Seconds over which a change fades, and after which it is over.
 constexpr double kReachS = 0.06, kMarginS = 0.6;
 
@@ -78,19 +75,6 @@ Result<bool> Rounds::next(Faults& faults) {
   if (metric_.size() == 0) metric_ = levers_.metric();
   const LeastChange least =
       leastChange(metric_, stage_.numPoses(), rows.rows, optionsOf(stage_));
-  if (getenv("DBG")) {
-    std::fprintf(stderr, "rows %zu worst %.3g step %.3g solved %d\n", rows.rows.size(), least.worst,
-                 (least.changes - changes).cwiseAbs().maxCoeff(), least.isSolved);
-    std::map<int, std::pair<double, int>> worst;
-    for (std::size_t r = 0; r < rows.rows.size(); ++r) {
-      double v = 0;
-      for (const auto& t : rows.rows[r].terms) v += t.by * least.changes(t.knob, t.pose);
-      const double miss = std::max(rows.rows[r].lower - v, v - rows.rows[r].upper);
-      auto& w = worst[(int)rows.owners[r].kind];
-      if (miss > w.first) w = {miss, rows.owners[r].step};
-    }
-    for (auto& [k, w] : worst) std::fprintf(stderr, "   kind %s miss %.4g step %d\n", toString((FaultKind)k), w.first, w.second);
-  }
   if (!least.isSolved) return false;
   rows_ = std::move(rows);
   const auto reach = static_cast<std::int32_t>(std::ceil(optionsOf(stage_).reach));
@@ -115,11 +99,6 @@ Result<Done> Rounds::run(const std::function<bool(std::int32_t)>& progress, Repa
     FORETOUCH_TRY(const bool goesOn, next(faults));
     if (!goesOn) break;
     repair.rounds = round + 1;
-    if (getenv("DBG")) {
-      std::fprintf(stderr, "round %d: faulty %ld", round, (long)faults.faulty);
-      for (int k = 0; k < 5; ++k) std::fprintf(stderr, " %ld", (long)faults.countOf((FaultKind)k));
-      std::fprintf(stderr, " lifts %zu clears %zu keeps %zu holds %zu\n", demands_.lifts().size(), demands_.clears().size(), demands_.keeps().size(), demands_.holds().size());
-    }
     if (faults.faulty > fewest) continue;
     fewest = faults.faulty;
     best = stage_.changes();

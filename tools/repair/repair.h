@@ -1,6 +1,6 @@
 // tools/repair/repair.h: mends a clip: the least smooth change after which nothing touches between
 // two poses, feet that rest do not slide, and joints keep their limits; in rounds, each of which asks
-// the kernel again. How, and what it does not promise: tools/repair/repair.md.
+// the kernel again. How, and what it does not promise: docs/repair.md.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct Repair {
 };
 
 /// Rounds of asking and changing.
-inline constexpr std::int32_t kMostRounds = 14;
+inline constexpr std::int32_t kMostRounds = 20;
 
 /// `progress(round)` before each round; false stops, and the answer is then of no use. The stage is
 /// posed as the file reads back. Errors: as faultsOf(), and those of the file's format.
