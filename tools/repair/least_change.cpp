@@ -72,11 +72,12 @@ class Solver {
   std::unique_ptr<const BandedSystem> cost_;
 };
 
-/// The poses and knobs that may change.
+/// The poses and knobs that may change. Wishes about others have nothing to wish for.
 void Solver::findPlaces() {
   std::vector<std::uint8_t> isNear(static_cast<std::size_t>(poses_), 0);
   std::vector<std::uint8_t> isNamed(slotOf(metric_.rows()), 0);
   for (const Row& row : rows_) {
+    if (row.isWish) continue;
     for (const RowTerm& term : row.terms) {
       isNear[static_cast<std::size_t>(term.pose)] = 1;
       isNamed[static_cast<std::size_t>(term.knob)] = 1;
@@ -101,6 +102,12 @@ void Solver::findPlaces() {
     if (isNamed[knob] == 0) continue;
     knobAt_[knob] = numKnobs_++;
     changing_.push_back(static_cast<std::int32_t>(knob));
+  }
+  for (Row& row : rows_) {
+    const auto stays = [&](const RowTerm& term) {
+      return poseAt_[slotOf(term.pose)] < 0 || knobAt_[slotOf(term.knob)] < 0;
+    };
+    row.terms.erase(std::remove_if(row.terms.begin(), row.terms.end(), stays), row.terms.end());
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "lss/index.h"
 #include "tools/floor/resting_body.h"
@@ -14,6 +15,8 @@ namespace {
 constexpr double kTurnCost = 0.01;
 /// The same of shifts: the share of the body that they count as at least.
 constexpr double kShiftCost = 0.02;
+/// A limb with so many knobs can get out of the way by itself.
+constexpr std::size_t kEnoughKnobs = 3;
 /// Poses over which costs are averaged.
 constexpr std::int32_t kMetricPoses = 32;
 
@@ -47,6 +50,30 @@ Levers::Levers(const Stage& stage) : stage_(stage), R_WClip_(stage.R_WClip()) {
       }
     }
   }
+  std::vector<std::uint8_t> carriesFoot(levers_.size(), 0);
+  for (const RestingPart& part : stage.feet().body.parts) {
+    for (JointId at = part.isHand() ? kNoParent : part.joint; at != kNoParent;
+         at = skeleton.parent(at)) {
+      carriesFoot[slotOf(at)] = 1;
+    }
+  }
+  for (const std::vector<Lever>& all : levers_) {
+    std::vector<Lever>& own = limbs_.emplace_back();
+    std::copy_if(all.begin(), all.end(), std::back_inserter(own),
+                 [&](const Lever& lever) { return carriesFoot[slotOf(lever.joint)] == 0; });
+    if (own.size() < kEnoughKnobs) own = all;
+  }
+}
+
+void Levers::addBeside(LinkId other, const SeenPoint& point, const Sight& sight,
+                       std::vector<RowTerm>& terms) const {
+  std::vector<Lever> own;
+  for (const Lever& lever : levers_[slotOf(point.link)]) {
+    const auto isOfOther = [&](const Lever& beside) { return beside.joint == lever.joint; };
+    const auto& all = levers_[slotOf(other)];
+    if (std::none_of(all.begin(), all.end(), isOfOther)) own.push_back(lever);
+  }
+  add(own, point, sight, terms);
 }
 
 void Levers::setChanges(const Changes& changes) {
@@ -60,22 +87,22 @@ void Levers::setChanges(const Changes& changes) {
   }
 }
 
-void Levers::add(const SeenPoint& point, const std::vector<LinkState>& states, std::int32_t pose,
-                 double share, std::vector<RowTerm>& terms) const {
-  if (share == 0.0) return;
+void Levers::add(const std::vector<Lever>& levers, const SeenPoint& point, const Sight& sight,
+                 std::vector<RowTerm>& terms) const {
+  if (sight.share == 0.0) return;
   const Skeleton& skeleton = stage_.body().skeleton();
-  for (const Lever& lever : levers_[slotOf(point.link)]) {
-    const LinkState& joint = states[slotOf(lever.joint)];
+  for (const Lever& lever : levers) {
+    const LinkState& joint = sight.states[slotOf(lever.joint)];
     Vector3d moves_W;
     if (lever.turns) {
-      const Matrix3d& tilt = tilts_[slotOf(pose)][slotOf(lever.clipJoint)];
+      const Matrix3d& tilt = tilts_[slotOf(sight.pose)][slotOf(lever.clipJoint)];
       moves_W = (joint.R_WL * (tilt * lever.along)).cross(point.p_W - joint.p_WL);
     } else {
       const JointId above = skeleton.parent(lever.joint);
-      moves_W = (above == kNoParent ? R_WClip_ : states[slotOf(above)].R_WL) * lever.along;
+      moves_W = (above == kNoParent ? R_WClip_ : sight.states[slotOf(above)].R_WL) * lever.along;
     }
-    const double by = share * point.along_W.dot(moves_W);
-    if (by != 0.0) terms.push_back({pose, lever.knob, by});
+    const double by = sight.share * point.along_W.dot(moves_W);
+    if (by != 0.0) terms.push_back({sight.pose, lever.knob, by});
   }
 }
 
@@ -93,7 +120,7 @@ Eigen::MatrixXd Levers::metric() const {
     for (LinkId link = 0; link < skeleton.numJoints(); ++link) {
       for (int axis = 0; axis < 3; ++axis) {
         std::vector<RowTerm> terms;
-        add({link, states[slotOf(link)].p_WL, Vector3d::Unit(axis)}, states, pose, 1.0, terms);
+        add({link, states[slotOf(link)].p_WL, Vector3d::Unit(axis)}, {states, pose, 1.0}, terms);
         for (const RowTerm& one : terms) {
           for (const RowTerm& other : terms) {
             metric(one.knob, other.knob) += share * one.by * other.by;

@@ -108,12 +108,16 @@ void Builder::addContact(const RowOwner& owner, const SeenPoint& point, const Se
   const double gap = stage_.request().gap;
   if (distance > radii + gap + kReach) return;
   Row row;
-  const auto add = [&](const SeenPoint& seen) {
-    levers_.add(seen, states_, step_, 1.0 - t_, row.terms);
-    levers_.add(seen, states_, std::min(step_ + 1, stage_.numPoses() - 1), t_, row.terms);
-  };
-  add(point);
-  if (other != nullptr) add({other->link, other->p_W, -other->along_W});
+  for (const bool isLater : {false, true}) {
+    const Levers::Sight sight{states_, isLater ? std::min(step_ + 1, stage_.numPoses() - 1) : step_,
+                              isLater ? t_ : 1.0 - t_};
+    if (other == nullptr) {
+      levers_.addOfLimb(point, sight, row.terms);
+    } else {
+      levers_.addBeside(other->link, point, sight, row.terms);
+      levers_.addBeside(point.link, {other->link, other->p_W, -other->along_W}, sight, row.terms);
+    }
+  }
   row.lower = radii + gap;
   push(std::move(row), owner, distance);
 }
@@ -239,7 +243,7 @@ void Builder::addKeep(std::size_t part, std::int32_t at, double most) {
   const auto ground = inputs.groundBelow(p_W - Vector3d(0, lowest->radius, 0));
   if (!ground) return;
   Row row;
-  levers_.add({link, p_W, ground->normal_W}, states_, at, 1.0, row.terms);
+  levers_.add({link, p_W, ground->normal_W}, {states_, at, 1.0}, row.terms);
   row.upper = lowest->radius + most;
   row.isWish = true;
   push(std::move(row), {FaultKind::Under, link, -1, -1, at}, ground->heightOf(p_W));
@@ -258,7 +262,7 @@ void Builder::addHold(const RestLook& look) {
       pose(step, t);
       const Vector3d p_W = states_[slotOf(link)].pointAt(look.p_L);
       const double sign = t > 0.5 ? 1.0 : -1.0;
-      levers_.add({link, p_W, along}, states_, t > 0.5 ? step + 1 : step, sign, row.terms);
+      levers_.add({link, p_W, along}, {states_, t > 0.5 ? step + 1 : step, sign}, row.terms);
       value += sign * along.dot(p_W);
     }
     row.lower = row.upper = 0.0;

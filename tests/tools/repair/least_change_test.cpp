@@ -117,7 +117,9 @@ TEST(LeastChange, ChangesNothingFarAway) {
   EXPECT_NEAR(least.changes(0, 50), 0.02, 1e-6);
   for (int pose = 0; pose < 100; ++pose) {
     EXPECT_EQ(least.changes(1, pose), 0.0);
-    if (std::abs(pose - 50) > 20) EXPECT_EQ(least.changes(0, pose), 0.0);
+    if (std::abs(pose - 50) > 20) {
+      EXPECT_EQ(least.changes(0, pose), 0.0);
+    }
   }
 }
 

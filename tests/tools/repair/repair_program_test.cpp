@@ -96,7 +96,7 @@ TEST_F(RepairProgram, LiftsFeetThatSinkIn) {
     SCOPED_TRACE(sunk);
     const std::string bvh = steps(sunk * kMm, 0.0).bvh();
     const OracleClip before(bvh);
-    EXPECT_NEAR(leastHeight(before, feetCapsules()[0]), -sunk * kMm, 1e-5);
+    EXPECT_NEAR(leastHeight(before, feetCapsules()[0]), -sunk * kMm, 1e-4);
     const Mended mended = mend(bvh);
     EXPECT_EQ(mended.ended.exitCode, 0) << mended.ended.out;
     const OracleClip after(mended.text);
@@ -109,7 +109,7 @@ TEST_F(RepairProgram, LiftsFeetThatSinkIn) {
     }
     const OracleChange change = changeBetween(before, after);
     EXPECT_LT(change.mean(), std::max(1.0, sunk) * kMm);
-    if (sunk <= 10.0) EXPECT_LT(change.jerkAfter, 1.05 * change.jerkBefore);
+    EXPECT_LT(change.jerkAfter, 1.05 * change.jerkBefore);
   }
 }
 
@@ -197,7 +197,7 @@ TEST_F(RepairProgram, LeavesAloneWhatIsFree) {
   EXPECT_EQ(mended.ended.exitCode, 0) << mended.ended.out;
   EXPECT_NE(mended.text, bvh);
   EXPECT_EQ(mended.text.substr(0, bvh.find("Frame Time")), bvh.substr(0, bvh.find("Frame Time")));
-  EXPECT_EQ(mended.text.substr(mended.text.size() - 9000), bvh.substr(bvh.size() - 9000));
+  EXPECT_TRUE(mended.text.substr(mended.text.size() - 9000) == bvh.substr(bvh.size() - 9000));
 }
 
 /// Somebody who walks through a wall cannot be mended: the report names when and why, the exit code
