@@ -102,8 +102,9 @@ Result<Done> Rewriter::writeTurn(std::size_t joint, const Cell* cells, const Qua
     return Done{};
   }
   if (!channels.saysAnyTurn()) return impossible(joint);
-  const auto angles = anglesAbout(
-      R, {channels.turns[0], channels.turns[1], channels.turns[2]}, {cells[places[0]].value, cells[places[1]].value, cells[places[2]].value});
+  const auto angles =
+      anglesAbout(R, {channels.turns[0], channels.turns[1], channels.turns[2]},
+                  {cells[places[0]].value, cells[places[1]].value, cells[places[2]].value});
   for (std::size_t n = 0; n < 3; ++n) put(cells[places[n]], angles[n]);
   return Done{};
 }

@@ -24,11 +24,12 @@ namespace foretouch {
 
 /// What a file's columns can say of a joint.
 struct BvhJointChannels {
-  std::vector<int> turns;                ///< Axes (0 to 2: x, y, z) in the file's order.
-  std::array<bool, 3> shifts{};          ///< Per axis: there is a position channel.
+  std::vector<int> turns;        ///< Axes (0 to 2: x, y, z) in the file's order.
+  std::array<bool, 3> shifts{};  ///< Per axis: there is a position channel.
   /// Three different axes: any rotation can be said.
   [[nodiscard]] bool saysAnyTurn() const {
-    return turns.size() == 3 && turns[0] != turns[1] && turns[1] != turns[2] && turns[0] != turns[2];
+    return turns.size() == 3 && turns[0] != turns[1] && turns[1] != turns[2] &&
+           turns[0] != turns[2];
   }
 };
 
@@ -37,9 +38,9 @@ struct BvhJointChannels {
                                                                   const std::string& name);
 
 /// `text` with the frames `after` in place of `clip.frames`, which is what it was read as at
-/// `scale`. A number stays, letter by letter, where its joint's part of the pose did not change, and
-/// where the change is below what its digits, or six of them, can say. Angles are those nearest to
-/// the old ones. Errors (Error::index is the joint): a change that a joint has no channels for;
+/// `scale`. A number stays, letter by letter, where its joint's part of the pose did not change,
+/// and where the change is below what its digits, or six of them, can say. Angles are those nearest
+/// to the old ones. Errors (Error::index is the joint): a change that a joint has no channels for;
 /// texts that are not what the clip was read from. Precondition: as many frames.
 [[nodiscard]] Result<std::string> rewriteBvh(std::string_view text, const std::string& name,
                                              double scale, const Clip& clip,

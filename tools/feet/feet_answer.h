@@ -41,8 +41,8 @@ enum class StanceKind : std::uint8_t {
 /// What of a part counted for its slide at an instant between two poses, while it rested.
 struct RestLook {
   std::int64_t step = 0;
-  LinkId link = 0;         ///< Of RestingBody::avatar.
-  std::size_t corner = 0;  ///< Of the part.
+  LinkId link = 0;                                     ///< Of RestingBody::avatar.
+  std::size_t corner = 0;                              ///< Of the part.
   Eigen::Vector3d p_L = Eigen::Vector3d::Zero();       ///< The slowest point.
   Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();  ///< Of the ground.
   Eigen::Vector3d way_W = Eigen::Vector3d::Zero();     ///< That it slid, of this look (m).

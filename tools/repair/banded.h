@@ -1,6 +1,6 @@
 // tools/repair/banded.h: symmetric positive systems whose unknowns come in blocks of one size, each
-// of which is coupled with the next few alone: Cholesky's factor block by block, with Eigen's own of
-// each.
+// of which is coupled with the next few alone: Cholesky's factor block by block, with Eigen's own
+// of each.
 #pragma once
 
 #include <array>

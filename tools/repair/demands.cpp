@@ -20,8 +20,8 @@ constexpr std::int32_t kSame = 3;
 
 }  // namespace
 
-/// The side on which the link was before it touched; where it begins inside, up if it is in what one
-/// stands on, else the way out.
+/// The side on which the link was before it touched; where it begins inside, up if it is in what
+/// one stands on, else the way out.
 Side Demands::begun(const StepFault& fault) const {
   Side side;
   side.link = fault.link;
@@ -163,8 +163,8 @@ bool Demands::swings(const RestLook& look) const {
   return wayBefore(look).norm() > kSwingSpeed * stage_.feet().stepS();
 }
 
-/// One look of each step, the one in its middle. What counts may be another corner than in the round
-/// before.
+/// One look of each step, the one in its middle. What counts may be another corner than in the
+/// round before.
 bool Demands::takeSlide(const BearingStance& stance) {
   bool isNew = false;
   for (std::size_t i = 0, looks = 1; i < stance.looks.size(); i += looks, looks = 1) {

@@ -18,7 +18,7 @@ namespace foretouch::tools {
 struct Side {
   LinkId link = 0, other = -1;  ///< `other`: of own links.
   ObjectId object = -1;
-  std::int32_t first = 0, last = 0;  ///< Steps.
+  std::int32_t first = 0, last = 0;                    ///< Steps.
   Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();  ///< To that side; zero: not known.
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();       ///< On the surface, where it was met.
   bool isLost = false;  ///< It came through and does not come back: no way is known.

@@ -29,16 +29,16 @@ enum class FaultKind : std::uint8_t {
 /// One interval's, from pose `step` to the next.
 struct StepFault {
   FaultKind kind = FaultKind::Scene;
-  std::int32_t step = 0;   ///< Of Limit a pose; of Under as well, but for the last one.
-  LinkId link = -1;        ///< Of the body; of Limit the knob's place.
-  LinkId other = -1;       ///< Of Own.
-  ObjectId object = -1;    ///< Of Scene.
-  std::size_t part = 0;    ///< Of Under and Slide: of FeetInputs::body.
-  bool isStart = false;    ///< Of contacts: it touches at the pose already.
+  std::int32_t step = 0;  ///< Of Limit a pose; of Under as well, but for the last one.
+  LinkId link = -1;       ///< Of the body; of Limit the knob's place.
+  LinkId other = -1;      ///< Of Own.
+  ObjectId object = -1;   ///< Of Scene.
+  std::size_t part = 0;   ///< Of Under and Slide: of FeetInputs::body.
+  bool isStart = false;   ///< Of contacts: it touches at the pose already.
   bool isUndecided = false;
-  double at = 0.0;         ///< Of contacts, in [0,1]: where it is free until.
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();      ///< On what is touched.
-  Eigen::Vector3d normal_W = Eigen::Vector3d::Zero(); ///< Unit, towards the link; zero: not known.
+  double at = 0.0;  ///< Of contacts, in [0,1]: where it is free until.
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();       ///< On what is touched.
+  Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();  ///< Unit, towards the link; zero: not known.
   TriangleId triangle = -1;
   /// By how much (m, or of Limit the knob's unit): depth, the stance's slide, excess; of contacts
   /// the penetration of an axis' radius, where it is known.
@@ -64,7 +64,7 @@ struct BearingStance {
 inline constexpr double kBears = 0.002;
 
 struct Faults {
-  std::vector<StepFault> all;          ///< By step.
+  std::vector<StepFault> all;  ///< By step.
   FeetAnswer feet;
   std::vector<BearingStance> bearing;  ///< Of feet.
   std::vector<std::uint8_t> isFaulty;  ///< Per interval.

@@ -12,7 +12,8 @@ std::vector<Vector3d> turnsOf(const std::vector<Knob>& knobs, const Eigen::Vecto
   std::vector<Vector3d> turns(joints, Vector3d::Zero());
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     for (const Drive& drive : knobs[k].drives) {
-      if (drive.turns) turns[slotOf(drive.joint)] += change[static_cast<Eigen::Index>(k)] * drive.along;
+      if (drive.turns)
+        turns[slotOf(drive.joint)] += change[static_cast<Eigen::Index>(k)] * drive.along;
     }
   }
   return turns;
@@ -30,7 +31,8 @@ Pose changedPose(const Pose& pose, const std::vector<Knob>& knobs, const Eigen::
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     for (const Drive& drive : knobs[k].drives) {
       if (drive.turns) continue;
-      changed.translations[slotOf(drive.joint)] += change[static_cast<Eigen::Index>(k)] * drive.along;
+      changed.translations[slotOf(drive.joint)] +=
+          change[static_cast<Eigen::Index>(k)] * drive.along;
     }
   }
   return changed;

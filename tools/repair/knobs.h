@@ -26,7 +26,8 @@ struct Drive {
 struct Knob {
   std::string name;
   std::vector<Drive> drives;
-  /// What the knob's number may be, where it has limits; `values`: what it is, per frame of the clip.
+  /// What the knob's number may be, where it has limits; `values`: what it is, per frame of the
+  /// clip.
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   std::vector<double> values;

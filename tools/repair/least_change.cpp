@@ -11,9 +11,9 @@
 namespace foretouch::tools {
 namespace {
 
-/// Cost per square metre (or unit) that a row is missed by, in the first round of multipliers, and by
-/// how much it grows from one to the next: in the end above the stiffness of any smooth change, and
-/// no higher, so that rows which contradict each other do not tear at the body.
+/// Cost per square metre (or unit) that a row is missed by, in the first round of multipliers, and
+/// by how much it grows from one to the next: in the end above the stiffness of any smooth change,
+/// and no higher, so that rows which contradict each other do not tear at the body.
 constexpr double kFirstStiffness = 1e5, kGrowth = 10.0, kMostStiffness = 1e6;
 /// The same of wishes: a millimetre costs as much as the body's way over some poses.
 constexpr double kWish = 1e3;
@@ -66,7 +66,7 @@ class Solver {
   std::int32_t poses_;
   std::vector<Row>& rows_;
   const LeastChangeOptions& options_;
-  std::vector<int> poseAt_, knobAt_;  // -1: does not change
+  std::vector<int> poseAt_, knobAt_;    // -1: does not change
   std::vector<std::int32_t> changing_;  // knobs
   int numPoses_ = 0, numKnobs_ = 0;
   std::unique_ptr<const BandedSystem> cost_;

@@ -1,6 +1,6 @@
 // tools/repair/least_change.h: the least smooth change of a whole clip that keeps rows of linear
-// bounds: min sum over poses of |change|^2 + 3 reach^2 |first difference|^2 + 3 reach^4 |second|^2 +
-// reach^6 |third|^2, with |x|^2 = x.metric x over the knobs, subject to lower <= row * change <=
+// bounds: min sum over poses of |change|^2 + 3 reach^2 |first difference|^2 + 3 reach^4 |second|^2
+// + reach^6 |third|^2, with |x|^2 = x.metric x over the knobs, subject to lower <= row * change <=
 // upper. Why these: docs/repair.md.
 #pragma once
 
@@ -46,8 +46,9 @@ struct LeastChange {
   bool isSolved = false;
 };
 
-/// `metric`: of the knobs, symmetric and positive. Rows that contradict each other are met in the least squares, as nearly as can be. Only poses
-/// within the margin of a row change, and only knobs that a row names. O(poses * knobs^3).
+/// `metric`: of the knobs, symmetric and positive. Rows that contradict each other are met in the
+/// least squares, as nearly as can be. Only poses within the margin of a row change, and only knobs
+/// that a row names. O(poses * knobs^3).
 [[nodiscard]] LeastChange leastChange(const Eigen::MatrixXd& metric, std::int32_t poses,
                                       std::vector<Row>& rows, const LeastChangeOptions& options);
 

@@ -42,7 +42,8 @@ Levers::Levers(const Stage& stage) : stage_(stage), R_WClip_(stage.R_WClip()) {
   levers_.resize(countOf(skeleton.numJoints()));
   for (LinkId link = 0; link < skeleton.numJoints(); ++link) {
     std::vector<Lever>& own = levers_[slotOf(link)];
-    if (const JointId above = skeleton.parent(link); above != kNoParent) own = levers_[slotOf(above)];
+    if (const JointId above = skeleton.parent(link); above != kNoParent)
+      own = levers_[slotOf(above)];
     for (std::size_t k = 0; k < stage.knobs().size(); ++k) {
       for (const Drive& drive : stage.knobs()[k].drives) {
         if (drive.joint != sources[slotOf(link)]) continue;
@@ -114,8 +115,8 @@ Eigen::MatrixXd Levers::metric() const {
   const std::int32_t looks = std::min(kMetricPoses, stage_.numPoses());
   const double share = 1.0 / (static_cast<double>(looks) * skeleton.numJoints());
   for (std::int32_t look = 0; look < looks; ++look) {
-    const std::int32_t pose = static_cast<std::int32_t>(
-        static_cast<std::int64_t>(look) * stage_.numPoses() / looks);
+    const std::int32_t pose =
+        static_cast<std::int32_t>(static_cast<std::int64_t>(look) * stage_.numPoses() / looks);
     placeLinks(skeleton, stage_.poses()[slotOf(pose)], states);
     for (LinkId link = 0; link < skeleton.numJoints(); ++link) {
       for (int axis = 0; axis < 3; ++axis) {

@@ -25,7 +25,8 @@ class Levers {
 
   /// Of the changes that the stage is posed with: the turn of each joint, pose by pose.
   void setChanges(const Changes& changes);
-  /// Where and when a point is seen: the body's links, and the pose whose knobs move it, times share.
+  /// Where and when a point is seen: the body's links, and the pose whose knobs move it, times
+  /// share.
   struct Sight {
     const std::vector<LinkState>& states;
     std::int32_t pose = 0;
@@ -38,8 +39,8 @@ class Levers {
   /// The same as seen from another link: what moves both of them moves it not.
   void addBeside(LinkId other, const SeenPoint& point, const Sight& sight,
                  std::vector<RowTerm>& terms) const;
-  /// The same by the limb alone, if the point is of one: an arm is mended by the arm, while the rest
-  /// stands as it did.
+  /// The same by the limb alone, if the point is of one: an arm is mended by the arm, while the
+  /// rest stands as it did.
   void addOfLimb(const SeenPoint& point, const Sight& sight, std::vector<RowTerm>& terms) const {
     add(limbs_[slotOf(point.link)], point, sight, terms);
   }
@@ -50,7 +51,7 @@ class Levers {
  private:
   struct Lever {
     std::int32_t knob;
-    LinkId joint;       // of the body
+    LinkId joint;  // of the body
     JointId clipJoint;
     bool turns;
     Eigen::Vector3d along;
@@ -61,7 +62,8 @@ class Levers {
   const Stage& stage_;
   Eigen::Matrix3d R_WClip_;
   std::vector<std::vector<Lever>> levers_;  // per link: of it and of all above it
-  std::vector<std::vector<Lever>> limbs_;   // the same without what carries a foot, if that is enough
+  std::vector<std::vector<Lever>>
+      limbs_;  // the same without what carries a foot, if that is enough
   /// Per pose and joint of the clip: what a small change of the rotation vector turns.
   std::vector<std::vector<Eigen::Matrix3d>> tilts_;
 };

@@ -1,5 +1,5 @@
-// tools/repair/maker_file.h: a clip's file as its maker wrote it: what of it can be changed, and the
-// same file with changes, every other byte as it was.
+// tools/repair/maker_file.h: a clip's file as its maker wrote it: what of it can be changed, and
+// the same file with changes, every other byte as it was.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,8 @@ namespace foretouch::tools {
 class MakerFile {
  public:
   virtual ~MakerFile() = default;
-  /// Reads the request's motion again, which `clip` is. Errors name the file: a model (its animation
-  /// is no table of poses); a table whose rows were cut (Clip::framesPerRow).
+  /// Reads the request's motion again, which `clip` is. Errors name the file: a model (its
+  /// animation is no table of poses); a table whose rows were cut (Clip::framesPerRow).
   [[nodiscard]] static Result<std::unique_ptr<MakerFile>> open(const ClipRequest& request,
                                                                const Clip& clip);
 

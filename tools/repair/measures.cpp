@@ -64,9 +64,8 @@ Measures measuresOf(const Stage& stage, const std::vector<Pose>& before) {
     bool isChanged = false;
     for (std::size_t j = 0; j < joints; ++j) {
       ofJoint[j].push_back((to[i][j] - from[i][j]).norm());
-      turnsOfJoint[j].push_back(
-          Eigen::Quaterniond(before[i].rotations[j])
-              .angularDistance(Eigen::Quaterniond(after[i].rotations[j])));
+      turnsOfJoint[j].push_back(Eigen::Quaterniond(before[i].rotations[j])
+                                    .angularDistance(Eigen::Quaterniond(after[i].rotations[j])));
       isChanged = isChanged || ofJoint[j].back() > kStill || turnsOfJoint[j].back() > kStill;
     }
     measures.changedPoses += isChanged ? 1 : 0;

@@ -16,17 +16,17 @@ struct Spread {
 };
 
 struct JointMoved {
-  JointId joint = 0;  ///< Of the body.
-  Spread move;        ///< How far its origin moved in W.
-  Spread turn;        ///< How far its own rotation, in its parent, turned.
+  JointId joint = 0;           ///< Of the body.
+  Spread move;                 ///< How far its origin moved in W.
+  Spread turn;                 ///< How far its own rotation, in its parent, turned.
   std::int32_t worstPose = 0;  ///< Where it moved most.
 };
 
 struct Measures {
   std::int32_t changedPoses = 0;
-  Spread move, turn;                 ///< Of all joints at all poses.
-  Spread moveChanged, turnChanged;   ///< Of all joints at the poses that changed.
-  std::vector<JointMoved> joints;    ///< Those that changed, the farthest moved first.
+  Spread move, turn;                         ///< Of all joints at all poses.
+  Spread moveChanged, turnChanged;           ///< Of all joints at the poses that changed.
+  std::vector<JointMoved> joints;            ///< Those that changed, the farthest moved first.
   double jerkBefore = 0.0, jerkAfter = 0.0;  ///< Mean over joints and poses, m/s^3.
 
   [[nodiscard]] double addedJerk() const {

@@ -24,7 +24,8 @@ const Side* sideOf(const Demands& demands, const Unmended& fault) {
 }
 
 bool isSame(const RowOwner& owner, const Unmended& fault) {
-  if (owner.kind == FaultKind::Slide || owner.kind == FaultKind::Limit) return owner.kind == fault.kind;
+  if (owner.kind == FaultKind::Slide || owner.kind == FaultKind::Limit)
+    return owner.kind == fault.kind;
   return owner.link == fault.link && owner.other == fault.other && owner.object == fault.object;
 }
 

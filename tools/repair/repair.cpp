@@ -73,8 +73,7 @@ Result<bool> Rounds::next(Faults& faults) {
   Rows rows = rowsOf(stage_, levers_, demands_, changes);
   if (rows.rows.empty()) return false;
   if (metric_.size() == 0) metric_ = levers_.metric();
-  const LeastChange least =
-      leastChange(metric_, stage_.numPoses(), rows.rows, optionsOf(stage_));
+  const LeastChange least = leastChange(metric_, stage_.numPoses(), rows.rows, optionsOf(stage_));
   if (!least.isSolved) return false;
   rows_ = std::move(rows);
   const auto reach = static_cast<std::int32_t>(std::ceil(optionsOf(stage_).reach));
@@ -108,7 +107,8 @@ Result<Done> Rounds::run(const std::function<bool(std::int32_t)>& progress, Repa
   FORETOUCH_TRY(auto clip, stage_.file().reread(repair.bytes));
   FORETOUCH_CHECK(stage_.replaceBy(std::move(clip)));
   FORETOUCH_TRY(repair.after, faultsOf(stage_));
-  repair.unmended = unmendedOf(stage_, repair.after, demands_, pushing.rows.empty() ? rows_ : pushing);
+  repair.unmended =
+      unmendedOf(stage_, repair.after, demands_, pushing.rows.empty() ? rows_ : pushing);
   return Done{};
 }
 

@@ -1,6 +1,6 @@
 // tools/repair/repair.h: mends a clip: the least smooth change after which nothing touches between
-// two poses, feet that rest do not slide, and joints keep their limits; in rounds, each of which asks
-// the kernel again. How, and what it does not promise: docs/repair.md.
+// two poses, feet that rest do not slide, and joints keep their limits; in rounds, each of which
+// asks the kernel again. How, and what it does not promise: docs/repair.md.
 #pragma once
 
 #include <cstdint>

@@ -28,9 +28,9 @@ struct RepairJob {
 
 Result<ExitCode> runRepair(const RepairJob& job) {
   const RepairRequest& request = job.request;
-  FORETOUCH_CHECK(checkOutput(job.output, {request.scenePath, request.avatarPath,
-                                           request.motionPath, request.robotPath, request.mapPath,
-                                           request.pairsPath}));
+  FORETOUCH_CHECK(
+      checkOutput(job.output, {request.scenePath, request.avatarPath, request.motionPath,
+                               request.robotPath, request.mapPath, request.pairsPath}));
   FORETOUCH_TRY(auto stage, Stage::load(request));
   for (const std::string& remark : remarksOn(stage.feet())) printNote(remark);
   std::string text;

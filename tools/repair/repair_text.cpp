@@ -23,8 +23,8 @@ constexpr std::array kKinds{FaultKind::Scene, FaultKind::Own, FaultKind::Under, 
                             FaultKind::Limit};
 
 std::string countsText(const Faults& faults) {
-  std::string text = fmt::format("{} of {} intervals at fault", faults.faulty,
-                                 faults.isFaulty.size());
+  std::string text =
+      fmt::format("{} of {} intervals at fault", faults.faulty, faults.isFaulty.size());
   for (const FaultKind kind : kKinds) {
     if (const auto count = faults.countOf(kind); count > 0) {
       text += fmt::format("{} {} {}", text.find(':') == std::string::npos ? ":" : ",", count,
@@ -54,19 +54,19 @@ std::string movedText(const Stage& stage, const Measures& measures) {
                       "degrees: mean   p99  most", "frame");
   for (std::size_t i = 0; i < std::min(kMostJoints, measures.joints.size()); ++i) {
     const JointMoved& of = measures.joints[i];
-    text += fmt::format("{:<22} {:>20.2f} {:>5.1f} {:>5.1f} {:>20.2f} {:>5.2f} {:>5.2f} {:>7}\n",
-                        stage.body().skeleton().name(of.joint), kMm * of.move.mean,
-                        kMm * of.move.p99, kMm * of.move.most, kDegrees * of.turn.mean,
-                        kDegrees * of.turn.p99, kDegrees * of.turn.most,
-                        stage.frameOf(of.worstPose));
+    text +=
+        fmt::format("{:<22} {:>20.2f} {:>5.1f} {:>5.1f} {:>20.2f} {:>5.2f} {:>5.2f} {:>7}\n",
+                    stage.body().skeleton().name(of.joint), kMm * of.move.mean, kMm * of.move.p99,
+                    kMm * of.move.most, kDegrees * of.turn.mean, kDegrees * of.turn.p99,
+                    kDegrees * of.turn.most, stage.frameOf(of.worstPose));
   }
   return text;
 }
 
 std::string byText(const Stage& stage, const Unmended& fault) {
   if (!(fault.by > 0.0)) return "";
-  const bool isTurn = fault.kind == FaultKind::Limit &&
-                      stage.knobs()[slotOf(fault.link)].drives.front().turns;
+  const bool isTurn =
+      fault.kind == FaultKind::Limit && stage.knobs()[slotOf(fault.link)].drives.front().turns;
   return isTurn ? fmt::format(" by {:.3f} degrees", kDegrees * fault.by)
                 : fmt::format(" by {:.2f} mm", kMm * fault.by);
 }

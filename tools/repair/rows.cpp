@@ -185,10 +185,9 @@ void Builder::addOwn(const Side& side) {
   const auto radiiOf = [&](std::size_t i, std::size_t k) {
     const bool isTurned = side.link > side.other;
     for (const PairRadius& own : self->radii()) {
-      const bool isIt = own.a == std::min(side.link, side.other) &&
-                        own.b == std::max(side.link, side.other) &&
-                        slotOf(own.lssA) == (isTurned ? k : i) &&
-                        slotOf(own.lssB) == (isTurned ? i : k);
+      const bool isIt =
+          own.a == std::min(side.link, side.other) && own.b == std::max(side.link, side.other) &&
+          slotOf(own.lssA) == (isTurned ? k : i) && slotOf(own.lssB) == (isTurned ? i : k);
       if (isIt) return own.radius;
     }
     return mine[i].radius + others[k].radius;

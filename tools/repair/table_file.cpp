@@ -144,7 +144,8 @@ void TableFile::limit(Knob& knob, const Place& place) const {
     if (!isLimited || !(node.lowerLimit < node.upperLimit)) return;
     knob.lower = node.lowerLimit;
     knob.upper = node.upperLimit;
-    for (const auto& row : table_.rows) knob.values.push_back(row[slotOf(place.column)] * place.unit);
+    for (const auto& row : table_.rows)
+      knob.values.push_back(row[slotOf(place.column)] * place.unit);
     return;
   }
 }
@@ -178,8 +179,8 @@ void addRootCells(const RigidPose& before, const RigidPose& after, double metres
   const Eigen::Vector4d written(row[columns[3]], row[columns[4]], row[columns[5]], row[columns[6]]);
   if (to.coeffs().dot(written) < 0.0) to.coeffs() = -to.coeffs();
   for (std::size_t i = 0; i < 4; ++i) {
-    cells.push_back(
-        {columns[3 + i], written[static_cast<Eigen::Index>(i)], to.coeffs()[static_cast<Eigen::Index>(i)]});
+    cells.push_back({columns[3 + i], written[static_cast<Eigen::Index>(i)],
+                     to.coeffs()[static_cast<Eigen::Index>(i)]});
   }
 }
 
@@ -217,7 +218,7 @@ Result<Done> CsvFile::findColumns(const ClipRequest& request) {
   const bool isOfSeed = layout != nullptr && layout->isOfSeed;
   const std::vector<std::string> root =
       isOfSeed ? std::vector<std::string>{"root_translateX", "root_translateY", "root_translateZ",
-                                          "root_rotateX", "root_rotateY", "root_rotateZ"}
+                                          "root_rotateX",    "root_rotateY",    "root_rotateZ"}
                : internal::rootColumns();
   const auto placeOf = [&](const std::string& name) {
     const auto found = std::find(whole_.joints.begin(), whole_.joints.end(), name);
@@ -302,7 +303,8 @@ class NpzTable : public TableFile {
     return std::unique_ptr<MakerFile>(std::move(file));
   }
   [[nodiscard]] Result<Clip> reread(const std::string& bytes) const override {
-    FORETOUCH_TRY(const auto table, inFile(tableFromNpz(bytes, request_.table), request_.motionPath));
+    FORETOUCH_TRY(const auto table,
+                  inFile(tableFromNpz(bytes, request_.table), request_.motionPath));
     return inFile(internal::clipOfTable(robot_, table), request_.motionPath);
   }
 
@@ -323,8 +325,8 @@ void NpzTable::changeTurns(const std::string& name, const JointTable& after,
     Eigen::Quaterniond to(after.roots[row].rotation);
     if (Eigen::Quaterniond(table_.roots[row].rotation).coeffs() == to.coeffs()) continue;
     double* const q = &numbers[4 * row];
-    const std::array<double, 4> written =
-        isWxyz ? std::array{to.w(), to.x(), to.y(), to.z()} : std::array{to.x(), to.y(), to.z(), to.w()};
+    const std::array<double, 4> written = isWxyz ? std::array{to.w(), to.x(), to.y(), to.z()}
+                                                 : std::array{to.x(), to.y(), to.z(), to.w()};
     double dot = 0.0;
     for (std::size_t i = 0; i < 4; ++i) dot += q[i] * written[i];
     for (std::size_t i = 0; i < 4; ++i) q[i] = dot < 0.0 ? -written[i] : written[i];

@@ -1,6 +1,6 @@
-// tests/tools/repair/clip_oracle.h: what a repaired clip must be, by kinematics and distances of the
-// test's own: a plain reader of BVH, matrices, and looks that lie close together between the poses.
-// It shares no code with the product. Metres.
+// tests/tools/repair/clip_oracle.h: what a repaired clip must be, by kinematics and distances of
+// the test's own: a plain reader of BVH, matrices, and looks that lie close together between the
+// poses. It shares no code with the product. Metres.
 #pragma once
 
 #include <array>

@@ -58,8 +58,8 @@ TEST(LeastChange, IsLeastAmongItsNeighbours) {
     std::vector<Row> rows;
     for (int i = 0; i < 6; ++i) {
       Row row;
-      row.terms = {{i * 6 + 2, 0, unit(random)}, {i * 6 + 2, 1, unit(random)},
-                   {i * 6 + 3, 1, unit(random)}};
+      row.terms = {
+          {i * 6 + 2, 0, unit(random)}, {i * 6 + 2, 1, unit(random)}, {i * 6 + 3, 1, unit(random)}};
       row.lower = 0.01 * unit(random);
       if (i % 2 == 0) row.upper = row.lower + 0.002;
       rows.push_back(row);

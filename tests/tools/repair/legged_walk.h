@@ -1,6 +1,6 @@
 // tests/tools/repair/legged_walk.h: a person whose feet are where the test puts them and whose left
-// arm turns as the test says, as a BVH clip: legs by plain trigonometry. Metres, seconds, +Y up, the
-// floor at y = 0.
+// arm turns as the test says, as a BVH clip: legs by plain trigonometry. Metres, seconds, +Y up,
+// the floor at y = 0.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "tests/tools/feet/planted_walk.h"
 
@@ -52,10 +53,12 @@ class LeggedWalk {
   double durationS = 2.0, hz = 100.0;
 
   [[nodiscard]] std::string bvh() const {
-    std::string text = "HIERARCHY\nROOT Hips\n{\n  OFFSET 0 0 0\n  CHANNELS 6 Xposition Yposition "
-                       "Zposition Zrotation Xrotation Yrotation\n";
-    text += chain({{"LeftArm", "0.2 0.45 0"}, {"LeftForeArm", "0 -0.28 0"}, {"LeftHand", "0 -0.25 0"}},
-                  "0 -0.15 0");
+    std::string text =
+        "HIERARCHY\nROOT Hips\n{\n  OFFSET 0 0 0\n  CHANNELS 6 Xposition Yposition "
+        "Zposition Zrotation Xrotation Yrotation\n";
+    text +=
+        chain({{"LeftArm", "0.2 0.45 0"}, {"LeftForeArm", "0 -0.28 0"}, {"LeftHand", "0 -0.25 0"}},
+              "0 -0.15 0");
     for (const char* const side : {"Left", "Right"}) {
       const std::string name = side;
       text += chain({{name + "UpLeg", name == "Left" ? "0.1 -0.05 0" : "-0.1 -0.05 0"},

@@ -32,9 +32,8 @@ const std::vector<OracleCapsule>& feetCapsules() {
 }
 const OracleCapsule kTrunk{"Hips", {0, 0.05, 0}, {0, 0.45, 0}, 0.1};
 const std::vector<OracleCapsule>& armCapsules() {
-  static const std::vector<OracleCapsule> all{
-      {"LeftForeArm", {0, -0.02, 0}, {0, -0.22, 0}, 0.03},
-      {"LeftHand", {0, -0.02, 0}, {0, -0.12, 0}, 0.025}};
+  static const std::vector<OracleCapsule> all{{"LeftForeArm", {0, -0.02, 0}, {0, -0.22, 0}, 0.03},
+                                              {"LeftHand", {0, -0.02, 0}, {0, -0.12, 0}, 0.025}};
   return all;
 }
 
@@ -60,7 +59,9 @@ LeggedWalk stander() {
 }
 
 /// There and back, in the middle of two seconds.
-double swing(double timeS) { return eased(timeS / 0.7 - 0.2) - eased((timeS - 1.1) / 0.7); }
+double swing(double timeS) {
+  return eased(timeS / 0.7 - 0.2) - eased((timeS - 1.1) / 0.7);
+}
 
 struct Mended {
   Ended ended;
@@ -139,10 +140,11 @@ TEST_F(RepairProgram, HoldsFeetThatSlide) {
 TEST_F(RepairProgram, KeepsAHandBeforeABoard) {
   LeggedWalk walk = stander();
   walk.arm = [](double timeS) { return ArmTurn{0.0, -50.0 * swing(timeS), -20.0 * swing(timeS)}; };
-  const std::string board = folder_.write(
-      "board.obj", "o floor\nv -9 0 -9\nv 9 0 -9\nv 9 0 9\nv -9 0 9\nf 1 3 2\nf 1 4 3\n"
-                   "o board\nv 0 0.6 0.5\nv 0.6 0.6 0.5\nv 0.6 1.6 0.5\nv 0 1.6 0.5\n"
-                   "f 5 6 7\nf 5 7 8\n");
+  const std::string board =
+      folder_.write("board.obj",
+                    "o floor\nv -9 0 -9\nv 9 0 -9\nv 9 0 9\nv -9 0 9\nf 1 3 2\nf 1 4 3\n"
+                    "o board\nv 0 0.6 0.5\nv 0.6 0.6 0.5\nv 0.6 1.6 0.5\nv 0 1.6 0.5\n"
+                    "f 5 6 7\nf 5 7 8\n");
   const oracle::Triangle one{Vec3d(0, 0.6, 0.5), Vec3d(0.6, 0.6, 0.5), Vec3d(0.6, 1.6, 0.5)};
   const oracle::Triangle other{Vec3d(0, 0.6, 0.5), Vec3d(0.6, 1.6, 0.5), Vec3d(0, 1.6, 0.5)};
   const std::string bvh = walk.bvh();
@@ -167,7 +169,7 @@ TEST_F(RepairProgram, KeepsAHandBeforeABoard) {
 /// A forearm that goes into the own trunk goes around it.
 TEST_F(RepairProgram, KeepsAForearmOutOfTheTrunk) {
   LeggedWalk walk = stander();
-  walk.arm = [](double timeS) { return ArmTurn{-16.0 * swing(timeS), 0.0, -10.0 * swing(timeS)}; };
+  walk.arm = [](double timeS) { return ArmTurn{-19.0 * swing(timeS), 0.0, -90.0}; };
   const std::string bvh = walk.bvh();
   const OracleClip before(bvh);
   EXPECT_LT(leastDistance(before, armCapsules()[0], kTrunk), -10 * kMm);
@@ -191,7 +193,7 @@ TEST_F(RepairProgram, LeavesAloneWhatIsFree) {
   walk.left.stances = walk.right.stances = {};
   walk.left.stances.push_back({{0.1, kMm, 0}, {0.1, kMm, 0}, 0.0, 9.0});
   walk.right.stances.push_back({{-0.1, kMm, 0}, {-0.1, kMm, 0}, 0.0, 9.0});
-  walk.arm = [](double timeS) { return ArmTurn{-16.0 * swing(timeS), 0.0, 0.0}; };
+  walk.arm = [](double timeS) { return ArmTurn{-19.0 * swing(timeS), 0.0, -90.0}; };
   const std::string bvh = walk.bvh();
   const Mended mended = mend(bvh, {"--self"});
   EXPECT_EQ(mended.ended.exitCode, 0) << mended.ended.out;
@@ -204,16 +206,18 @@ TEST_F(RepairProgram, LeavesAloneWhatIsFree) {
 /// says so, and the rest is mended all the same.
 TEST_F(RepairProgram, NamesWhatItCannotMend) {
   const std::string wall = folder_.write(
-      "wall.obj", "o floor\nv -9 0 -9\nv 9 0 -9\nv 9 0 9\nv -9 0 9\nf 1 3 2\nf 1 4 3\n"
-                  "o wall\nv -1 0.1 0.35\nv 1 0.1 0.35\nv 1 2 0.35\nv -1 2 0.35\nf 5 6 7\nf 5 7 8\n");
+      "wall.obj",
+      "o floor\nv -9 0 -9\nv 9 0 -9\nv 9 0 9\nv -9 0 9\nf 1 3 2\nf 1 4 3\n"
+      "o wall\nv -1 0.1 0.35\nv 1 0.1 0.35\nv 1 2 0.35\nv -1 2 0.35\nf 5 6 7\nf 5 7 8\n");
   const Mended mended = mend(steps(10 * kMm, 0.0).bvh(), {wall});
   EXPECT_EQ(mended.ended.exitCode, 1);
   ASSERT_FALSE(mended.told["not_mended"].empty());
   bool isTold = false;
   for (const json& fault : mended.told["not_mended"]) {
     EXPECT_FALSE(fault["reason"].get<std::string>().empty());
-    isTold = isTold || (fault["what"] == "Hips touches wall" &&
-                        fault["reason"].get<std::string>().find("goes through") != std::string::npos);
+    isTold =
+        isTold || (fault["what"] == "Hips touches wall" &&
+                   fault["reason"].get<std::string>().find("goes through") != std::string::npos);
   }
   EXPECT_TRUE(isTold) << mended.ended.out;
   EXPECT_LT(mended.told["after"]["faulty"], mended.told["before"]["faulty"]);

@@ -1,6 +1,6 @@
-// `foretouch repair --robot` on a robot that the test makes walk: slides and depths are planted, and
-// what comes out has the same columns, other numbers, and no fault that `feet` or plain arithmetic
-// finds.
+// `foretouch repair --robot` on a robot that the test makes walk: slides and depths are planted,
+// and what comes out has the same columns, other numbers, and no fault that `feet` or plain
+// arithmetic finds.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -39,8 +39,9 @@ std::vector<WalkerRow> plantedRows() {
 }
 
 std::string csvOf(const std::vector<WalkerRow>& rows) {
-  std::string text = "# as its maker wrote it\ntime,root_x,root_y,root_z,root_qx,root_qy,root_qz,"
-                     "root_qw";
+  std::string text =
+      "# as its maker wrote it\ntime,root_x,root_y,root_z,root_qx,root_qy,root_qz,"
+      "root_qw";
   for (const std::string& joint : walkerJoints()) text += "," + joint;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     text += "\n" + digits(static_cast<double>(i) / kHz);
@@ -103,15 +104,16 @@ TEST(RobotRepair, MendsATableInItsOwnColumns) {
   for (std::size_t i = 0; i < after.size(); ++i) {
     ASSERT_EQ(after[i].size(), before[i].size());
     EXPECT_EQ(after[i][0], before[i][0]);
-    const double norm = std::hypot(std::hypot(after[i][4], after[i][5]),
-                                   std::hypot(after[i][6], after[i][7]));
+    const double norm =
+        std::hypot(std::hypot(after[i][4], after[i][5]), std::hypot(after[i][6], after[i][7]));
     EXPECT_NEAR(norm, 1.0, 1e-6);
     for (const bool isLeft : {true, false}) {
       for (const double x : {-0.05, 0.12}) {
         for (const double y : {-0.03, 0.03}) {
           const auto p = soleAt(after[i], isLeft, x, y), was = soleAt(before[i], isLeft, x, y);
           least = std::min(least, p[2] - 0.01);
-          change = std::max(change, std::hypot(std::hypot(p[0] - was[0], p[1] - was[1]), p[2] - was[2]));
+          change =
+              std::max(change, std::hypot(std::hypot(p[0] - was[0], p[1] - was[1]), p[2] - was[2]));
         }
       }
     }
@@ -162,16 +164,15 @@ TEST(RobotRepair, MendsArrays) {
   }
   const std::string count = std::to_string(rows.size());
   folder.write("walker.urdf", walkerUrdf());
-  folder.write("walk.npz",
-               npzOf({{"fps", npyOf<double>("<f8", "()", {kHz})},
-                      {"root_pos", npyOf("<f8", "(" + count + ", 3)", root)},
-                      {"root_rot_wxyz", npyOf("<f8", "(" + count + ", 4)", turn)},
-                      {"dof_pos", npyOf("<f8", "(" + count + ", 8)", joints)},
-                      {"reward", npyOf<double>("<f8", "(2,)", {1.5, 2.5})},
-                      {"joint_names", npyOfTexts(walkerJoints(), 11)}},
-                     true));
-  const Ended ended = runForetouch({"repair", folder / "walk.npz", "--robot", folder / "walker.urdf",
-                                    "-o", folder / "mended.npz"});
+  folder.write("walk.npz", npzOf({{"fps", npyOf<double>("<f8", "()", {kHz})},
+                                  {"root_pos", npyOf("<f8", "(" + count + ", 3)", root)},
+                                  {"root_rot_wxyz", npyOf("<f8", "(" + count + ", 4)", turn)},
+                                  {"dof_pos", npyOf("<f8", "(" + count + ", 8)", joints)},
+                                  {"reward", npyOf<double>("<f8", "(2,)", {1.5, 2.5})},
+                                  {"joint_names", npyOfTexts(walkerJoints(), 11)}},
+                                 true));
+  const Ended ended = runForetouch({"repair", folder / "walk.npz", "--robot",
+                                    folder / "walker.urdf", "-o", folder / "mended.npz"});
   EXPECT_EQ(ended.exitCode, 0) << ended.out << ended.err;
   const Ended again = runForetouch({"repair", folder / "mended.npz", "--robot",
                                     folder / "walker.urdf", "-o", folder / "again.npz"});
