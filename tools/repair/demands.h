@@ -34,7 +34,7 @@ inline constexpr double kSwingSpeed = 0.4;
 class Demands {
  public:
   /// `stage` must outlive it.
-  explicit Demands(const Stage& stage) : stage_(stage) {}
+  explicit Demands(const RepairStage& stage) : stage_(stage) {}
 
   /// Takes up the faults of the stage's poses. True if any demand is new.
   bool take(const Faults& faults);
@@ -79,7 +79,7 @@ class Demands {
   /// Whether what was looked at went by, before anything was changed, faster than what slides.
   [[nodiscard]] bool swings(const RestLook& look) const;
 
-  const Stage& stage_;
+  const RepairStage& stage_;
   std::vector<Side> sides_;
   Holds holds_;
   std::vector<Pose> before_;

@@ -27,7 +27,7 @@ StepFault contactFault(FaultKind kind, std::int32_t step, const LinkContact& con
   return fault;
 }
 
-void addContacts(const Stage& stage, std::vector<StepFault>& faults) {
+void addContacts(const RepairStage& stage, std::vector<StepFault>& faults) {
   Scratch scratch;
   StepContacts answer;
   ChainMotion motion;
@@ -62,7 +62,7 @@ std::pair<std::int32_t, std::int32_t> posesOf(const FootStance& stance, const Fe
           static_cast<std::int32_t>(std::min(last, static_cast<double>(inputs.steps())))};
 }
 
-void addDepths(const Stage& stage, const FeetAnswer& feet, std::vector<StepFault>& faults) {
+void addDepths(const RepairStage& stage, const FeetAnswer& feet, std::vector<StepFault>& faults) {
   const FeetInputs& inputs = stage.feet();
   const std::size_t parts = inputs.body.parts.size();
   for (const FootStance& stance : feet.stances) {
@@ -82,7 +82,7 @@ void addDepths(const Stage& stage, const FeetAnswer& feet, std::vector<StepFault
   }
 }
 
-bool bears(const Stage& stage, const FeetAnswer& feet, std::size_t part, std::int64_t pose) {
+bool bears(const RepairStage& stage, const FeetAnswer& feet, std::size_t part, std::int64_t pose) {
   const auto& parts = stage.feet().body.parts;
   const double height = feet.sample(pose, part, parts.size()).height;
   for (std::size_t other = 0; other < parts.size(); ++other) {
@@ -92,7 +92,7 @@ bool bears(const Stage& stage, const FeetAnswer& feet, std::size_t part, std::in
   return true;
 }
 
-void addSlides(const Stage& stage, Faults& faults) {
+void addSlides(const RepairStage& stage, Faults& faults) {
   for (const FootStance& stance : faults.feet.stances) {
     if (stance.looks.empty() || stage.feet().body.parts[stance.part].isHand()) continue;
     BearingStance bearing;
@@ -123,7 +123,7 @@ void addSlides(const Stage& stage, Faults& faults) {
   }
 }
 
-void addLimits(const Stage& stage, std::vector<StepFault>& faults) {
+void addLimits(const RepairStage& stage, std::vector<StepFault>& faults) {
   for (std::size_t k = 0; k < stage.knobs().size(); ++k) {
     const Knob& knob = stage.knobs()[k];
     for (std::int32_t pose = 0; knob.isLimited() && pose < stage.numPoses(); ++pose) {
@@ -165,7 +165,7 @@ std::int64_t Faults::countOf(FaultKind kind) const {
   return count;
 }
 
-Result<Faults> faultsOf(const Stage& stage) {
+Result<Faults> faultsOf(const RepairStage& stage) {
   Faults faults;
   addContacts(stage, faults.all);
   FORETOUCH_TRY(faults.feet, stancesOf(stage.feet(), [](std::int64_t) { return true; }));

@@ -74,7 +74,7 @@ struct Faults {
 };
 
 /// Asks the kernel of every interval, and how feet rest. Errors: as stancesOf().
-[[nodiscard]] Result<Faults> faultsOf(const Stage& stage);
+[[nodiscard]] Result<Faults> faultsOf(const RepairStage& stage);
 
 /// Depths below this are rounding (m).
 inline constexpr double kNoFault = 1e-6;

@@ -36,7 +36,7 @@ Matrix3d tiltOf(const Vector3d& v) {
 
 }  // namespace
 
-Levers::Levers(const Stage& stage) : stage_(stage), R_WClip_(stage.R_WClip()) {
+Levers::Levers(const RepairStage& stage) : stage_(stage), R_WClip_(stage.R_WClip()) {
   const Skeleton& skeleton = stage.body().skeleton();
   const auto& sources = stage.feet().played.match.clipJointOf;
   levers_.resize(countOf(skeleton.numJoints()));

@@ -21,7 +21,7 @@ struct SeenPoint {
 class Levers {
  public:
   /// `stage` must outlive it.
-  explicit Levers(const Stage& stage);
+  explicit Levers(const RepairStage& stage);
 
   /// Of the changes that the stage is posed with: the turn of each joint, pose by pose.
   void setChanges(const Changes& changes);
@@ -59,7 +59,7 @@ class Levers {
   void add(const std::vector<Lever>& levers, const SeenPoint& point, const Sight& sight,
            std::vector<RowTerm>& terms) const;
 
-  const Stage& stage_;
+  const RepairStage& stage_;
   Eigen::Matrix3d R_WClip_;
   std::vector<std::vector<Lever>> levers_;  // per link: of it and of all above it
   std::vector<std::vector<Lever>>

@@ -52,7 +52,7 @@ double jerkOf(const std::vector<std::vector<Vector3d>>& places, double stepS) {
 
 }  // namespace
 
-Measures measuresOf(const Stage& stage, const std::vector<Pose>& before) {
+Measures measuresOf(const RepairStage& stage, const std::vector<Pose>& before) {
   const Skeleton& skeleton = stage.body().skeleton();
   const auto& after = stage.poses();
   const auto from = placesOf(skeleton, before), to = placesOf(skeleton, after);

@@ -35,6 +35,6 @@ struct Measures {
 };
 
 /// `before`: as many poses of the stage's body as it has now.
-[[nodiscard]] Measures measuresOf(const Stage& stage, const std::vector<Pose>& before);
+[[nodiscard]] Measures measuresOf(const RepairStage& stage, const std::vector<Pose>& before);
 
 }  // namespace foretouch::tools

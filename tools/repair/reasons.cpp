@@ -47,7 +47,7 @@ const RowOwner* opponentOf(const Rows& rows, const Unmended& fault) {
   return most > kWeak * own ? strongest : nullptr;
 }
 
-std::string reasonOf(const Stage& stage, const Unmended& fault, bool isUndecided,
+std::string reasonOf(const RepairStage& stage, const Unmended& fault, bool isUndecided,
                      const Demands& demands, const Rows& rows) {
   if (isUndecided) return "the kernel could not decide it";
   if (const Side* const side = sideOf(demands, fault)) {
@@ -63,7 +63,7 @@ std::string reasonOf(const Stage& stage, const Unmended& fault, bool isUndecided
 
 }  // namespace
 
-std::string faultText(const Stage& stage, FaultKind kind, LinkId link, LinkId other,
+std::string faultText(const RepairStage& stage, FaultKind kind, LinkId link, LinkId other,
                       ObjectId object) {
   if (kind == FaultKind::Limit) return stage.knobs()[slotOf(link)].name + " beyond its limits";
   const Skeleton& skeleton = stage.body().skeleton();
@@ -81,8 +81,8 @@ std::string faultText(const Stage& stage, FaultKind kind, LinkId link, LinkId ot
   return text;
 }
 
-std::vector<Unmended> unmendedOf(const Stage& stage, const Faults& after, const Demands& demands,
-                                 const Rows& rows) {
+std::vector<Unmended> unmendedOf(const RepairStage& stage, const Faults& after,
+                                 const Demands& demands, const Rows& rows) {
   std::vector<Unmended> all;
   std::vector<std::uint8_t> isUndecided;
   for (const StepFault& fault : after.all) {

@@ -19,7 +19,7 @@ constexpr double kMostTurnPerRound = 0.2;
 /// Seconds over which a change fades, and after which it is over.
 constexpr double kReachS = 0.06, kMarginS = 0.6;
 
-LeastChangeOptions optionsOf(const Stage& stage) {
+LeastChangeOptions optionsOf(const RepairStage& stage) {
   LeastChangeOptions options;
   options.reach = std::max(1.0, kReachS / stage.feet().stepS());
   options.margin = static_cast<std::int32_t>(std::ceil(kMarginS / stage.feet().stepS()));
@@ -52,14 +52,14 @@ Changes stepped(const Changes& from, const Changes& to, std::int32_t reach) {
 /// The rounds, and the best of them.
 class Rounds {
  public:
-  explicit Rounds(Stage& stage) : stage_(stage), demands_(stage), levers_(stage) {}
+  explicit Rounds(RepairStage& stage) : stage_(stage), demands_(stage), levers_(stage) {}
 
   Result<Done> run(const std::function<bool(std::int32_t)>& progress, Repair& repair);
 
  private:
   Result<bool> next(Faults& faults);
 
-  Stage& stage_;
+  RepairStage& stage_;
   Demands demands_;
   Levers levers_;
   Rows rows_;
@@ -114,7 +114,7 @@ Result<Done> Rounds::run(const std::function<bool(std::int32_t)>& progress, Repa
 
 }  // namespace
 
-Result<Repair> repaired(Stage& stage, const std::function<bool(std::int32_t)>& progress) {
+Result<Repair> repaired(RepairStage& stage, const std::function<bool(std::int32_t)>& progress) {
   Repair repair;
   FORETOUCH_TRY(repair.before, faultsOf(stage));
   const std::vector<Pose> before = stage.poses();

@@ -11,19 +11,10 @@
 #include "articulated/result.h"
 #include "tools/repair/faults.h"
 #include "tools/repair/measures.h"
+#include "tools/repair/reasons.h"
 #include "tools/repair/stage.h"
 
 namespace foretouch::tools {
-
-/// Intervals one after the other that stay at fault in the same way.
-struct Unmended {
-  FaultKind kind = FaultKind::Scene;
-  LinkId link = -1, other = -1;
-  ObjectId object = -1;
-  std::int32_t first = 0, last = 0;  ///< Poses between which they lie.
-  double by = 0.0;                   ///< As StepFault::by, the greatest.
-  std::string reason;
-};
 
 struct Repair {
   Faults before, after;  ///< `after`: of the text, as it reads back.
@@ -35,12 +26,9 @@ struct Repair {
   std::string bytes;  ///< The file.
 };
 
-/// Rounds of asking and changing.
-inline constexpr std::int32_t kMostRounds = 20;
-
 /// `progress(round)` before each round; false stops, and the answer is then of no use. The stage is
 /// posed as the file reads back. Errors: as faultsOf(), and those of the file's format.
-[[nodiscard]] Result<Repair> repaired(Stage& stage,
+[[nodiscard]] Result<Repair> repaired(RepairStage& stage,
                                       const std::function<bool(std::int32_t)>& progress);
 
 }  // namespace foretouch::tools

@@ -31,7 +31,7 @@ Result<ExitCode> runRepair(const RepairJob& job) {
   FORETOUCH_CHECK(
       checkOutput(job.output, {request.scenePath, request.avatarPath, request.motionPath,
                                request.robotPath, request.mapPath, request.pairsPath}));
-  FORETOUCH_TRY(auto stage, Stage::load(request));
+  FORETOUCH_TRY(auto stage, RepairStage::load(request));
   for (const std::string& remark : remarksOn(stage.feet())) printNote(remark);
   std::string text;
   bool isWhole = false;

@@ -39,7 +39,7 @@ std::string spreadText(const Spread& spread, double unit) {
                      unit * spread.most);
 }
 
-std::string movedText(const Stage& stage, const Measures& measures) {
+std::string movedText(const RepairStage& stage, const Measures& measures) {
   if (measures.joints.empty()) return "nothing was changed\n";
   std::string text = fmt::format(
       "changed: {} of {} poses\n"
@@ -63,7 +63,7 @@ std::string movedText(const Stage& stage, const Measures& measures) {
   return text;
 }
 
-std::string byText(const Stage& stage, const Unmended& fault) {
+std::string byText(const RepairStage& stage, const Unmended& fault) {
   if (!(fault.by > 0.0)) return "";
   const bool isTurn =
       fault.kind == FaultKind::Limit && stage.knobs()[slotOf(fault.link)].drives.front().turns;
@@ -71,7 +71,7 @@ std::string byText(const Stage& stage, const Unmended& fault) {
                 : fmt::format(" by {:.2f} mm", kMm * fault.by);
 }
 
-std::string unmendedText(const Stage& stage, const Repair& repair) {
+std::string unmendedText(const RepairStage& stage, const Repair& repair) {
   std::string text;
   for (std::size_t i = 0; i < std::min(kMostLines, repair.unmended.size()); ++i) {
     const Unmended& fault = repair.unmended[i];
@@ -93,7 +93,7 @@ std::string unmendedText(const Stage& stage, const Repair& repair) {
   return text;
 }
 
-void writeFaults(const Stage& stage, const Faults& faults, JsonWriter& out) {
+void writeFaults(const RepairStage& stage, const Faults& faults, JsonWriter& out) {
   out.beginObject();
   out.field("intervals", faults.isFaulty.size());
   out.field("faulty", faults.faulty);
@@ -131,7 +131,7 @@ void writeSpread(const char* name, const Spread& spread, double unit, JsonWriter
   out.endObject();
 }
 
-void writeMeasures(const Stage& stage, const Measures& measures, JsonWriter& out) {
+void writeMeasures(const RepairStage& stage, const Measures& measures, JsonWriter& out) {
   out.field("poses", stage.numPoses());
   out.field("changed_poses", measures.changedPoses);
   writeSpread("moved_mm", measures.move, kMm, out);
@@ -154,7 +154,7 @@ void writeMeasures(const Stage& stage, const Measures& measures, JsonWriter& out
 
 }  // namespace
 
-std::string repairText(const Stage& stage, const Repair& repair) {
+std::string repairText(const RepairStage& stage, const Repair& repair) {
   const std::string& clip = stage.request().motionPath;
   std::string text = fmt::format("{}: {} poses at {:.4g} Hz\nbefore: {}\n", clip, stage.numPoses(),
                                  1.0 / stage.feet().stepS(), countsText(repair.before));
@@ -168,7 +168,7 @@ std::string repairText(const Stage& stage, const Repair& repair) {
   return text + movedText(stage, repair.measures) + unmendedText(stage, repair);
 }
 
-std::string repairJson(const Stage& stage, const Repair& repair) {
+std::string repairJson(const RepairStage& stage, const Repair& repair) {
   std::string text;
   JsonWriter out(text);
   out.beginObject();

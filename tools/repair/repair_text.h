@@ -7,7 +7,7 @@
 
 namespace foretouch::tools {
 
-[[nodiscard]] std::string repairText(const Stage& stage, const Repair& repair);
-[[nodiscard]] std::string repairJson(const Stage& stage, const Repair& repair);
+[[nodiscard]] std::string repairText(const RepairStage& stage, const Repair& repair);
+[[nodiscard]] std::string repairJson(const RepairStage& stage, const Repair& repair);
 
 }  // namespace foretouch::tools

@@ -18,6 +18,8 @@ using Eigen::Vector3d;
 constexpr double kReach = 0.02;
 /// A feature whose normal is this near (cosine) to a side's is turned to that side.
 constexpr double kAlong = 0.3;
+/// What a step slides adds up over a stance: it counts so many times.
+constexpr double kHeldTimes = 10.0;
 /// An axis this near to a triangle's plane (m) crosses it.
 constexpr double kCrosses = 1e-6;
 
@@ -31,7 +33,8 @@ struct Placed {
 
 class Builder {
  public:
-  Builder(const Stage& stage, const Levers& levers, const Demands& demands, const Changes& changes)
+  Builder(const RepairStage& stage, const Levers& levers, const Demands& demands,
+          const Changes& changes)
       : stage_(stage), levers_(levers), demands_(demands), changes_(changes) {}
 
   Rows build() {
@@ -63,7 +66,7 @@ class Builder {
                   double distance, double radii);
   void push(Row row, const RowOwner& owner, double value);
 
-  const Stage& stage_;
+  const RepairStage& stage_;
   const Levers& levers_;
   const Demands& demands_;
   const Changes& changes_;
@@ -260,7 +263,7 @@ void Builder::addHold(const RestLook& look) {
     for (const double t : {1.0, 0.0}) {
       pose(step, t);
       const Vector3d p_W = states_[slotOf(link)].pointAt(look.p_L);
-      const double sign = t > 0.5 ? 1.0 : -1.0;
+      const double sign = t > 0.5 ? kHeldTimes : -kHeldTimes;
       levers_.add({link, p_W, along}, {states_, t > 0.5 ? step + 1 : step, sign}, row.terms);
       value += sign * along.dot(p_W);
     }
@@ -282,7 +285,7 @@ void Builder::addLimit(std::int32_t knob, std::int32_t at) {
 
 }  // namespace
 
-Rows rowsOf(const Stage& stage, const Levers& levers, const Demands& demands,
+Rows rowsOf(const RepairStage& stage, const Levers& levers, const Demands& demands,
             const Changes& changes) {
   return Builder(stage, levers, demands, changes).build();
 }

@@ -23,7 +23,7 @@ struct Rows {
 };
 
 /// Rows of the total changes, around `changes`, which the stage is posed with.
-[[nodiscard]] Rows rowsOf(const Stage& stage, const Levers& levers, const Demands& demands,
+[[nodiscard]] Rows rowsOf(const RepairStage& stage, const Levers& levers, const Demands& demands,
                           const Changes& changes);
 
 }  // namespace foretouch::tools

@@ -11,18 +11,18 @@
 
 namespace foretouch::tools {
 
-Result<Stage> Stage::load(const RepairRequest& request) {
+Result<RepairStage> RepairStage::load(const RepairRequest& request) {
   FORETOUCH_TRY(auto feet, loadFeetInputs(request));
   if (feet.played.clip.framesPerRow > 1) {
     return Error::in(request.motionPath, ErrorCode::OutOfRange,
                      "expected joints that turn by at most 3 rad from one row to the next");
   }
-  Stage stage(request, std::move(feet));
+  RepairStage stage(request, std::move(feet));
   FORETOUCH_CHECK(stage.prepare());
   return stage;
 }
 
-Result<Done> Stage::prepare() {
+Result<Done> RepairStage::prepare() {
   const PlayedClip& played = feet_.played;
   feet_.keepsLooks = true;
   original_ = played.clip.frames;
@@ -49,7 +49,7 @@ Result<Done> Stage::prepare() {
   return takePoses();
 }
 
-Result<Done> Stage::takePoses() {
+Result<Done> RepairStage::takePoses() {
   poses_.clear();
   for (std::int64_t step = 0; step <= feet_.steps(); ++step) {
     FORETOUCH_TRY(auto pose, feet_.poseAt(step));
@@ -61,7 +61,7 @@ Result<Done> Stage::takePoses() {
   return Done{};
 }
 
-Result<Done> Stage::change(const Changes& changes) {
+Result<Done> RepairStage::change(const Changes& changes) {
   changes_ = changes;
   std::vector<Pose>& frames = feet_.played.clip.frames;
   for (Eigen::Index pose = 0; pose < changes.cols(); ++pose) {
@@ -71,7 +71,7 @@ Result<Done> Stage::change(const Changes& changes) {
   return takePoses();
 }
 
-Result<Done> Stage::replaceBy(Clip clip) {
+Result<Done> RepairStage::replaceBy(Clip clip) {
   if (clip.frames.size() != original_.size()) {
     return Error::of(ErrorCode::Mismatch, "what was written has another number of frames");
   }
@@ -79,11 +79,11 @@ Result<Done> Stage::replaceBy(Clip clip) {
   return takePoses();
 }
 
-LinkId Stage::linkOf(LinkId resting) const {
+LinkId RepairStage::linkOf(LinkId resting) const {
   return resting < body_->numLinks() ? resting : feet_.body.avatar.skeleton().parent(resting);
 }
 
-Eigen::Matrix3d Stage::R_WClip() const {
+Eigen::Matrix3d RepairStage::R_WClip() const {
   const PlayedClip& played = feet_.played;
   for (JointId joint = 0; joint < body_->numLinks(); ++joint) {
     const JointId source = played.match.clipJointOf[slotOf(joint)];
@@ -97,11 +97,11 @@ Eigen::Matrix3d Stage::R_WClip() const {
   return Eigen::Matrix3d::Identity();
 }
 
-bool Stage::isCutAfter() const {
+bool RepairStage::isCutAfter() const {
   return frameOf(feet_.steps()) + 1 < static_cast<std::int64_t>(original_.size());
 }
 
-Changes Stage::ofFile(const Changes& changes) const {
+Changes RepairStage::ofFile(const Changes& changes) const {
   Changes all = Changes::Zero(changes.rows(), static_cast<Eigen::Index>(original_.size()));
   for (Eigen::Index pose = 0; pose < changes.cols(); ++pose) {
     all.col(frameOf(pose)) = changes.col(pose);

@@ -28,10 +28,10 @@ struct RepairRequest : FeetRequest {
 /// Of the gap: what the kernel counts as contact. The rest is for what rounding and curves take.
 inline constexpr double kToleranceShare = 0.2;
 
-class Stage {
+class RepairStage {
  public:
   /// Errors name the file or the option.
-  [[nodiscard]] static Result<Stage> load(const RepairRequest& request);
+  [[nodiscard]] static Result<RepairStage> load(const RepairRequest& request);
 
   /// Poses the clip with changes, a column per pose. Errors: as FeetInputs::poseAt().
   [[nodiscard]] Result<Done> change(const Changes& changes);
@@ -65,7 +65,7 @@ class Stage {
   [[nodiscard]] Changes ofFile(const Changes& changes) const;
 
  private:
-  Stage(RepairRequest request, FeetInputs feet)
+  RepairStage(RepairRequest request, FeetInputs feet)
       : request_(std::move(request)), feet_(std::move(feet)) {}
   [[nodiscard]] Result<Done> prepare();
   [[nodiscard]] Result<Done> takePoses();
