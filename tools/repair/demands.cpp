@@ -170,7 +170,10 @@ bool Demands::takeSlide(const BearingStance& stance) {
   for (std::size_t i = 0, looks = 1; i < stance.looks.size(); i += looks, looks = 1) {
     while (i + looks < stance.looks.size() && stance.looks[i + looks].step == stance.looks[i].step)
       ++looks;
-    const RestLook& look = stance.looks[i + looks / 2];
+    const auto first = stance.looks.begin() + static_cast<std::ptrdiff_t>(i);
+    const RestLook& look = *std::max_element(
+        first, first + static_cast<std::ptrdiff_t>(looks),
+        [](const RestLook& x, const RestLook& y) { return x.way_W.norm() < y.way_W.norm(); });
     const auto pose = static_cast<std::int32_t>(look.step);
     if (swings(look)) {
       isNew = clears_.insert({stance.part, pose}).second || isNew;
