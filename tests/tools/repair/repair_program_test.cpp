@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/shared_data.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/repair/clip_oracle.h"
 #include "tests/tools/repair/legged_walk.h"
@@ -223,6 +224,19 @@ TEST_F(RepairProgram, NamesWhatItCannotMend) {
   }
   EXPECT_TRUE(isTold) << mended.ended.out;
   EXPECT_LT(mended.told["after"]["faulty"], mended.told["before"]["faulty"]);
+}
+
+/// A real clip, with its natural faults: every interval is proven afterwards, by little change.
+TEST_F(RepairProgram, MendsARealClip) {
+  FORETOUCH_REQUIRE_SHARED(clip, "mocap/cmu_jumping_jacks.bvh");
+  const Ended ended = runForetouch({"repair", *clip, "--clip-scale", "0.0564", "--ground", "fit",
+                                    "--json", "-o", folder_ / "mended.bvh"});
+  EXPECT_EQ(ended.exitCode, 0) << ended.out << ended.err;
+  const json told = json::parse(ended.out);
+  EXPECT_GT(told["before"]["faulty"], 30);
+  EXPECT_EQ(told["after"]["faulty"], 0);
+  EXPECT_LT(told["moved_mm"]["mean"], 5.0);
+  EXPECT_LT(told["jerk_after"].get<double>(), 1.05 * told["jerk_before"].get<double>());
 }
 
 }  // namespace
