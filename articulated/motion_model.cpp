@@ -147,7 +147,8 @@ void ModelMotion::assign(const Skeleton& skeleton, const PosedStep& step, Motion
 }
 
 bool ModelMotion::goOn(const PosedStep& step, double horizon, std::size_t most,
-                       std::vector<Pose>& ends) {
+                       std::vector<double>& seconds, std::vector<Pose>& ends) {
+  constexpr double kFirstShare = 1.0 / 32.0;
   const double steps = horizon / step.seconds;
   double turn = 0.0, reach = 0.0;
   const std::size_t numJoints = step.to->rotations.size();
@@ -157,14 +158,20 @@ bool ModelMotion::goOn(const PosedStep& step, double horizon, std::size_t most,
     reach = std::max(
         reach, (to + steps * (to - step.from->translations[joint])).lpNorm<Eigen::Infinity>());
   }
-  if (!(turn <= static_cast<double>(most)) || !(reach <= kMaxCoordinate)) return false;
-  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(turn)));
-  ends.assign(count, *step.to);
+  if (!std::isfinite(turn) || !(reach <= kMaxCoordinate)) return false;
+  seconds.clear();
+  for (double share = 0.0; share < 1.0;) {
+    if (seconds.size() == most) return false;
+    const double farthest = turn > 0.0 ? share + 1.0 / turn : 1.0;
+    share = std::min({1.0, farthest, std::max(kFirstShare, 2.0 * share)});
+    seconds.push_back(share * horizon);
+  }
+  ends.assign(seconds.size(), *step.to);
   for (std::size_t joint = 0; joint < numJoints; ++joint) {
     const Vector3d turned = turnOf(*step.from, *step.to, joint);
     const Vector3d shift = step.to->translations[joint] - step.from->translations[joint];
-    for (std::size_t k = 0; k < count; ++k) {
-      const double share = steps * static_cast<double>(k + 1) / static_cast<double>(count);
+    for (std::size_t k = 0; k < seconds.size(); ++k) {
+      const double share = seconds[k] / step.seconds;
       Quaternion& rotation = ends[k].rotations[joint];
       rotation = (rotation * expOf(share * turned)).normalized();
       ends[k].translations[joint] += share * shift;

@@ -1,4 +1,5 @@
-// assets/bvh/bvh_hierarchy.h: the HIERARCHY section of a BVH file. Internal to the reader.
+// assets/bvh/bvh_hierarchy.h: the HIERARCHY section of a BVH file, and the two lines after MOTION.
+// Internal to the reader and the writer.
 #pragma once
 
 #include <cstddef>
@@ -30,5 +31,14 @@ struct BvhHierarchy {
 /// Reads up to and with the word MOTION. `scale` is metres per file unit.
 [[nodiscard]] Result<BvhHierarchy> readBvhHierarchy(BvhScanner& scanner, double scale,
                                                     ClipNotes& notes);
+
+struct BvhMotionHeader {
+  std::size_t declaredFrames = 0;
+  double frameTimeS = 0.0;
+};
+
+/// The two lines after MOTION, in either order; the first number of the motion is next.
+[[nodiscard]] Result<BvhMotionHeader> readBvhMotionHeader(BvhScanner& scanner,
+                                                          std::size_t valuesPerFrame);
 
 }  // namespace foretouch::internal

@@ -29,11 +29,6 @@ using internal::BvhWord;
 using internal::ClipNotes;
 using internal::isKeyword;
 
-struct MotionHeader {
-  std::size_t declaredFrames = 0;
-  double frameTimeS = 0.0;
-};
-
 /// "Frames: 10", "Frames :10", "Frame Time:0.03", "FrameTime : .03": a colon, or none.
 BvhWord wordAfterColon(BvhScanner& scanner) {
   constexpr auto kSeparate = BvhScanner::Colon::Separate;
@@ -71,8 +66,10 @@ Result<double> frameTime(BvhScanner& scanner) {
                   "expected a frame time of 1e-6 to 3600 seconds, found " + inQuotes(word.text));
 }
 
-/// The two lines after MOTION, in either order.
-Result<MotionHeader> readMotionHeader(BvhScanner& scanner, std::size_t valuesPerFrame) {
+}  // namespace
+
+Result<internal::BvhMotionHeader> internal::readBvhMotionHeader(BvhScanner& scanner,
+                                                                std::size_t valuesPerFrame) {
   constexpr auto kSeparate = BvhScanner::Colon::Separate;
   std::optional<std::size_t> frames;
   std::optional<double> timeS;
@@ -90,8 +87,10 @@ Result<MotionHeader> readMotionHeader(BvhScanner& scanner, std::size_t valuesPer
       return bvhExpected(frames ? "Frame Time" : timeS ? "Frames" : "Frames or Frame Time", word);
     }
   }
-  return MotionHeader{*frames, *timeS};
+  return BvhMotionHeader{*frames, *timeS};
 }
+
+namespace {
 
 /// The rotation of one Euler angle. Half the angle in radians is off by at most 2 unit roundoffs of
 /// itself (one for the constant, one for the product), so the turn is by 4.4e-16 of the angle:
@@ -233,7 +232,7 @@ Result<Clip> readClip(std::string_view text, double scale) {
     return bvhError(ErrorCode::Empty, scanner.peek().line, "no joint has channels, nothing moves");
   }
   const std::size_t valuesPerFrame = std::max(channels, 3 * clip.endSites.size());
-  FORETOUCH_TRY(const auto header, readMotionHeader(scanner, valuesPerFrame));
+  FORETOUCH_TRY(const auto header, internal::readBvhMotionHeader(scanner, valuesPerFrame));
   clip.frameTimeS = header.frameTimeS;
 
   MotionReader motion(scanner, hierarchy, scale, clip);

@@ -82,9 +82,11 @@ void ModelPieces::stand(const Skeleton& skeleton, const PosedStep& step) {
 }
 
 bool ModelPieces::goOn(const Skeleton& skeleton, const PosedStep& step, double horizon) {
-  if (!ModelMotion::goOn(step, horizon, countOf(kMost), ends_)) return false;
+  if (!ModelMotion::goOn(step, horizon, countOf(kMost), endsS_, ends_)) return false;
   resize(static_cast<int>(ends_.size()));
   for (int k = 0; k < count_; ++k) {
+    piece(k).begin = k == 0 ? 0.0 : endsS_[slotOf(k - 1)] / horizon;
+    piece(k).end = k + 1 == count_ ? 1.0 : endsS_[slotOf(k)] / horizon;
     setPiece(k, skeleton, k == 0 ? *step.to : ends_[slotOf(k - 1)], ends_[slotOf(k)]);
   }
   return true;

@@ -46,7 +46,8 @@ class ModelPieces {
   bool cut(const Skeleton& skeleton, const AskedPart& part, const ModelMotion& model, int count);
   /// The first half of the step stands as at its begin, the second half as at its end.
   void stand(const Skeleton& skeleton, const PosedStep& step);
-  /// Goes on as it went in the step; false: that cannot be said.
+  /// Goes on as it went in the step, in pieces that grow: what may be touched soon is found before
+  /// anybody looks at all that may be touched later. False: that cannot be said.
   [[nodiscard]] bool goOn(const Skeleton& skeleton, const PosedStep& step, double horizon);
 
   [[nodiscard]] int count() const { return count_; }
@@ -64,6 +65,7 @@ class ModelPieces {
   ChainMotion whole_;  // of a constant rate of which a part is asked
   Pose from_, to_;
   std::vector<Pose> ends_;
+  std::vector<double> endsS_;
 };
 
 }  // namespace foretouch::internal

@@ -132,11 +132,35 @@ TEST(MotionModel, GoesOnAsItWent) {
   Random random(4);
   const FourPoses four = fourPoses(random, 0.3);
   std::vector<Pose> ends;
-  ASSERT_TRUE(ModelMotion::goOn(four.step(0.1, 0.1, 0.1), 0.1, 32, ends));
-  ASSERT_EQ(ends.size(), 1U);
+  std::vector<double> seconds;
+  ASSERT_TRUE(ModelMotion::goOn(four.step(0.1, 0.1, 0.1), 0.1, 32, seconds, ends));
+  ASSERT_EQ(ends.size(), seconds.size());
+  EXPECT_EQ(seconds.back(), 0.1);
   const Quaternion turn = four.poses[1].rotations[2].conjugate() * four.poses[2].rotations[2];
-  EXPECT_LT(turnBetween(ends[0].rotations[2], four.poses[2].rotations[2] * turn), 1e-7);
-  ASSERT_FALSE(ModelMotion::goOn(four.step(0.1, 0.1, 0.1), 1e6, 32, ends));
+  EXPECT_LT(turnBetween(ends.back().rotations[2], four.poses[2].rotations[2] * turn), 1e-7);
+  ASSERT_FALSE(ModelMotion::goOn(four.step(0.1, 0.1, 0.1), 1e6, 32, seconds, ends));
+}
+
+TEST(MotionModel, GoesOnInPiecesThatDoubleUntilAJointTurnsTooFar) {
+  Random random(5);
+  const FourPoses four = fourPoses(random, 0.3);
+  std::vector<Pose> ends;
+  std::vector<double> seconds;
+  constexpr double kHorizonS = 1.0;
+  ASSERT_TRUE(ModelMotion::goOn(four.step(0.1, 0.1, 0.1), kHorizonS, 32, seconds, ends));
+  double before = 0.0;
+  const Pose* last = &four.poses[2];
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    if (k > 0) {
+      EXPECT_LE(seconds[k] - before, before * (1.0 + 1e-12));
+    }
+    for (std::size_t joint = 0; joint < ends[k].rotations.size(); ++joint) {
+      EXPECT_LE(turnBetween(ends[k].rotations[joint], last->rotations[joint]), 1.0 + 1e-9);
+    }
+    before = seconds[k];
+    last = &ends[k];
+  }
+  EXPECT_EQ(before, kHorizonS);
 }
 
 }  // namespace

@@ -100,11 +100,12 @@ const std::map<std::string, Rooms> kRooms = {
       {"batch", {"settings", ""}},
       {"floor", {"inputs", "settings", ""}},
       {"feet", {"floor", "setup", "inputs", "settings", ""}},
+      {"repair", {"feet", "floor", "inputs", "settings", ""}},
       {"person", {"inputs", "settings", ""}},
       {"certificate", {"inputs", "settings", ""}},
-      {"commands", {"batch", "certificate", "feet",  "floor",  "person",   "view",   "report",
-                    "log",   "sweep",       "glb",   "world",  "solid",    "stream", "replay",
-                    "setup", "touches",     "audit", "inputs", "settings", ""}}}},
+      {"commands", {"batch",  "certificate", "feet",    "floor", "repair", "person",   "view",
+                    "report", "log",         "sweep",   "glb",   "world",  "solid",    "stream",
+                    "replay", "setup",       "touches", "audit", "inputs", "settings", ""}}}},
 };
 
 /// Libraries that only these folders may include, by the include's first word.

@@ -18,6 +18,7 @@
 #include "tools/help_page.h"
 #include "tools/log/log_command.h"
 #include "tools/person/bounds_command.h"
+#include "tools/repair/repair_command.h"
 #include "tools/report/view_command.h"
 #include "tools/setup/setup_command.h"
 #include "tools/solid/solid_command.h"
@@ -48,6 +49,7 @@ std::vector<Command> allCommands() {
   add("Start here", viewCommand());
   add("Ask", replayCommand());
   add("Ask", feetCommand());
+  add("Ask", repairCommand());
   add("Ask", batchCommand(replayCommand, feetCommand));
   add("Ask", worldCommand());
   add("Ask", sweepCommand());

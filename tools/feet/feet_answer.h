@@ -38,6 +38,16 @@ enum class StanceKind : std::uint8_t {
 /// "touches", "hovers", "under".
 [[nodiscard]] const char* toString(StanceKind kind);
 
+/// What of a part counted for its slide at an instant between two poses, while it rested.
+struct RestLook {
+  std::int64_t step = 0;
+  LinkId link = 0;                                     ///< Of RestingBody::avatar.
+  std::size_t corner = 0;                              ///< Of the part.
+  Eigen::Vector3d p_L = Eigen::Vector3d::Zero();       ///< The slowest point.
+  Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();  ///< Of the ground.
+  Eigen::Vector3d way_W = Eigen::Vector3d::Zero();     ///< That it slid, of this look (m).
+};
+
 struct FootStance {
   StanceKind kind = StanceKind::Touches;
   std::size_t part = 0;
@@ -54,6 +64,7 @@ struct FootStance {
   double underS = 0.0;                   ///< As PartContact.
   double hover = 0.0;                    ///< Mean height above the ground, of Hovers.
   std::vector<Eigen::Vector3d> trace_W;  ///< The way that it slid, from where it began.
+  std::vector<RestLook> looks;           ///< If FeetInputs::keepsLooks: by step.
 
   [[nodiscard]] double durationS() const { return toS - fromS; }
 };

@@ -138,17 +138,13 @@ void addOutputSettings(Settings& settings, FeetJob& job) {
 
 }  // namespace
 
-Command feetCommand() {
-  const auto job = std::make_shared<FeetJob>();
-  FeetRequest& request = job->request;
-  Settings settings;
+void addFeetSettings(Settings& settings, FeetRequest& request) {
   addMotionSetting(settings, request, "--motion", "CLIP").required();
   addAvatarSetting(settings, request);
   settings.of("--avatar").help =
       "Avatar file; if there is none, a body is made of a BVH clip's bones, or it is the robot";
   addSceneSettings(settings, request);
   settings.of("--scene").help = "Scene to stand in; a plain floor at y = 0 if there is none";
-  addRateSetting(settings, request);
   addClipSettings(settings, request);
   addCutSettings(settings, request);
   settings
@@ -167,6 +163,14 @@ Command feetCommand() {
       .number("--tolerance", "M", request.tolerance, NumberRange{1e-6, 0.03, "metres", "m"},
               "What is this near to the ground touches it (m)")
       .in(kTouchGroup);
+}
+
+Command feetCommand() {
+  const auto job = std::make_shared<FeetJob>();
+  FeetRequest& request = job->request;
+  Settings settings;
+  addFeetSettings(settings, request);
+  addRateSetting(settings, request);
   addOutputSettings(settings, *job);
   addFilesSetting(settings, job->files);
   Command command{"feet",

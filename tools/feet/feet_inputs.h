@@ -61,6 +61,7 @@ struct FeetInputs {
   std::optional<FloorFit> fit;   ///< Of GroundFrom::Fit.
   double fitShift = 0.0;         ///< What the fit raised the clip by, at the fit's middle (m).
   Eigen::Isometry3d correction = Eigen::Isometry3d::Identity();  ///< The fit's, of W.
+  bool keepsLooks = false;  ///< Stances keep where they were looked at (FootStance::looks).
 
   [[nodiscard]] std::int64_t steps() const { return played.steps.count; }
   [[nodiscard]] double stepS() const {

@@ -66,7 +66,10 @@ void appendCommon(const Entry& entry, std::string& out) {
 
 void NpzFile::addArray(const std::string& name, const std::string& type,
                        const std::vector<std::size_t>& shape, const std::string& data) {
-  const std::string content = headerOf(type, shape) + data;
+  addContent(name, headerOf(type, shape) + data);
+}
+
+void NpzFile::addContent(const std::string& name, const std::string& content) {
   const Entry entry{name + ".npy", crcOf(content), static_cast<std::uint32_t>(content.size()),
                     file_.size()};
   file_ += "PK\x03\x04";

@@ -22,6 +22,9 @@ class NpzFile {
   /// UTF-8, as numpy's bytes: of fixed length, padded by zeros.
   void add(const std::string& name, const std::vector<std::string>& texts);
 
+  /// An array's file as it is, header and values.
+  void addContent(const std::string& name, const std::string& content);
+
   /// The whole file. Below 4 GiB: a larger one needs zip64, and is refused (empty).
   [[nodiscard]] std::string bytes() const;
 

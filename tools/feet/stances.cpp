@@ -38,6 +38,8 @@ struct CornerMotion {
   double normalSpeed = 0.0;             ///< m/s.
   Vector3d slide_W = Vector3d::Zero();  ///< m/s along the surface.
   Vector3d p_W = Vector3d::Zero();      ///< Its lowest point.
+  double share = 0.0;  ///< Of the way from there to its centre: where the slowest point is.
+  std::size_t corner = 0;
 };
 
 /// Walks once through the clip.
@@ -75,6 +77,8 @@ class Walk {
   void sampleSpeeds();
   void lookBetween(std::int64_t step, double t, double lengthS);
   [[nodiscard]] CornerMotion motionOf(const RestingPart& part, const GroundSurface& surface) const;
+  void keepLook(std::int64_t step, std::size_t part, const CornerMotion& motion,
+                const Vector3d& normal_W, double lengthS);
   void deepen(OpenStance& open, const RestingPart& part, double depth, double timeS) const;
   [[nodiscard]] std::vector<Lss> placed(const RestingPart& part) const;
 
@@ -236,12 +240,11 @@ void Walk::samplePose(std::int64_t step) {
   sampleField();
 }
 
-/// The least of the velocities between these two.
-Vector3d leastBetween(const Vector3d& a, const Vector3d& b) {
+/// Where between these two velocities the least one is, 0 to 1.
+double leastBetween(const Vector3d& a, const Vector3d& b) {
   const Vector3d way = b - a;
   const double square = way.squaredNorm();
-  if (!(square > 0.0)) return a;
-  return a + std::clamp(-a.dot(way) / square, 0.0, 1.0) * way;
+  return square > 0.0 ? std::clamp(-a.dot(way) / square, 0.0, 1.0) : 0.0;
 }
 
 /// Of the spheres that are about as low, the one that moves least along the surface; and of it the
@@ -252,7 +255,8 @@ CornerMotion Walk::motionOf(const RestingPart& part, const GroundSurface& surfac
   const LowestCorner lowest = lowestOf(part, states_, up);
   const double perS = 1.0 / inputs_.stepS();
   std::optional<CornerMotion> slowest;
-  for (const PartCorner& corner : part.corners) {
+  for (std::size_t i = 0; i < part.corners.size(); ++i) {
+    const PartCorner& corner = part.corners[i];
     const LinkState& state = states_[slotOf(corner.link)];
     const Vector3d center = state.pointAt(corner.center_L);
     if (up.dot(center) - corner.radius > lowest.height + kAsLow) continue;
@@ -261,10 +265,22 @@ CornerMotion Walk::motionOf(const RestingPart& part, const GroundSurface& surfac
                    atPoint = perS * state.velocityOf(p_W);
     const Vector3d along = atCenter - up.dot(atCenter) * up;
     const Vector3d point = atPoint - up.dot(atPoint) * up;
-    const CornerMotion motion{up.dot(atCenter), leastBetween(point, along), p_W};
+    const double share = leastBetween(point, along);
+    const CornerMotion motion{up.dot(atCenter), point + share * (along - point), p_W, share, i};
     if (!slowest || motion.slide_W.norm() < slowest->slide_W.norm()) slowest = motion;
   }
   return *slowest;
+}
+
+/// Of the stance that is open there.
+void Walk::keepLook(std::int64_t step, std::size_t part, const CornerMotion& motion,
+                    const Vector3d& normal_W, double lengthS) {
+  const PartCorner& corner = parts_[part].corners[motion.corner];
+  const LinkState& state = states_[slotOf(corner.link)];
+  const Vector3d p_W = motion.p_W + motion.share * corner.radius * normal_W;
+  open_[cursor_[part]].stance.looks.push_back({step, corner.link, motion.corner,
+                                               state.R_WL.transpose() * (p_W - state.p_WL),
+                                               normal_W, lengthS * motion.slide_W});
 }
 
 void Walk::lookBetween(std::int64_t step, double t, double lengthS) {
@@ -279,6 +295,7 @@ void Walk::lookBetween(std::int64_t step, double t, double lengthS) {
       deepen(*open, parts_[part], -surface->heightOf(motion.p_W), timeS);
     }
     if (std::abs(motion.normalSpeed) > kRestNormalSpeed) continue;
+    if (inputs_.keepsLooks) keepLook(step, part, motion, surface->normal_W, lengthS);
     // From one point on: another one that touches later adds its way, not how far away it is.
     if (!open->from_W) open->from_W = motion.p_W;
     if (open->path.add(lengthS * motion.slide_W)) {

@@ -311,7 +311,7 @@ Result<std::string> NpzArrays::contentOf(const Entry& entry) const {
   return *std::move(content);
 }
 
-Result<NpzArray> NpzArrays::array(const std::string& name) const {
+Result<std::string> NpzArrays::content(const std::string& name) const {
   const auto named = [&](Error error) {
     error.message = "array " + inQuotes(name) + ": " + error.message;
     return error;
@@ -321,9 +321,31 @@ Result<NpzArray> NpzArrays::array(const std::string& name) const {
     return Error::of(ErrorCode::UnknownName,
                      "has no array " + inQuotes(name) + didYouMean(name, names()));
   }
-  FORETOUCH_TRY_OR(named, const auto content, contentOf(*entry));
-  FORETOUCH_TRY_OR(named, auto array, decoded(content));
+  FORETOUCH_TRY_OR(named, auto content, contentOf(*entry));
+  return content;
+}
+
+Result<NpzArray> NpzArrays::array(const std::string& name) const {
+  const auto named = [&](Error error) {
+    error.message = "array " + inQuotes(name) + ": " + error.message;
+    return error;
+  };
+  FORETOUCH_TRY(const auto text, content(name));
+  FORETOUCH_TRY_OR(named, auto array, decoded(text));
   return array;
+}
+
+Result<Done> NpzArrays::replaceNumbers(const std::vector<double>& numbers, std::string& content) {
+  FORETOUCH_TRY(const Header header, headerOf(content));
+  const bool isWide = header.type == "<f8";
+  if (!isWide && header.type != "<f4") return unreadable(header.type);
+  const std::size_t width = isWide ? 8 : 4;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    char* const at = &content[header.begin + placeOf(i, header) * width];
+    const auto narrow = static_cast<float>(numbers[i]);
+    isWide ? std::memcpy(at, &numbers[i], width) : std::memcpy(at, &narrow, width);
+  }
+  return Done{};
 }
 
 }  // namespace foretouch::tools

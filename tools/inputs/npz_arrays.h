@@ -30,6 +30,12 @@ class NpzArrays {
   /// of 4 or 8 bytes, integers of 4 or 8 or texts, in the byte order of other machines, not finite,
   /// or larger than kMaxTableValues.
   [[nodiscard]] Result<NpzArray> array(const std::string& name) const;
+  /// An array's file, header and values. Errors as array(), of the zip.
+  [[nodiscard]] Result<std::string> content(const std::string& name) const;
+  /// Writes numbers, in C order, in place of those of an array's file, in its own type and order.
+  /// Errors: its type is no float.
+  [[nodiscard]] static Result<Done> replaceNumbers(const std::vector<double>& numbers,
+                                                   std::string& content);
 
  private:
   struct Entry {

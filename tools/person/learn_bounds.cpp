@@ -95,7 +95,7 @@ class HeldBackClip {
     const std::size_t end = std::min(frames_.size(), last_ + kAheadSteps * every_ + 1);
     for (std::size_t frame = last_ + 1; frame < end; ++frame) {
       const double tau = static_cast<double>(frame - last_) * frameTimeS_;
-      if (!ModelMotion::goOn(step_, tau, kMostAheadPieces, ends_)) return;
+      if (!ModelMotion::goOn(step_, tau, kMostAheadPieces, endsS_, ends_)) return;
       std::swap(pose_, ends_.back());
       raise(frame, 0.5 * tau * (seconds_ + tau), most);
     }
@@ -122,6 +122,7 @@ class HeldBackClip {
   ModelMotion motion_;
   Pose pose_;
   std::vector<Pose> ends_;
+  std::vector<double> endsS_;
   AxisPlaces one_, other_;
   std::vector<double> own_;
 };

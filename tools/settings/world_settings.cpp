@@ -77,6 +77,8 @@ void addScopeSettings(Settings& settings, WorldRequest& request) {
   };
 }
 
+}  // namespace
+
 /// The first line of results has them from the rules themselves.
 void addSelfSettings(Settings& settings, WorldRequest& request) {
   settings
@@ -102,8 +104,6 @@ void addSelfSettings(Settings& settings, WorldRequest& request) {
       .inConfig("query", "pairs")
       .needing("--self");
 }
-
-}  // namespace
 
 void addSceneSettings(Settings& settings, WorldRequest& request) {
   settings

@@ -56,6 +56,8 @@ void addSceneSettings(Settings& settings, WorldRequest& request);
 void refuseGoneFidelities(Setting& setting);
 /// The ones that services have too: --tolerance, --fidelity, --ignore, --budget-us.
 void addQuerySettings(Settings& settings, WorldRequest& request);
+/// --self and --pairs (does not read its file).
+void addSelfSettings(Settings& settings, WorldRequest& request);
 /// The rest: --scope, --pass-separating, --skin and how to read it, --policy and --pairs (does not
 /// read their files),
 /// --self.

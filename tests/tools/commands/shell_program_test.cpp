@@ -328,6 +328,7 @@ TEST(Quiet, MeansTheSameToEveryCommand) {
       {"view", wall, man, clip, "--clip-scale", "0.01", "-o", out + "html"},
       {"replay", wall, man, clip, "--clip-scale", "0.01", "-o", out + "jsonl"},
       {"feet", walk, walker, "--skip-t-pose"},
+      {"repair", walk, walker, "--skip-t-pose", "-o", out + "bvh"},
       {"batch", fleet, "-o", folder / "fleet"},
       {"world", "check", stage},
       {"world", "replay", stage, "-o", out + "jsonl"},

@@ -1,0 +1,35 @@
+// tools/repair/banded.h: symmetric positive systems whose unknowns come in blocks of one size, each
+// of which is coupled with the next few alone: Cholesky's factor block by block, with Eigen's own
+// of each.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace foretouch::tools {
+
+class BandedSystem {
+ public:
+  /// A block is coupled with so many before it.
+  static constexpr std::size_t kBand = 3;
+
+  BandedSystem(std::size_t blocks, Eigen::Index size);
+
+  /// Of rows of block `at` and columns of block `at - back`; of block `at` itself both halves.
+  [[nodiscard]] Eigen::MatrixXd& block(std::size_t at, std::size_t back) {
+    return blocks_[at][back];
+  }
+  /// Replaces the system by its factor. False: it is not positive.
+  [[nodiscard]] bool factorize();
+  /// Precondition: factorize() was true. `x`: the right side, then the answer.
+  void solve(Eigen::VectorXd& x) const;
+
+ private:
+  Eigen::Index size_;
+  std::vector<std::array<Eigen::MatrixXd, kBand + 1>> blocks_;
+};
+
+}  // namespace foretouch::tools

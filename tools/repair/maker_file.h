@@ -1,0 +1,38 @@
+// tools/repair/maker_file.h: a clip's file as its maker wrote it: what of it can be changed, and
+// the same file with changes, every other byte as it was.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "articulated/clip.h"
+#include "articulated/result.h"
+#include "tools/repair/knobs.h"
+#include "tools/settings/clip_settings.h"
+
+namespace foretouch::tools {
+
+class MakerFile {
+ public:
+  virtual ~MakerFile() = default;
+  /// Reads the request's motion again, which `clip` is. Errors name the file: a model (its
+  /// animation is no table of poses); a table whose rows were cut (Clip::framesPerRow).
+  [[nodiscard]] static Result<std::unique_ptr<MakerFile>> open(const ClipRequest& request,
+                                                               const Clip& clip);
+
+  /// By joint, the root's first.
+  [[nodiscard]] const std::vector<Knob>& knobs() const { return knobs_; }
+  /// The file with the changes: a column per frame of the clip. Errors: as its format's.
+  [[nodiscard]] virtual Result<std::string> with(const Changes& changes) const = 0;
+  /// Such a file, read as the product reads it.
+  [[nodiscard]] virtual Result<Clip> reread(const std::string& bytes) const = 0;
+
+ protected:
+  std::vector<Knob> knobs_;
+};
+
+/// Of a table of joint positions: tools/repair/table_file.cpp.
+[[nodiscard]] Result<std::unique_ptr<MakerFile>> openTable(const ClipRequest& request);
+
+}  // namespace foretouch::tools

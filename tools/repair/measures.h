@@ -1,0 +1,40 @@
+// tools/repair/measures.h: what a repair moved and turned, and what it did to the jerk. Metres,
+// radians, seconds.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "articulated/skeleton.h"
+#include "tools/repair/stage.h"
+
+namespace foretouch::tools {
+
+/// Over joints and poses.
+struct Spread {
+  double mean = 0.0, p99 = 0.0, most = 0.0;
+};
+
+struct JointMoved {
+  JointId joint = 0;           ///< Of the body.
+  Spread move;                 ///< How far its origin moved in W.
+  Spread turn;                 ///< How far its own rotation, in its parent, turned.
+  std::int32_t worstPose = 0;  ///< Where it moved most.
+};
+
+struct Measures {
+  std::int32_t changedPoses = 0;
+  Spread move, turn;                         ///< Of all joints at all poses.
+  Spread moveChanged, turnChanged;           ///< Of all joints at the poses that changed.
+  std::vector<JointMoved> joints;            ///< Those that changed, the farthest moved first.
+  double jerkBefore = 0.0, jerkAfter = 0.0;  ///< Mean over joints and poses, m/s^3.
+
+  [[nodiscard]] double addedJerk() const {
+    return jerkBefore > 0.0 ? jerkAfter / jerkBefore - 1.0 : 0.0;
+  }
+};
+
+/// `before`: as many poses of the stage's body as it has now.
+[[nodiscard]] Measures measuresOf(const RepairStage& stage, const std::vector<Pose>& before);
+
+}  // namespace foretouch::tools
