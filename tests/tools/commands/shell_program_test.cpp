@@ -53,7 +53,7 @@ TEST(Completion, OffersCommandsOptionsWordsAndFilesInBash) {
   folder.write("room.obj", "");
   folder.write("walk.BVH", "");
   folder.write("notes.txt", "");
-  EXPECT_EQ(offersOfBash(folder, "foretouch re"), Offers{"replay"});
+  EXPECT_EQ(offersOfBash(folder, "foretouch re"), (Offers{"repair", "replay"}));
   EXPECT_EQ(offersOfBash(folder, "foretouch avatar ''"),
             (Offers{"bvh", "check", "mesh", "pairs", "urdf"}));
   EXPECT_EQ(offersOfBash(folder, "foretouch avatar check --clip-s"), Offers{"--clip-scale"});
@@ -64,7 +64,7 @@ TEST(Completion, OffersCommandsOptionsWordsAndFilesInBash) {
   EXPECT_EQ(offersOfBash(folder, "foretouch scene check r"), Offers{"room.obj"});
   EXPECT_EQ(offersOfBash(folder, "foretouch replay --place ''"), Offers{});
   EXPECT_EQ(offersOfBash(folder, "foretouch completion f"), Offers{"fish"});
-  EXPECT_EQ(offersOfBash(folder, "foretouch help re"), Offers{"replay"});
+  EXPECT_EQ(offersOfBash(folder, "foretouch help re"), (Offers{"repair", "replay"}));
   // Former names work, and are not offersOfBash.
   EXPECT_EQ(offersOfBash(folder, "foretouch replay --up"), Offers{});
 }
