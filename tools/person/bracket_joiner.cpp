@@ -3,24 +3,21 @@
 #include <algorithm>
 #include <iterator>
 
-#include "assets/json_writer.h"
-
 namespace foretouch::tools {
-namespace {
-
-/// Earlier first; what is not certain has one of the two.
-void writeBracket(const char* name, double possible, double certain, bool isCertain,
-                  bool isCertainFirst, JsonWriter& out) {
-  const auto writeCertain = [&] { isCertain ? out.value(certain) : out.null(); };
-  out.key(name);
+void writeBeginAndEnd(const PersonTouch& touch, const char* begins, const char* ends,
+                      JsonWriter& out) {
+  const auto writeCertain = [&](double s) { touch.isCertain ? out.value(s) : out.null(); };
+  out.key(begins);
   out.beginArray();
-  if (isCertainFirst) writeCertain();
-  out.value(possible);
-  if (!isCertainFirst) writeCertain();
+  out.value(touch.beginsS[0]);
+  writeCertain(touch.beginsS[1]);
+  out.endArray();
+  out.key(ends);
+  out.beginArray();
+  writeCertain(touch.endsS[0]);
+  out.value(touch.endsS[1]);
   out.endArray();
 }
-
-}  // namespace
 
 std::string personTouchLine(const PersonNames& names, const PersonTouch& touch) {
   std::string text;
@@ -38,8 +35,7 @@ std::string personTouchLine(const PersonNames& names, const PersonTouch& touch) 
   }
   if (touch.triangle >= 0) out.field("triangle", touch.triangle);
   out.field("verdict", touch.isCertain ? "certain" : "possible");
-  writeBracket("begins_s", touch.beginsS[0], touch.beginsS[1], touch.isCertain, false, out);
-  writeBracket("ends_s", touch.endsS[1], touch.endsS[0], touch.isCertain, true, out);
+  writeBeginAndEnd(touch, "begins_s", "ends_s", out);
   if (touch.beginsBefore) out.field("begins_before", true);
   if (touch.endsAfter) out.field("ends_after", true);
   out.endObject();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "articulated/skeleton.h"
+#include "assets/json_writer.h"
 #include "middleware/bracket/bracket.h"
 #include "middleware/scene/scene.h"
 
@@ -29,6 +30,10 @@ struct PersonTouch {
 struct PersonNames {
   std::string body, link, otherBody, other, object;
 };
+/// Two arrays, earlier first, under these names: [possible, certain] and [certain, possible]; what
+/// is not certain is null.
+void writeBeginAndEnd(const PersonTouch& touch, const char* begins, const char* ends,
+                      JsonWriter& out);
 /// {"person_touch": {...}} (docs/formats.md).
 [[nodiscard]] std::string personTouchLine(const PersonNames& names, const PersonTouch& touch);
 

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "articulated/avatar.h"
+#include "tools/person/bracket_joiner.h"
 #include "tools/reported_contact.h"
 #include "tools/setup/placement_check.h"
 #include "tools/touches/touch.h"
@@ -167,12 +168,8 @@ struct ViewFoot {
 
 /// What a link of the only avatar's person surely touched, or may have touched.
 struct ViewPersonTouch {
-  LinkId link = 0, other = kNoParent;  ///< An own link; kNoParent: the scene.
-  std::string object;                  ///< Of the scene; empty: not known.
-  bool isCertain = false;
-  double beginsS[2] = {0.0, 0.0}, endsS[2] = {0.0, 0.0};  ///< As PersonTouch's.
-  bool beganBefore = false, goesOn = false;
-  double growth = 0.0;  ///< m.
+  PersonTouch touch;
+  std::string object;  ///< Of the scene; empty: not known.
 };
 
 struct ViewPerson {

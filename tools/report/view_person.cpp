@@ -14,26 +14,15 @@ namespace foretouch::tools {
 namespace {
 
 ViewPersonTouch shownOf(const PersonTouch& touch, const Scene& scene) {
-  ViewPersonTouch shown;
-  shown.link = touch.link;
-  shown.other = touch.other;
-  if (touch.triangle >= 0) {
-    shown.object = scene.objectNames()[slotOf(scene.object(touch.triangle))];
-  }
-  shown.isCertain = touch.isCertain;
-  std::copy(touch.beginsS, touch.beginsS + 2, shown.beginsS);
-  std::copy(touch.endsS, touch.endsS + 2, shown.endsS);
-  shown.beganBefore = touch.beginsBefore;
-  shown.goesOn = touch.endsAfter;
-  shown.growth = touch.growth;
-  return shown;
+  if (touch.triangle < 0) return {touch, ""};
+  return {touch, scene.objectNames()[slotOf(scene.object(touch.triangle))]};
 }
 
 /// Of what comes after the last pose that is shown, nothing is; false: all of the touch does.
-bool cutAt(double endS, ViewPersonTouch& touch) {
+bool cutAt(double endS, PersonTouch& touch) {
   if (touch.beginsS[0] > endS) return false;
   if (touch.endsS[1] <= endS) return true;
-  touch.goesOn = true;
+  touch.endsAfter = true;
   touch.isCertain = touch.isCertain && touch.beginsS[1] <= endS;
   touch.endsS[0] = std::min(touch.endsS[0], endS);
   touch.endsS[1] = endS;
@@ -53,10 +42,10 @@ void addPerson(const ReplayInputs& inputs, const PersonRequest& request,
   person.rateHz = answer->rateHz;
   for (const PersonTouch& touch : answer->touches) {
     ViewPersonTouch shown = shownOf(touch, inputs.scene);
-    if (cutAt(endS, shown)) person.touches.push_back(std::move(shown));
+    if (cutAt(endS, shown.touch)) person.touches.push_back(std::move(shown));
   }
   const auto certain = std::count_if(person.touches.begin(), person.touches.end(),
-                                     [](const ViewPersonTouch& touch) { return touch.isCertain; });
+                                     [](const ViewPersonTouch& of) { return of.touch.isCertain; });
   document.summary.push_back({"the person surely touched", std::to_string(certain),
                               fmt::format("whatever they did within {}", person.bounds)});
   document.summary.push_back(

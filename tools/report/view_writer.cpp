@@ -336,25 +336,16 @@ void write(const ViewFoot& foot, Writer& out) {
   out.endObject();
 }
 
-/// Earlier first; what is not certain has one of the two.
-void writeSpan(Writer& out, const char* name, const double (&span)[2], bool isCertain,
-               int certainAt) {
-  out.key(name);
-  out.beginArray();
-  for (int i = 0; i < 2; ++i) isCertain || i != certainAt ? out.value(span[i]) : out.null();
-  out.endArray();
-}
-
-void write(const ViewPersonTouch& touch, Writer& out) {
+void write(const ViewPersonTouch& shown, Writer& out) {
+  const PersonTouch& touch = shown.touch;
   out.beginObject();
   out.field("link", touch.link);
   if (touch.other != kNoParent) out.field("other", touch.other);
-  if (!touch.object.empty()) out.field("object", touch.object);
+  if (!shown.object.empty()) out.field("object", shown.object);
   out.field("verdict", touch.isCertain ? "certain" : "possible");
-  writeSpan(out, "begins", touch.beginsS, touch.isCertain, 1);
-  writeSpan(out, "ends", touch.endsS, touch.isCertain, 0);
-  if (touch.beganBefore) out.field("began_before", true);
-  if (touch.goesOn) out.field("goes_on", true);
+  writeBeginAndEnd(touch, "begins", "ends", out);
+  if (touch.beginsBefore) out.field("began_before", true);
+  if (touch.endsAfter) out.field("goes_on", true);
   out.field("growth", touch.growth);
   out.endObject();
   out.handOnPieces();
