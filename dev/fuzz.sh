@@ -7,6 +7,7 @@ cd "$(dirname "$0")/.."
 # TARGET=DICTIONARY; nothing: none.
 readonly fuzz_targets=(bvh=bvh avatar=avatar pairs=pairs csv= joint_map= skeleton_message=message
                        pose_message=message contacts_message=message solid_message=message
+                       person_message=message
                        speaker_message=message status_message=message body_message=message
                        rigid_pose_message=message events_message=message pushes_message=message
                        config=config project=config world_file=world rigid_poses= url=

@@ -346,4 +346,33 @@ Result<LinkBounds> boundsOf(const BoundsFile& file, const Skeleton& skeleton, Mo
   return bounds;
 }
 
+Result<BoundsByRate> BoundsByRate::make(BoundsFile file, const Skeleton& skeleton,
+                                        MotionModel model) {
+  const auto isOfModel = [model](const BoundEntry& entry) {
+    return !entry.model || *entry.model == model;
+  };
+  const auto some = std::find_if(file.entries.begin(), file.entries.end(), isOfModel);
+  if (some == file.entries.end()) {
+    return Error::of(ErrorCode::Mismatch, fmt::format("expected bounds for {}, found {}",
+                                                      toString(model), kindsOf(file)));
+  }
+  constexpr double kAnyRateHz = 30.0;
+  const double rateHz = some->rateHz > 0.0 ? some->rateHz : kAnyRateHz;
+  FORETOUCH_CHECK(boundsOf(file, skeleton, model, rateHz));
+  return BoundsByRate(std::move(file), skeleton, model);
+}
+
+const std::vector<LinkBound>& BoundsByRate::at(double rateHz) {
+  nowCounts_.clear();
+  for (const BoundEntry& entry : file_.entries) {
+    nowCounts_.push_back(isAbout(entry, model_, rateHz) ? 1 : 0);
+  }
+  if (!bounds_.empty() && nowCounts_ == counts_) return bounds_;
+  std::swap(counts_, nowCounts_);
+  auto found = boundsOf(file_, skeleton_, model_, rateHz);
+  bounds_.assign(countOf(skeleton_.numJoints()), LinkBound{});
+  if (found.ok()) bounds_ = std::move(found.value().bounds);
+  return bounds_;
+}
+
 }  // namespace foretouch

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "articulated/motion_model.h"
@@ -60,6 +61,26 @@ struct LinkBounds {
 /// names those that there are). A link that no entry fits is claimed nothing of.
 [[nodiscard]] Result<LinkBounds> boundsOf(const BoundsFile& file, const Skeleton& skeleton,
                                           MotionModel model, double rateHz);
+
+/// boundsOf() of a stream, whose poses come at any rate: what it found last is kept.
+class BoundsByRate {
+ public:
+  /// Errors: as boundsOf(); no entry for the model at any rate.
+  static Result<BoundsByRate> make(BoundsFile file, const Skeleton& skeleton, MotionModel model);
+  /// At rates that no entry is about nothing is claimed. Allocates only where other entries count
+  /// than at the last call.
+  [[nodiscard]] const std::vector<LinkBound>& at(double rateHz);
+
+ private:
+  BoundsByRate(BoundsFile file, Skeleton skeleton, MotionModel model)
+      : file_(std::move(file)), skeleton_(std::move(skeleton)), model_(model) {}
+
+  BoundsFile file_;
+  Skeleton skeleton_;
+  MotionModel model_;
+  std::vector<std::uint8_t> counts_, nowCounts_;  // which entries are about the rate
+  std::vector<LinkBound> bounds_;
+};
 
 /// "constant-rate", "cubic" or "cubic-late"; nothing for other words.
 [[nodiscard]] std::optional<MotionModel> motionModelNamed(std::string_view word);

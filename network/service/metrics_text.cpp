@@ -68,20 +68,22 @@ class Page {
     line(name + "_count", "", std::to_string(values.count()));
   }
   /// Of one metric, `value` of each avatar.
-  template <typename Value>
+  template <typename Counts, typename Value>
   void ofAvatars(const std::string& name, const std::string& help, const char* type,
-                 const SolidCounts& solids, const Value& value) {
+                 const Counts& counts, const Value& value) {
     head(name, help, type);
-    for (const SolidCount& solid : solids.avatars) line(name, labelOf(solid), value(solid));
+    for (const auto& count : counts.avatars) line(name, labelOf(count), value(count));
   }
-  /// Only the states that occurred.
-  void states(const std::string& name, const std::string& help, const SolidCounts& solids) {
+  /// Only the kinds that occurred, each by its word.
+  template <typename Kind, typename Counts, typename Numbers>
+  void byKind(const std::string& name, const std::string& help, const std::string& label,
+              const Counts& counts, const Numbers& numbers) {
     head(name, help, "counter");
-    for (const SolidCount& solid : solids.avatars) {
-      for (std::size_t i = 0; i < kNumSolidStates; ++i) {
-        if (solid.poses[i] == 0) continue;
-        line(name, labelOf(solid) + ",state=" + quoted(toString(static_cast<SolidState>(i))),
-             std::to_string(solid.poses[i]));
+    for (const auto& count : counts.avatars) {
+      for (std::size_t i = 0; i < numbers(count).size(); ++i) {
+        if (numbers(count)[i] == 0) continue;
+        line(name, labelOf(count) + "," + label + "=" + quoted(toString(static_cast<Kind>(i))),
+             std::to_string(numbers(count)[i]));
       }
     }
   }
@@ -112,8 +114,9 @@ class Page {
     if (!labels.empty()) text_ += "{" + labels + "}";
     text_ += " " + value + "\n";
   }
-  static std::string labelOf(const SolidCount& solid) {
-    return "avatar=" + quoted(std::to_string(solid.avatar));
+  template <typename Count>
+  static std::string labelOf(const Count& count) {
+    return "avatar=" + quoted(std::to_string(count.avatar));
   }
   std::string text_;
 };
@@ -161,8 +164,9 @@ void addWire(Page& page, const ServiceCounts& counts) {
 
 void addSolids(Page& page, const SolidCounts& solids) {
   if (solids.avatars.empty()) return;
-  page.states("foretouch_solid_poses_total", "Poses that a solid avatar showed, by its state.",
-              solids);
+  page.byKind<SolidState>(
+      "foretouch_solid_poses_total", "Poses that a solid avatar showed, by its state.", "state",
+      solids, [](const SolidCount& solid) -> const auto& { return solid.poses; });
   page.ofAvatars("foretouch_solid_uncertified_total", "Of these, those whose way was not proven.",
                  "counter", solids,
                  [](const SolidCount& solid) { return std::to_string(solid.uncertified); });
@@ -182,6 +186,17 @@ void addSolids(Page& page, const SolidCounts& solids) {
                  "Of a moving world: ticks at which something left it no proven way.", "counter",
                  solids, [](const SolidCount& solid) { return std::to_string(solid.crushed); });
   page.histogram("foretouch_solid_seconds", "What a solid avatar took for one pose.", solids.times);
+}
+
+void addPersons(Page& page, const PersonCounts& persons) {
+  if (persons.avatars.empty()) return;
+  page.byKind<BracketVerdict>(
+      "foretouch_person_links_total", "Links, times steps, by what is known of the person.",
+      "verdict", persons, [](const PersonCount& person) -> const auto& { return person.links; });
+  page.ofAvatars("foretouch_person_bounds_broken_total",
+                 "Claims of the bounds that poses showed to be wrong, link by link.", "counter",
+                 persons, [](const PersonCount& person) { return std::to_string(person.broken); });
+  page.histogram("foretouch_person_seconds", "What a message about a person took.", persons.times);
 }
 
 void addWorld(Page& page, const WorldReport& world) {
@@ -234,7 +249,7 @@ void addWorld(Page& page, const WorldReport& world) {
 
 std::string metricsText(const ServiceFacts& facts, const ServiceCounts& counts,
                         const AnswerTimes& times, const SolidCounts& solids,
-                        const WorldReport* world) {
+                        const WorldReport* world, const PersonCounts& persons) {
   Page page;
   page.info("foretouch_build_info", "What is running.",
             "build=" + quoted(facts.build) + ",scene=" + quoted(facts.scene));
@@ -249,6 +264,7 @@ std::string metricsText(const ServiceFacts& facts, const ServiceCounts& counts,
   page.histogram("foretouch_query_seconds", "Of the answers' latency, the query alone.",
                  times.query);
   addSolids(page, solids);
+  addPersons(page, persons);
   if (world != nullptr) addWorld(page, *world);
   return page.text();
 }

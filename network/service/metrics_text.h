@@ -10,6 +10,7 @@ namespace foretouch {
 
 [[nodiscard]] std::string metricsText(const ServiceFacts& facts, const ServiceCounts& counts,
                                       const AnswerTimes& times, const SolidCounts& solids = {},
-                                      const WorldReport* world = nullptr);
+                                      const WorldReport* world = nullptr,
+                                      const PersonCounts& persons = {});
 
 }  // namespace foretouch

@@ -6,6 +6,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <set>
 #include <system_error>
 #include <thread>
 #include <unordered_map>
@@ -34,6 +35,7 @@ constexpr milliseconds kBeatEvery{500};
 struct ServedStream {
   BoundStream stream;
   std::size_t index = 0;
+  PersonStream* person = nullptr;
   std::uint64_t lost = 0, gaps = 0, vastGaps = 0;  // of the solver's counts, already added up
   std::vector<std::int64_t> known{}, nowKnown{};   // hashes that the mail room knows of; scratch
   ReplayGuard skeletons{}, poses{};                // of the receiving thread
@@ -114,6 +116,7 @@ struct Service::Impl final : internal::Outlet {
       room.know(streams.size(), {});
       streams.push_back({BoundStream(std::move(solver), chosen.speaker), streams.size()});
     }
+    for (PersonStream& person : parts.persons) streams[indexOf.at(person.id())].person = &person;
     if (!parts.world) return;
     world.emplace(std::move(*parts.world), chosen.speaker, chosen.suffix, *parts.clock, *this,
                   solidCounter);
@@ -130,6 +133,7 @@ struct Service::Impl final : internal::Outlet {
   internal::MessageSeal seal;
   ServiceCounter counter;
   SolidCounter solidCounter;
+  PersonCounter personCounter;
   std::optional<Journal> journal;
   std::optional<internal::WorldDesk> world;  // its mail comes after that of the streams
 
@@ -320,6 +324,7 @@ struct Service::Impl final : internal::Outlet {
                          desk.answer.queryUs);
     SolidStream* const solid = stream.stream.solid();
     if (solid != nullptr) show(stream, *solid, mail, desk);
+    if (stream.person != nullptr) sayPerson(stream, mail, desk);
     settle(stream, mail, &stream.stream.solver().lastStep(), desk);
     StepObserver* const observer = parts.observer;
     if (observer == nullptr || !observer->wants(stream.index)) return;
@@ -355,6 +360,20 @@ struct Service::Impl final : internal::Outlet {
     publish(channels.solid, desk.payload);
     desk.held.add(desk.shown.sendUtimeUs, channels.solid, desk.payload);
     solidCounter.shown(desk.shown);
+  }
+
+  void sayPerson(ServedStream& stream, const Mail& mail, Desk& desk) {
+    PersonStream& person = *stream.person;
+    person.follow(stream.stream.solver().lastStep());
+    for (std::size_t i = 0; i < person.numSaid(); ++i) {
+      PersonMessage& said = person.said(i);
+      said.receiveUtimeUs = mail.receiveUtimeUs;
+      said.sendUtimeUs = parts.clock->utimeUs();
+      encode(said, desk.payload);
+      publish(channels.person, desk.payload);
+      desk.held.add(said.sendUtimeUs, channels.person, desk.payload);
+      personCounter.said(said);
+    }
   }
 
   void addUp(ServedStream& stream) {
@@ -518,6 +537,13 @@ Result<Service> Service::start(std::vector<StreamSolver> avatars, ServiceParts p
                                const ServiceOptions& options) {
   const WorldSolver* const world = parts.world ? &*parts.world : nullptr;
   if (const auto problem = problemOf(avatars, world, options)) return *problem;
+  std::set<std::int32_t> without;  // of whose persons nothing is claimed
+  for (const StreamSolver& avatar : avatars) without.insert(avatar.id());
+  for (const PersonStream& person : parts.persons) {
+    if (without.erase(person.id()) == 1) continue;
+    return Error::of(ErrorCode::Mismatch, "expected one person of avatar " +
+                                              std::to_string(person.id()) + ", which is served");
+  }
   const std::size_t numAvatars = avatars.size();
   auto impl = std::make_unique<Impl>(std::move(avatars), std::move(parts), options);
   if (impl->indexOf.size() != numAvatars) {
@@ -549,6 +575,10 @@ AnswerTimes Service::times() const {
 
 SolidCounts Service::solidCounts() const {
   return impl_->solidCounter.counts();
+}
+
+PersonCounts Service::personCounts() const {
+  return impl_->personCounter.counts();
 }
 
 std::optional<WorldReport> Service::world() const {

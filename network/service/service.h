@@ -10,9 +10,10 @@
 // sees each step after its answer went out, in the thread that answered it.
 // Where an avatar is solid (StreamSolver::makeSolid), its thread shows it after it has sent the
 // answer: one solid_t per accepted pose.
-// Where there is a moving world, the thread then tells it of the pose, and sends what solid bodies
-// of it show, and what happened between bodies, as far as that is known; one thread at a time does
-// that.
+// Where something is claimed of an avatar's person (ServiceParts::persons), the thread says then
+// what follows: at least one person_t per accepted pose. Where there is a moving world, the thread
+// then tells it of the pose, and sends what solid bodies of it show, and what happened between
+// bodies, as far as that is known; one thread at a time does that.
 //
 // At every moment: received = answered + rejected + waiting. Not installed.
 #pragma once
@@ -29,9 +30,11 @@
 #include "network/service/clock.h"
 #include "network/service/health.h"
 #include "network/service/journal.h"
+#include "network/service/person_counts.h"
 #include "network/service/service_counts.h"
 #include "network/service/solid_counts.h"
 #include "network/service/world_report.h"
+#include "network/stream/person_stream.h"
 #include "network/stream/speaker_gate.h"
 #include "network/stream/step_observer.h"
 #include "network/stream/stream_solver.h"
@@ -70,6 +73,7 @@ struct ServiceParts {
   const Clock* clock = &systemClock();   ///< Outlives the service.
   StepObserver* observer = nullptr;      ///< Outlives the service; may be none.
   std::optional<WorldSolver> world;      ///< None: nobody asks what bodies do to each other.
+  std::vector<PersonStream> persons;     ///< Of some of the avatars, each at most once.
 };
 
 /// The channels that a service reads.
@@ -79,8 +83,8 @@ struct ServiceParts {
 class Service {
  public:
   /// Starts the service. Errors: no avatar, two with one id, one that is solid by itself and in the
-  /// world, options out of range, a suffix that makes a channel's name too long, or the system
-  /// refuses the threads.
+  /// world, a person of no avatar, options out of range, a suffix that makes a channel's name too
+  /// long, or the system refuses the threads.
   static Result<Service> start(std::vector<StreamSolver> avatars, ServiceParts parts,
                                const ServiceOptions& options);
   Service(Service&&) noexcept;
@@ -98,6 +102,8 @@ class Service {
   [[nodiscard]] AnswerTimes times() const;
   /// Of solid avatars, since the start.
   [[nodiscard]] SolidCounts solidCounts() const;
+  /// Of persons, since the start.
+  [[nodiscard]] PersonCounts personCounts() const;
   /// Of the moving world; nothing if there is none.
   [[nodiscard]] std::optional<WorldReport> world() const;
   [[nodiscard]] const ServiceFacts& facts() const;

@@ -14,9 +14,10 @@ struct ServiceChannels {
         pose(kPoseChannel + suffix),
         contacts(kContactsChannel + suffix),
         solid(kSolidChannel + suffix),
+        person(kPersonChannel + suffix),
         status(kStatusChannel + suffix),
         speaker(kSpeakerChannel + suffix) {}
-  std::string skeleton, pose, contacts, solid, status, speaker;
+  std::string skeleton, pose, contacts, solid, person, status, speaker;
 };
 
 }  // namespace foretouch::internal

@@ -38,6 +38,7 @@ struct ByteView {
 [[nodiscard]] Reject decode(ByteView payload, PoseMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, ContactsMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, SolidMessage& message);
+[[nodiscard]] Reject decode(ByteView payload, PersonMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, StatusMessage& message);
 [[nodiscard]] Reject decode(ByteView payload, SpeakerMessage& message);
 // network/wire/world_messages.h.
@@ -51,6 +52,7 @@ void encode(const SkeletonMessage& message, Bytes& payload);
 void encode(const PoseMessage& message, Bytes& payload);
 void encode(const ContactsMessage& message, Bytes& payload);
 void encode(const SolidMessage& message, Bytes& payload);
+void encode(const PersonMessage& message, Bytes& payload);
 void encode(const StatusMessage& message, Bytes& payload);
 void encode(const SpeakerMessage& message, Bytes& payload);
 void encode(const BodyMessage& message, Bytes& payload);
@@ -58,9 +60,9 @@ void encode(const RigidPoseMessage& message, Bytes& payload);
 void encode(const EventsMessage& message, Bytes& payload);
 void encode(const PushesMessage& message, Bytes& payload);
 
-/// The part of an encoded contacts_t, solid_t, events_t or pushes_t that depends only on poses,
-/// scene and options: all but the two stamps and the time that it took, at its end (24 bytes). A
-/// replay repeats it byte for byte.
+/// The part of an encoded contacts_t, solid_t, person_t, events_t or pushes_t that depends only on
+/// poses, scene and options: all but the two stamps and the time that it took, at its end (24
+/// bytes). A replay repeats it byte for byte.
 [[nodiscard]] ByteView verdictBytes(ByteView payload);
 
 }  // namespace foretouch

@@ -14,6 +14,14 @@ const char* toString(StepKind kind) {
   return "consecutive";
 }
 
+const char* toString(BrokenBound::Claim claim) {
+  switch (claim) {
+    case BrokenBound::Claim::InGap: return "gap";
+    case BrokenBound::Claim::Ahead: return "ahead";
+  }
+  return "gap";
+}
+
 std::int64_t skeletonHash(const RawSkeleton& skeleton) {
   HashedBytes bytes;
   for (const RawJoint& joint : skeleton.joints) {

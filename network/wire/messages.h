@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "articulated/skeleton.h"
+#include "middleware/bracket/bracket.h"
 #include "middleware/query/query.h"
 #include "middleware/solid/solid_tick.h"
 
@@ -73,6 +74,7 @@ inline constexpr char kSkeletonChannel[] = "FORETOUCH_SKELETON";
 inline constexpr char kPoseChannel[] = "FORETOUCH_POSE";
 inline constexpr char kContactsChannel[] = "FORETOUCH_CONTACTS";
 inline constexpr char kSolidChannel[] = "FORETOUCH_SOLID";
+inline constexpr char kPersonChannel[] = "FORETOUCH_PERSON";
 inline constexpr char kStatusChannel[] = "FORETOUCH_STATUS";
 /// Of logs only.
 inline constexpr char kSpeakerChannel[] = "FORETOUCH_SPEAKER";
@@ -194,6 +196,53 @@ struct SolidMessage {
   double solidUs = 0.0;
 
   [[nodiscard]] const Pose& shown() const { return way.back(); }
+};
+
+/// Brackets in a person_t.
+inline constexpr std::size_t kMaxPersonBrackets = 256;
+
+/// What a link, or two of them, perhaps or surely touched in a step.
+struct ToldBracket {
+  LinkBracket bracket;
+  std::string linkName;
+  std::string otherName;  ///< Of the object, or of the own link, that is touched.
+};
+
+/// A claim that a pose shows to be wrong.
+struct BrokenBound {
+  enum class Claim : std::uint8_t {
+    InGap,  ///< LinkBound::speed: two poses are farther apart.
+    Ahead,  ///< LinkBound::aheadSpeed and aheadAcceleration: the next pose is elsewhere.
+  };
+  LinkId link = 0;
+  Claim claim = Claim::InGap;
+  double beyond = 0.0;  ///< By how much (m).
+};
+/// "gap", "ahead".
+[[nodiscard]] const char* toString(BrokenBound::Claim claim);
+
+/// What the person did in a step, within bounds, and what may come. t is 0 at the step's earlier
+/// pose and 1 at its later one.
+struct PersonMessage {
+  std::int32_t avatar = 0;
+  std::int64_t session = 0, sequence = 0;
+  std::int64_t utimeUs = 0;  ///< Capture of the pose that let this be said.
+  MotionModel model = MotionModel::ConstantRate;
+  std::int64_t boundsHash = 0;
+  double resolution = 0.0;
+
+  StepKind kind = StepKind::First;  ///< Of the step; First: none is answered.
+  std::int64_t sequenceFrom = 0, sequenceTo = 0;
+  std::int64_t utimeFromUs = 0, utimeToUs = 0;
+  std::vector<BracketVerdict> verdicts;   ///< Of every link and the scene, in order.
+  std::vector<std::int64_t> notBeforeUs;  ///< As many: no touch until then; -1: not claimed.
+  std::int64_t aheadUs = 0;               ///< How far it looks ahead of utimeUs; 0: not at all.
+  std::vector<ToldBracket> brackets;      ///< What is Possible or Certain.
+  std::int32_t bracketsLeftOut = 0;       ///< Beyond kMaxPersonBrackets.
+  std::vector<BrokenBound> broken;
+
+  std::int64_t receiveUtimeUs = 0, sendUtimeUs = 0;
+  double personUs = 0.0;
 };
 
 struct StatusMessage {

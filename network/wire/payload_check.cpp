@@ -4,6 +4,7 @@
 #include <foretouch/body_t.hpp>
 #include <foretouch/contacts_t.hpp>
 #include <foretouch/events_t.hpp>
+#include <foretouch/person_t.hpp>
 #include <foretouch/pose_t.hpp>
 #include <foretouch/pushes_t.hpp>
 #include <foretouch/rigid_pose_t.hpp>
@@ -181,6 +182,24 @@ constexpr Field kPushesFields[] = {
     list(kInt64 + kByte + kDouble),         // crushed_since, over, depth
     fixed(kInt32 + 2 * kInt64 + kDouble)};  // crushes_left_out, receive_utime, send_utime, tick_us
 
+constexpr Field kPersonFields[] = {
+    fixed(kInt32 + 3 * kInt64),       // avatar, session, sequence, utime
+    fixed(kInt8 + kInt64 + kDouble),  // between, bounds_hash, resolution
+    fixed(kInt8 + 4 * kInt64),        // kind, the step
+    count(),
+    list(kByte + kInt64),  // verdicts, not_before
+    fixed(kInt64),         // ahead_us
+    count(),
+    list(kInt32),                        // links
+    texts(kMaxNameBytes),                // link_names
+    list(kInt32),                        // triangles
+    texts(kMaxTextBytes),                // objects
+    list(kInt32 + kByte + 5 * kDouble),  // others, claims, instants, growth
+    fixed(kInt32),                       // brackets_left_out
+    count(),
+    list(kInt32 + kByte + kDouble),  // broken_links, broken_claims, beyond
+    fixed(2 * kInt64 + kDouble)};    // receive_utime, send_utime, person_us
+
 Reject checkText(Cursor& cursor, std::size_t limit) {
   std::int32_t length = 0;  // with its NUL
   if (!cursor.read(length) || length < 1) return Reject::Length;
@@ -251,6 +270,7 @@ std::int64_t fingerprintOf(PayloadType type) {
     case PayloadType::RigidPose: return rigid_pose_t::getHash();
     case PayloadType::Events: return events_t::getHash();
     case PayloadType::Pushes: return pushes_t::getHash();
+    case PayloadType::Person: return person_t::getHash();
   }
   return 0;
 }
@@ -277,6 +297,7 @@ Reject checkPayload(PayloadType type, ByteView payload) {
     case PayloadType::RigidPose: return checkFields(kRigidPoseFields, cursor);
     case PayloadType::Events: return checkFields(kEventsFields, cursor);
     case PayloadType::Pushes: return checkFields(kPushesFields, cursor);
+    case PayloadType::Person: return checkFields(kPersonFields, cursor);
   }
   return Reject::Length;
 }

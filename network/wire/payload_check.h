@@ -20,7 +20,8 @@ enum class PayloadType : std::uint8_t {
   Body,
   RigidPose,
   Events,
-  Pushes
+  Pushes,
+  Person
 };
 
 /// Longest list in a message: joints, links, contacts, words of a status.

@@ -57,6 +57,29 @@ void checkContent(const ContactsMessage& message) {
           "every link that is not clear is listed");
 }
 
+void checkContent(const PersonMessage& message) {
+  const std::size_t links = message.verdicts.size();
+  require(message.notBeforeUs.size() == links, "every link has its instant");
+  require(message.brackets.size() <= kMaxPersonBrackets, "brackets are bounded");
+  for (const ToldBracket& told : message.brackets) {
+    const LinkBracket& bracket = told.bracket;
+    require(static_cast<std::size_t>(bracket.link) < links, "a bracket's link exists");
+    require(bracket.other == kNoParent || static_cast<std::size_t>(bracket.other) < links,
+            "so does the other one");
+    require(
+        bracket.verdict == BracketVerdict::Possible || bracket.verdict == BracketVerdict::Certain,
+        "what is told is possible or certain");
+    for (const double t :
+         {bracket.possibleFrom, bracket.possibleUntil, bracket.certainFrom, bracket.certainUntil}) {
+      require(t >= 0.0 && t <= 1.0, "times are normalised");
+    }
+  }
+  for (const BrokenBound& broken : message.broken) {
+    require(static_cast<std::size_t>(broken.link) < links && broken.beyond >= 0.0,
+            "a broken bound is a link's");
+  }
+}
+
 void checkContent(const SolidMessage& message) {
   const std::size_t joints = message.joints.size();
   require(joints >= 1 && joints <= kMaxSolidJoints && message.linkDeviation.size() == joints,
@@ -209,6 +232,10 @@ bool feedSolidMessage(const std::uint8_t* data, std::size_t size) {
   static SolidMessage message;
   // Rotations that are nearly unit are read as unit ones.
   return feed<SolidMessage>({data, size}, message, [](const SolidMessage&) { return false; });
+}
+
+bool feedPersonMessage(const std::uint8_t* data, std::size_t size) {
+  return feedExact<PersonMessage>(data, size);
 }
 
 bool feedSpeakerMessage(const std::uint8_t* data, std::size_t size) {

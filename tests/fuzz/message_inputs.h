@@ -13,6 +13,7 @@ bool feedSkeletonMessage(const std::uint8_t* data, std::size_t size);
 bool feedPoseMessage(const std::uint8_t* data, std::size_t size);
 bool feedContactsMessage(const std::uint8_t* data, std::size_t size);
 bool feedSolidMessage(const std::uint8_t* data, std::size_t size);
+bool feedPersonMessage(const std::uint8_t* data, std::size_t size);
 bool feedSpeakerMessage(const std::uint8_t* data, std::size_t size);
 bool feedStatusMessage(const std::uint8_t* data, std::size_t size);
 // Of network/wire/world_messages.h.

@@ -19,6 +19,8 @@ TEST(FuzzCorpus, MessagesKeepThePromises) {
   EXPECT_GE(
       replayCorpus("contacts_message", feedContactsMessage, AlsoFeed::LastByteMissing).accepted, 3);
   EXPECT_GE(replayCorpus("solid_message", feedSolidMessage, AlsoFeed::LastByteMissing).accepted, 3);
+  EXPECT_GE(replayCorpus("person_message", feedPersonMessage, AlsoFeed::LastByteMissing).accepted,
+            3);
   EXPECT_GE(replayCorpus("speaker_message", feedSpeakerMessage, AlsoFeed::EveryBeginning).accepted,
             3);
   EXPECT_GE(replayCorpus("status_message", feedStatusMessage, AlsoFeed::LastByteMissing).accepted,

@@ -47,6 +47,8 @@ int main(int argc, char** argv) {
       writeSeeds(
           corpus + "/solid_message",
           [](Random& random, int n) { return randomSolidMessage(random, n, n / 2 + 1, n); }) &&
+      writeSeeds(corpus + "/person_message",
+                 [](Random& random, int n) { return randomPersonMessage(random, n, n); }) &&
       writeSeeds(corpus + "/speaker_message",
                  [](Random& random, int) { return randomSpeakerMessage(random); }) &&
       writeSeeds(corpus + "/status_message", randomStatusMessage) &&

@@ -198,6 +198,50 @@ ContactsMessage randomContactsMessage(Random& random, int numLinks) {
   return message;
 }
 
+PersonMessage randomPersonMessage(Random& random, int numLinks, int numBrackets) {
+  PersonMessage message;
+  message.avatar = random.below(1'000'000) - 500'000;
+  for (std::int64_t* const count :
+       {&message.session, &message.sequence, &message.utimeUs, &message.sequenceFrom,
+        &message.utimeFromUs, &message.receiveUtimeUs, &message.sendUtimeUs}) {
+    *count = integer(random);
+  }
+  message.sequenceTo = std::max(message.sequenceFrom, integer(random));
+  message.utimeToUs = std::max(message.utimeFromUs, integer(random));
+  message.model = static_cast<MotionModel>(random.below(3));
+  message.kind = static_cast<StepKind>(random.below(3));
+  message.boundsHash = anyHash(random);
+  message.resolution = random.magnitude(1e-9, 1.0);
+  message.personUs = random.magnitude(1e-3, 1e9);
+  message.aheadUs = random.chance(0.5) ? 0 : integer(random);
+  for (int i = 0; i < numLinks; ++i) {
+    message.verdicts.push_back(static_cast<BracketVerdict>(random.below(4)));
+    message.notBeforeUs.push_back(random.chance(0.3) ? -1 : integer(random));
+  }
+  for (int i = 0; numLinks > 0 && i < numBrackets; ++i) {
+    ToldBracket& told = message.brackets.emplace_back();
+    LinkBracket& bracket = told.bracket;
+    bracket.link = random.below(numLinks);
+    bracket.verdict = random.chance(0.5) ? BracketVerdict::Possible : BracketVerdict::Certain;
+    if (numLinks > 1 && random.chance(0.3)) bracket.other = (bracket.link + 1) % numLinks;
+    if (bracket.other == kNoParent) bracket.triangle = random.below(99) - 1;
+    for (double* const t : {&bracket.possibleFrom, &bracket.possibleUntil, &bracket.certainFrom,
+                            &bracket.certainUntil}) {
+      *t = random.chance(0.2) ? 1.0 : random.uniform(0.0, 1.0);
+    }
+    bracket.growth = random.magnitude(1e-9, 1.0);
+    told.linkName = name(random, bracket.link);
+    told.otherName = text(random, 30);
+  }
+  message.bracketsLeftOut = random.chance(0.9) ? 0 : random.below(1000);
+  for (int i = 0; i < numLinks && random.chance(0.3); ++i) {
+    message.broken.push_back({random.below(numLinks),
+                              static_cast<BrokenBound::Claim>(random.below(2)),
+                              random.magnitude(1e-6, 10.0)});
+  }
+  return message;
+}
+
 SolidMessage randomSolidMessage(Random& random, int numJoints, int numPoses, int numContacts) {
   SolidMessage message;
   message.avatar = random.below(1'000'000) - 500'000;

@@ -16,6 +16,8 @@ namespace foretouch::test {
 /// Rotations are unit up to rounding: decoding keeps them.
 [[nodiscard]] SolidMessage randomSolidMessage(Random& random, int numJoints, int numPoses,
                                               int numContacts);
+/// Brackets only where there are links.
+[[nodiscard]] PersonMessage randomPersonMessage(Random& random, int numLinks, int numBrackets);
 [[nodiscard]] StatusMessage randomStatusMessage(Random& random, int numReasons);
 [[nodiscard]] SpeakerMessage randomSpeakerMessage(Random& random);
 /// `longest`: of the name of its shape, in characters, and at least one.

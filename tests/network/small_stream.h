@@ -73,4 +73,11 @@ inline PoseMessage nthPose(std::int64_t n, std::int64_t session = 1) {
   return poseMessage(smallSkeleton(), n, n * kStepUs, session);
 }
 
+/// The same, with the hips at (x, 1, 0).
+inline PoseMessage hipsAt(double x, std::int64_t n, std::int64_t session = 1) {
+  PoseMessage message = nthPose(n, session);
+  message.translations[0].translation = {x, 1.0, 0.0};
+  return message;
+}
+
 }  // namespace foretouch::test

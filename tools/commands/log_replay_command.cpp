@@ -28,6 +28,7 @@ struct AskedLogReplay {
   StreamPolicy stream;
   WorldPolicy world;
   StreamSolidRequest solid;
+  PersonRequest person;
   bool asJson = false;
 };
 
@@ -90,6 +91,10 @@ std::string jsonOf(const LogReplayReport& report, const ReplayedWorld& world) {
   out.field("messages", world.answers());
   out.field("messages_recorded", world.journal().recorded());
   out.field("messages_equal", world.journal().equal());
+  if (report.said > 0) {
+    out.field("persons", report.said);
+    out.field("persons_equal", report.persons.equal());
+  }
   if (world.shown() > 0) {
     out.field("shown", world.shown());
     out.field("shown_equal", world.solids().equal());
@@ -109,7 +114,8 @@ ExitCode run(AskedLogReplay& asked) {
   FORETOUCH_TRY_OR(failed, auto loaded,
                    loadWorldToServe(asked.worldPath, asked.world, asked.solid, asked.query));
   const LogReplayRequest request{asked.logPath, asked.query,  std::move(loaded.avatars),
-                                 asked.stream,  asked.suffix, asked.solid};
+                                 asked.stream,  asked.suffix, asked.solid,
+                                 asked.person};
   FORETOUCH_TRY_OR(failed, const auto inputs, loadLogReplayInputs(request));
   ReplayedWorld world(std::move(loaded.solver));
   const InterruptGuard guard;
@@ -150,6 +156,7 @@ Command logReplayCommand() {
   addWorldStreamSettings(settings, asked->world);
   addStreamSolidSettings(settings, asked->solid);
   addWorldSolidSetting(settings, asked->solid);
+  addPersonSettings(settings, asked->person);
   settings.asJson(asked->asJson);
   Command command{
       "replay", "Answer what a service with a moving world recorded, and compare byte for byte",

@@ -92,27 +92,6 @@ void addGoneSettings(Settings& settings) {
   settings.gone("--rays", "is gone: foretouch-bench latency times rays beside steps");
 }
 
-/// The person, not the model.
-void addPersonSettings(Settings& settings, PersonRequest& person) {
-  settings
-      .path("--bounds", "FILE", person.boundsPath,
-            "Also what the person surely touched, perhaps, or not at all, within these bounds on "
-            "how far they are from the motion between two poses (foretouch bounds)")
-      .files("json")
-      .in(kTouchGroup)
-      .ofClips();
-  settings
-      .word<MotionModel>("--between", "WORD", person.model,
-                         {{"constant-rate", MotionModel::ConstantRate},
-                          {"cubic", MotionModel::Cubic},
-                          {"cubic-late", MotionModel::CubicLate}},
-                         "The motion between two poses that the bounds are about; cubic-late needs "
-                         "the pose after them")
-      .needing("--bounds")
-      .in(kTouchGroup)
-      .ofClips();
-}
-
 /// Settings of clips only.
 void addClipOnlySettings(Settings& settings, AskedReplay& asked) {
   addRateSetting(settings, asked.job.request).ofClips();
@@ -158,6 +137,7 @@ Settings replaySettings(AskedReplay& asked) {
   addReplayQuerySettings(settings, asked.job.request);
   addTouchSettings(settings, asked.job.request);
   addPersonSettings(settings, asked.job.person);
+  tellOfLogs(settings.of("--ahead").ofLogs());
   addSolidReplaySettings(settings, asked.solid);
   addOutputSettings(settings, asked);
   addGoneSettings(settings);
@@ -253,10 +233,10 @@ ExitCode runClip(const AskedReplay& asked) {
 ExitCode runLog(const AskedReplay& asked) {
   FORETOUCH_TRY_OR(failed, auto avatars, parseNumberedAvatars("--avatar", asked.avatars));
   const ReplayRequest& given = asked.job.request;
-  const LogReplayJob job{
-      {given.motionPath, given, std::move(avatars), asked.stream, asked.suffix, asked.solid},
-      asked.job.outputPath,
-      asked.job.report};
+  const LogReplayJob job{{given.motionPath, given, std::move(avatars), asked.stream, asked.suffix,
+                          asked.solid, asked.job.person},
+                         asked.job.outputPath,
+                         asked.job.report};
   const bool outIsTaken = isStandardOutput(job.outputPath) || isStandardOutput(job.report.path);
   const auto replayed = runLogReplay(job, [&](const std::string& text) {
     outIsTaken ? printAside(text) : printOut(text + placesOf(job.outputPath, job.report.path));

@@ -15,6 +15,7 @@
 #include "tools/report/report_file.h"
 #include "tools/results_output.h"
 #include "tools/stream/contacts_line.h"
+#include "tools/stream/person_text.h"
 #include "tools/stream/solid_text.h"
 
 namespace foretouch::tools {
@@ -25,6 +26,7 @@ Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
   inputPaths.push_back(job.request.world.policyPath);
   for (const NumberedAvatar& avatar : job.request.avatars) inputPaths.push_back(avatar.path);
   inputPaths.push_back(job.request.world.skinPath);
+  inputPaths.push_back(job.request.person.boundsPath);
   FORETOUCH_CHECK(checkOutputs(job.outputPath, job.report.path, inputPaths));
   FORETOUCH_TRY(const auto inputs, loadLogReplayInputs(job.request));
 
@@ -39,6 +41,9 @@ Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
   auto replayed = replayLog(inputs, [&](const AnsweredPose& answered) {
     file.write(contactsLine(answered.answer, Stamps::Without));
     if (answered.solid != nullptr) file.write(solidLine(*answered.solid, Stamps::Without));
+    for (std::size_t i = 0; answered.person != nullptr && i < answered.person->numSaid(); ++i) {
+      file.write(personStepLine(answered.person->said(i), Stamps::Without));
+    }
     summary.add(answered.answer, answered.avatar);
     touches.add(answered);
     if (report) report->add(answered);

@@ -103,7 +103,7 @@ Result<std::optional<MetricsServer>> openHttp(const ServeConfig& config, const S
   pages.metrics = [&service] {
     const auto world = service.world();
     return metricsText(service.facts(), service.counts(), service.times(), service.solidCounts(),
-                       world ? &*world : nullptr);
+                       world ? &*world : nullptr, service.personCounts());
   };
   pages.health = [&service] { return service.health(); };
   FORETOUCH_TRY(
@@ -123,6 +123,10 @@ std::string describe(const ServeConfig& config, const ServedWorld& world) {
                       toString(config.world.query.fidelity), config.world.query.tolerance,
                       config.service.workers, config.service.workers == 1 ? "" : "s", config.url);
   if (!config.world.policies.empty()) text += ", some links by policy";
+  if (config.person.isAsked()) {
+    text += fmt::format(", persons within {} ({})", config.person.boundsPath,
+                        toString(config.person.model));
+  }
   if (!config.service.suffix.empty()) text += ", suffix " + config.service.suffix;
   if (!config.worldPath.empty()) text += ", a moving world " + config.worldPath;
   if (!config.log.empty()) text += ", log " + config.log;
@@ -270,6 +274,7 @@ Result<Done> serve(const ServeConfig& given) {
   for (const std::string& remark : world.remarks) printNote(remark);
   ServiceParts parts;
   parts.world = std::move(world.world);
+  parts.persons = std::move(world.persons);
   FORETOUCH_CHECK(openWire(config, parts));
   FORETOUCH_CHECK(openLog(config, parts));
 

@@ -69,8 +69,8 @@ Result<std::vector<PolicyRule>> parsePolicyFile(std::string_view text, const std
   TomlReading reading{file, std::nullopt};
   TomlSection root(reading, parsed, "the file");
   // A project file may hold the policies; takeFromProject() checks its other tables.
-  root.allowOnly(
-      {"policy", "scene", "clip", "avatar", "query", "service", "stream", "solid", "made"});
+  root.allowOnly({"policy", "scene", "clip", "avatar", "query", "service", "stream", "solid",
+                  "person", "made"});
   std::vector<PolicyRule> rules;
   readPolicies(root, reading, rules);
   if (rules.empty()) reading.fail(ErrorCode::Empty, -1, "expected at least one [[policy]]");

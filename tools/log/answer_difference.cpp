@@ -93,6 +93,53 @@ Fields optionsOf(const SolidMessage& message) {
           {"number of joints", std::to_string(message.joints.size())}};
 }
 
+Fields optionsOf(const PersonMessage& message) {
+  return {{"motion between poses", toString(message.model)},
+          {"hash of the bounds", std::to_string(message.boundsHash)},
+          {"resolution", numberText(message.resolution)},
+          {"number of links", std::to_string(message.verdicts.size())}};
+}
+
+void addBracket(std::size_t place, const ToldBracket& told, Fields& fields) {
+  const LinkBracket& bracket = told.bracket;
+  const std::string of = fmt::format(" of bracket {}", place);
+  fields.push_back({"link" + of, inQuotes(told.linkName)});
+  fields.push_back({"other side" + of, inQuotes(told.otherName)});
+  fields.push_back({"triangle" + of, std::to_string(bracket.triangle)});
+  fields.push_back({"verdict" + of, toString(bracket.verdict)});
+  fields.push_back({"begin" + of, numberText(bracket.possibleFrom)});
+  fields.push_back({"end" + of, numberText(bracket.possibleUntil)});
+  fields.push_back({"certain begin" + of, numberText(bracket.certainFrom)});
+  fields.push_back({"certain end" + of, numberText(bracket.certainUntil)});
+  fields.push_back({"growth" + of, numberText(bracket.growth)});
+}
+
+/// All fields that are not options.
+Fields answerOf(const PersonMessage& message) {
+  Fields fields{{"kind", toString(message.kind)},
+                {"sequence that it begins with", std::to_string(message.sequenceFrom)},
+                {"sequence that it ends with", std::to_string(message.sequenceTo)},
+                {"utime that it begins with", std::to_string(message.utimeFromUs)},
+                {"utime that it ends with", std::to_string(message.utimeToUs)},
+                {"horizon", std::to_string(message.aheadUs)}};
+  for (std::size_t i = 0; i < message.verdicts.size(); ++i) {
+    const std::string of = fmt::format(" of link {}", i);
+    fields.push_back({"verdict" + of, toString(message.verdicts[i])});
+    fields.push_back(
+        {"instant until which nothing is touched" + of, std::to_string(message.notBeforeUs[i])});
+  }
+  fields.push_back({"number of brackets", std::to_string(message.brackets.size())});
+  for (std::size_t i = 0; i < message.brackets.size(); ++i) {
+    addBracket(i, message.brackets[i], fields);
+  }
+  fields.push_back({"number of broken bounds", std::to_string(message.broken.size())});
+  for (const BrokenBound& broken : message.broken) {
+    fields.push_back({fmt::format("broken bound of link {}", broken.link),
+                      fmt::format("{}, {}", toString(broken.claim), numberText(broken.beyond))});
+  }
+  return fields;
+}
+
 void addPose(std::size_t place, double time, const Pose& pose, Fields& fields) {
   fields.push_back({fmt::format("time of pose {} on the way", place), numberText(time)});
   for (std::size_t joint = 0; joint < pose.rotations.size(); ++joint) {
@@ -249,6 +296,14 @@ std::string firstDifference(const PushesMessage& recorded, const PushesMessage& 
 }
 
 std::string firstDifference(const SolidMessage& recorded, const SolidMessage& replayed) {
+  const std::string options = differenceIn(optionsOf(recorded), optionsOf(replayed));
+  if (!options.empty()) return options;
+  const std::string difference = differenceIn(answerOf(recorded), answerOf(replayed));
+  return fmt::format("{}, at {} us", difference.empty() ? "their bytes alone differ" : difference,
+                     replayed.utimeUs);
+}
+
+std::string firstDifference(const PersonMessage& recorded, const PersonMessage& replayed) {
   const std::string options = differenceIn(optionsOf(recorded), optionsOf(replayed));
   if (!options.empty()) return options;
   const std::string difference = differenceIn(answerOf(recorded), answerOf(replayed));

@@ -17,6 +17,9 @@ namespace foretouch::tools {
 [[nodiscard]] std::string firstDifference(const SolidMessage& recorded,
                                           const SolidMessage& replayed);
 
+/// The same of what is known of a person.
+[[nodiscard]] std::string firstDifference(const PersonMessage& recorded,
+                                          const PersonMessage& replayed);
 /// The same of what moves and presses against a solid body.
 [[nodiscard]] std::string firstDifference(const PushesMessage& recorded,
                                           const PushesMessage& replayed);

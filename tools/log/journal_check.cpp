@@ -30,6 +30,9 @@ Sayings sayingsOf(AnswerKind kind) {
     case AnswerKind::Solid:
       return {" is shown differently: ", "is shown in the log, and not here",
               "is shown here, and not in the log"};
+    case AnswerKind::Person:
+      return {" is known differently: ", "is known in the log, and not here",
+              "is known here, and not in the log"};
     case AnswerKind::Pushes:
       return {" is pressed differently: ", "is pressed in the log, and not here",
               "is pressed here, and not in the log"};
@@ -44,6 +47,10 @@ AnswerKey keyOf(const ContactsMessage& message) {
 }
 
 AnswerKey keyOf(const SolidMessage& message) {
+  return {message.avatar, message.session, message.sequence};
+}
+
+AnswerKey keyOf(const PersonMessage& message) {
   return {message.avatar, message.session, message.sequence};
 }
 
@@ -73,11 +80,19 @@ void JournalCheck::addRecorded(const SolidMessage& message, ByteView payload) {
   addRecorded(keyOf(message), payload);
 }
 
+void JournalCheck::addRecorded(const PersonMessage& message, ByteView payload) {
+  addRecorded(keyOf(message), payload);
+}
+
 void JournalCheck::addReplayed(const ContactsMessage& message, ByteView payload) {
   addReplayed(keyOf(message), payload);
 }
 
 void JournalCheck::addReplayed(const SolidMessage& message, ByteView payload) {
+  addReplayed(keyOf(message), payload);
+}
+
+void JournalCheck::addReplayed(const PersonMessage& message, ByteView payload) {
   addReplayed(keyOf(message), payload);
 }
 
@@ -157,6 +172,7 @@ std::string JournalCheck::differenceOf(ByteView recorded, ByteView replayed) con
   switch (kind_) {
     case AnswerKind::Contacts: return differenceOfAnswers<ContactsMessage>(recorded, replayed);
     case AnswerKind::Solid: return differenceOfAnswers<SolidMessage>(recorded, replayed);
+    case AnswerKind::Person: return differenceOfAnswers<PersonMessage>(recorded, replayed);
     case AnswerKind::Pushes: return differenceOfAnswers<PushesMessage>(recorded, replayed);
     case AnswerKind::Events: break;
   }

@@ -16,7 +16,7 @@
 namespace foretouch::tools {
 
 /// What is compared.
-enum class AnswerKind : std::uint8_t { Contacts, Solid, Events, Pushes };
+enum class AnswerKind : std::uint8_t { Contacts, Solid, Person, Events, Pushes };
 
 /// Compares verdictBytes() by avatar, session and sequence, of events by timeline and sequence;
 /// several answers to one sequence (a sender without sessions) in their order. Keeps answers
@@ -28,11 +28,13 @@ class JournalCheck {
   /// Adds an answer from the log. `message` is the decoded `payload`.
   void addRecorded(const ContactsMessage& message, ByteView payload);
   void addRecorded(const SolidMessage& message, ByteView payload);
+  void addRecorded(const PersonMessage& message, ByteView payload);
   void addRecorded(const EventsMessage& message, ByteView payload);
   void addRecorded(const PushesMessage& message, ByteView payload);
   /// Adds an answer of the replay.
   void addReplayed(const ContactsMessage& message, ByteView payload);
   void addReplayed(const SolidMessage& message, ByteView payload);
+  void addReplayed(const PersonMessage& message, ByteView payload);
   void addReplayed(const EventsMessage& message, ByteView payload);
   void addReplayed(const PushesMessage& message, ByteView payload);
 

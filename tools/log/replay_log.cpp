@@ -13,6 +13,7 @@
 #include "tools/replay/results_writer.h"
 #include "tools/settings/stream_settings.h"
 #include "tools/settings/world_settings.h"
+#include "tools/stream/stream_person.h"
 #include "tools/stream/stream_solid.h"
 
 namespace foretouch::tools {
@@ -41,20 +42,22 @@ Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
 
 /// Which answers a log has at all. Only then do those of the replay wait for theirs.
 struct HeldAnswers {
-  bool contacts = false, solids = false, events = false;
+  bool contacts = false, solids = false, persons = false, events = false;
 };
 
 /// Reads no further than it must.
 Result<HeldAnswers> answersIn(const std::string& path, const ChannelNames& channels,
-                              bool wantsSolids, bool wantsEvents) {
+                              const HeldAnswers& wanted) {
   FORETOUCH_TRY(auto log, EventLogReader::open(path));
   LogEvent event;
   HeldAnswers held;
-  while (!held.contacts || (wantsSolids && !held.solids) || (wantsEvents && !held.events)) {
+  while (!held.contacts || (wanted.solids && !held.solids) || (wanted.persons && !held.persons) ||
+         (wanted.events && !held.events)) {
     FORETOUCH_TRY(const auto more, log.next(event));
     if (!more) break;
     held.contacts = held.contacts || event.channel == channels.contacts;
     held.solids = held.solids || event.channel == channels.solid;
+    held.persons = held.persons || event.channel == channels.person;
     held.events = held.events || event.channel == channels.events;
   }
   return held;
@@ -76,12 +79,27 @@ void writeSolidFields(const StreamSolidRequest& request, JsonWriter& out) {
   out.endObject();
 }
 
+/// What decides what is known of persons; nothing if it is not asked.
+void writePersonFields(const PersonRequest& request, JsonWriter& out) {
+  if (!request.isAsked()) return;
+  out.key("person");
+  out.beginObject();
+  writeFileName("bounds", request.boundsPath, out);
+  out.field("between", toString(request.model));
+  out.field("ahead_us", request.aheadUs);
+  out.endObject();
+}
+
 /// One replay: the events of a log, one by one.
 class LogReplay {
  public:
-  LogReplay(const LogReplayInputs& inputs, std::vector<StreamSolver> solvers, HeldAnswers compares,
-            ReplayedWorld* world)
-      : inputs_(inputs), solvers_(std::move(solvers)), compares_(compares), world_(world) {
+  LogReplay(const LogReplayInputs& inputs, std::vector<StreamSolver> solvers,
+            std::vector<PersonStream> persons, HeldAnswers compares, ReplayedWorld* world)
+      : inputs_(inputs),
+        solvers_(std::move(solvers)),
+        persons_(std::move(persons)),
+        compares_(compares),
+        world_(world) {
     if (world_ != nullptr) world_->compare(compares.events);
     for (std::size_t i = 0; i < solvers_.size(); ++i) indexOf_[solvers_[i].id()] = i;
   }
@@ -95,6 +113,7 @@ class LogReplay {
         (world_ == nullptr || !world_->takeShown(event))) {
       takeRecordedSolid(event);
     }
+    if (event.channel == inputs_.channels.person) takeRecordedPerson(event);
     if (event.channel == inputs_.channels.speaker) takeSpeaker(event);
     if (world_ != nullptr) {
       world_->take(event, inputs_.channels);
@@ -107,6 +126,10 @@ class LogReplay {
   /// What is shown at the same pose; null: the avatar is not solid.
   [[nodiscard]] const SolidMessage* shown(std::size_t avatar) const {
     return solvers_[avatar].solid() == nullptr ? nullptr : &shown_;
+  }
+  /// What is known of the person; null: it is not asked.
+  [[nodiscard]] const PersonStream* person(std::size_t avatar) const {
+    return persons_.empty() ? nullptr : &persons_[avatar];
   }
   [[nodiscard]] const StreamSolver& solver(std::size_t avatar) const { return solvers_[avatar]; }
 
@@ -131,6 +154,7 @@ class LogReplay {
   void closeAtEnd() {
     report_.journal.endIsOpen();
     report_.solids.endIsOpen();
+    report_.persons.endIsOpen();
     if (world_ != nullptr) world_->endIsOpen();
   }
 
@@ -164,7 +188,19 @@ class LogReplay {
     }
     if (world_ != nullptr) world_->take(pose_.avatar, solver->lastStep(), event.utimeUs);
     if (solver->solid() != nullptr) show(*solver);
-    return indexOf_.at(pose_.avatar);
+    const std::size_t index = indexOf_.at(pose_.avatar);
+    if (!persons_.empty()) sayPerson(persons_[index], solver->lastStep());
+    return index;
+  }
+
+  void sayPerson(PersonStream& person, const StreamStep& step) {
+    person.follow(step);
+    for (std::size_t i = 0; i < person.numSaid(); ++i) {
+      ++report_.said;
+      if (!compares_.persons) continue;
+      encode(person.said(i), payload_);
+      report_.persons.addReplayed(person.said(i), payload_);
+    }
   }
 
   void show(StreamSolver& solver) {
@@ -214,8 +250,19 @@ class LogReplay {
     }
   }
 
+  void takeRecordedPerson(const LogEvent& event) {
+    if (!inputs_.request.person.isAsked()) {
+      ++report_.personsNotAsked;
+    } else if (decode(event.payload, recordedPerson_) != Reject::None) {
+      ++report_.unreadableAnswers;
+    } else if (solverOf(recordedPerson_.avatar) != nullptr) {
+      report_.persons.addRecorded(recordedPerson_, event.payload);
+    }
+  }
+
   const LogReplayInputs& inputs_;
   std::vector<StreamSolver> solvers_;
+  std::vector<PersonStream> persons_;
   HeldAnswers compares_;
   ReplayedWorld* world_;
   std::map<std::int32_t, std::size_t> indexOf_;
@@ -224,6 +271,7 @@ class LogReplay {
   PoseMessage pose_;
   ContactsMessage answer_, recorded_;
   SolidMessage shown_, recordedSolid_;
+  PersonMessage recordedPerson_;
   Bytes payload_;
 };
 
@@ -249,11 +297,13 @@ Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSin
                                   ReplayedWorld* world) {
   const std::string& path = inputs.request.logPath;
   FORETOUCH_TRY(auto solvers, solversFor(inputs));
-  FORETOUCH_TRY(
-      const auto compares,
-      answersIn(path, inputs.channels, inputs.request.solid.solid.isAsked, world != nullptr));
+  FORETOUCH_TRY(auto persons, makePersons(inputs.request.person, solvers, inputs.scene));
+  FORETOUCH_TRY(const auto compares,
+                answersIn(path, inputs.channels,
+                          {true, inputs.request.solid.solid.isAsked,
+                           inputs.request.person.isAsked(), world != nullptr}));
   FORETOUCH_TRY(auto log, EventLogReader::open(path));
-  LogReplay replay(inputs, std::move(solvers), compares, world);
+  LogReplay replay(inputs, std::move(solvers), std::move(persons), compares, world);
   LogEvent event;
   for (;;) {
     FORETOUCH_TRY(const auto more, log.next(event));
@@ -261,8 +311,8 @@ Result<LogReplayReport> replayLog(const LogReplayInputs& inputs, const AnswerSin
     const auto avatar = replay.take(event);
     if (!avatar) continue;
     const StreamSolver& solver = replay.solver(*avatar);
-    if (!sink({replay.answer(), replay.shown(*avatar), *avatar, solver.lastStep(), solver.options(),
-               log.position(), log.size()})) {
+    if (!sink({replay.answer(), replay.shown(*avatar), replay.person(*avatar), *avatar,
+               solver.lastStep(), solver.options(), log.position(), log.size()})) {
       break;
     }
   }
@@ -293,6 +343,7 @@ std::string logHeaderLine(const LogReplayInputs& inputs) {
       {"max_step", "confirmations", "unmatched_at_rest", "ground", "ground_angle", "ground_height"},
       out);
   writeSolidFields(request.solid, out);
+  writePersonFields(request.person, out);
   out.key("avatars");
   out.beginArray();
   for (std::size_t i = 0; i < inputs.avatars.size(); ++i) {

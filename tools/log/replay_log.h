@@ -13,6 +13,7 @@
 #include "articulated/result.h"
 #include "network/log/event_log.h"
 #include "network/stream/avatar_stream.h"
+#include "network/stream/person_stream.h"
 #include "network/stream/stream_solver.h"
 #include "network/wire/messages.h"
 #include "tools/inputs/replay_inputs.h"
@@ -20,6 +21,7 @@
 #include "tools/log/replayed_world.h"
 #include "tools/settings/channel_names.h"
 #include "tools/settings/numbered_avatars.h"
+#include "tools/settings/person_settings.h"
 #include "tools/settings/stream_settings.h"
 
 namespace foretouch::tools {
@@ -31,6 +33,7 @@ struct LogReplayRequest {
   StreamPolicy policy;
   std::string suffix;
   StreamSolidRequest solid;
+  PersonRequest person{};
 };
 
 struct LogReplayInputs {
@@ -57,14 +60,17 @@ struct LogReplayReport {
   JournalCheck journal;
   JournalCheck solids{AnswerKind::Solid};  ///< Of the shown poses, if solid avatars are asked for.
   std::int64_t solidsNotAsked = 0;         ///< Shown poses in the log otherwise.
-  std::int64_t eventsNotAsked = 0;         ///< Of a moving world, in the log; without one.
+  std::int64_t said = 0;                   ///< Messages about persons.
+  JournalCheck persons{AnswerKind::Person};  ///< Of these, if they are asked for.
+  std::int64_t personsNotAsked = 0;          ///< In the log otherwise.
+  std::int64_t eventsNotAsked = 0;           ///< Of a moving world, in the log; without one.
 
   /// Nothing at all was answered: that says nothing of what the avatars touch.
   [[nodiscard]] bool isEmpty() const { return answers == 0; }
   /// The replay contradicts nothing in the log.
   [[nodiscard]] bool agrees() const {
     return unreadableAnswers == 0 && (!journal.hasRecord() || journal.isEqual()) &&
-           (!solids.hasRecord() || solids.isEqual());
+           (!solids.hasRecord() || solids.isEqual()) && (!persons.hasRecord() || persons.isEqual());
   }
 };
 
@@ -72,6 +78,7 @@ struct LogReplayReport {
 struct AnsweredPose {
   const ContactsMessage& answer;
   const SolidMessage* solid;              ///< What is shown; null: the avatar is not solid.
+  const PersonStream* person;             ///< What it says now; null: is not asked.
   std::size_t avatar;                     ///< Its index in the request.
   const StreamStep& step;                 ///< The step that the pose ended.
   const QueryOptions& query;              ///< The options of the query.

@@ -93,12 +93,17 @@ std::string LogReplaySummary::comparison(const LogReplayReport& report) {
     text += fmt::format("the log also has {} shown poses: --solid compares them\n",
                         report.solidsNotAsked);
   }
+  text += compared(report.persons, "messages about the person", report.said);
+  if (report.personsNotAsked > 0) {
+    text += fmt::format("the log also has {} messages about the person: --bounds compares them\n",
+                        report.personsNotAsked);
+  }
   if (report.eventsNotAsked > 0) {
     text += fmt::format(
         "the log also has {} messages of a moving world: foretouch log replay compares them\n",
         report.eventsNotAsked);
   }
-  for (const JournalCheck* journal : {&report.journal, &report.solids}) {
+  for (const JournalCheck* journal : {&report.journal, &report.solids, &report.persons}) {
     const auto difference =
         journal->hasRecord() ? journal->firstDifference() : std::optional<std::string>();
     if (difference) text += "first: " + *difference + "\n";

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "lss/index.h"
+#include "middleware/bracket/axis_places.h"
 #include "tools/percentile.h"
-#include "tools/person/axis_places.h"
 
 namespace foretouch::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include "articulated/try.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
-#include "tools/person/axis_places.h"
+#include "middleware/bracket/axis_places.h"
 
 namespace foretouch::tools {
 namespace {
@@ -114,14 +114,6 @@ double rateOf(const ReplayInputs& inputs) {
   return 1.0 / (inputs.timeOfStep(1) - inputs.timeOfStep(0));
 }
 
-Result<BracketQuery> queryOf(const ReplayInputs& inputs) {
-  BracketOptions options;
-  if (inputs.query.fidelity == Fidelity::Exact) options.surface = inputs.query.surface;
-  options.self = inputs.query.self;
-  options.ignored = inputs.query.ignored;
-  return BracketQuery::build(inputs.avatar, inputs.scene, options);
-}
-
 std::string lineOf(const ReplayInputs& inputs, const PersonTouch& touch) {
   const Skeleton& skeleton = inputs.avatar.skeleton();
   PersonNames names;
@@ -186,7 +178,8 @@ Result<LinkBounds> personBounds(const ReplayInputs& inputs, const PersonRequest&
 
 Result<PersonAnswer> personTouches(const ReplayInputs& inputs, const PersonRequest& request,
                                    const LinkBounds& bounds) {
-  FORETOUCH_TRY(const BracketQuery query, queryOf(inputs));
+  FORETOUCH_TRY(const auto query,
+                BracketQuery::build(inputs.avatar, inputs.scene, bracketOptionsOf(inputs.query)));
   PersonTracker tracker(inputs, bounds.bounds);
   PosesAround poses(inputs, request.model);
   Scratch scratch;

@@ -14,14 +14,9 @@
 #include "middleware/bracket/bracket_query.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/person/bracket_joiner.h"
+#include "tools/settings/person_settings.h"
 
 namespace foretouch::tools {
-
-struct PersonRequest {
-  std::string boundsPath;  ///< Empty: not asked.
-  MotionModel model = MotionModel::ConstantRate;
-  [[nodiscard]] bool isAsked() const { return !boundsPath.empty(); }
-};
 
 struct PersonCounts {
   std::int64_t intervals = 0;  ///< Links that have LSS, times steps.

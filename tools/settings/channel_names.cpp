@@ -11,11 +11,11 @@
 namespace foretouch::tools {
 
 Result<ChannelNames> channelNames(const std::string& suffix) {
-  const ChannelNames names{kSkeletonChannel + suffix, kPoseChannel + suffix,
-                           kContactsChannel + suffix, kSolidChannel + suffix,
-                           kStatusChannel + suffix,   kSpeakerChannel + suffix,
-                           kBodyChannel + suffix,     kRigidPoseChannel + suffix,
-                           kEventsChannel + suffix,   kPushesChannel + suffix};
+  const ChannelNames names{
+      kSkeletonChannel + suffix, kPoseChannel + suffix,   kContactsChannel + suffix,
+      kSolidChannel + suffix,    kPersonChannel + suffix, kStatusChannel + suffix,
+      kSpeakerChannel + suffix,  kBodyChannel + suffix,   kRigidPoseChannel + suffix,
+      kEventsChannel + suffix,   kPushesChannel + suffix};
   const bool isPrintable =
       std::all_of(suffix.begin(), suffix.end(), [](char c) { return c > ' ' && c <= '~'; });
   const std::size_t longest =

@@ -9,7 +9,7 @@ namespace foretouch::tools {
 
 /// The channels of network/wire/messages.h, each with the suffix.
 struct ChannelNames {
-  std::string skeleton, pose, contacts, solid, status, speaker;
+  std::string skeleton, pose, contacts, solid, person, status, speaker;
   std::string body, rigidPose, events, pushes;  ///< Of network/wire/world_messages.h.
 };
 

@@ -64,7 +64,7 @@ std::string configTable() {
   ServeConfig config;
   Settings settings;
   addServeSettings(settings, config);
-  return configRows(settings, {"service", "scene", "query", "stream", "solid"},
+  return configRows(settings, {"service", "scene", "query", "stream", "solid", "person"},
                     [](const Setting&) { return true; });
 }
 

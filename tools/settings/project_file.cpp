@@ -81,13 +81,13 @@ class ProjectReading {
 
 /// Everything but [[avatar]] and [[policy]], whose readers check them.
 void ProjectReading::checkAll() {
-  root_.allowOnly(
-      {"scene", "avatar", "clip", "query", "policy", "service", "stream", "solid", "made"});
+  root_.allowOnly({"scene", "avatar", "clip", "query", "policy", "service", "stream", "solid",
+                   "person", "made"});
   AllSettings all;
   for (const char* const table : {"scene", "clip", "query"}) {
     readWholeTable(root_, table, reading_, all.played);
   }
-  for (const char* const table : {"service", "stream", "solid"}) {
+  for (const char* const table : {"service", "stream", "solid", "person"}) {
     readWholeTable(root_, table, reading_, all.served);
   }
   root_.table("made").allowOnly({"scene", "avatar", "clip"});
@@ -197,7 +197,8 @@ void ProjectReading::takePolicies() {
 
 Result<std::vector<std::string>> ProjectReading::take() {
   checkAll();
-  for (const char* const table : {"scene", "clip", "query", "service", "stream", "solid"}) {
+  for (const char* const table :
+       {"scene", "clip", "query", "service", "stream", "solid", "person"}) {
     takeTable(table);
   }
   for (Setting& setting : settings_) {

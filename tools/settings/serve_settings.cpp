@@ -152,6 +152,7 @@ void addServeSettings(Settings& settings, ServeConfig& config) {
   addWorldStreamSettings(settings, config.worldPolicy);
   addStreamSolidSettings(settings, config.solid);
   addWorldSolidSetting(settings, config.solid);
+  addPersonSettings(settings, config.person);
 }
 
 }  // namespace foretouch::tools

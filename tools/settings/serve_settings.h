@@ -12,6 +12,7 @@
 #include "network/wire/wire.h"
 #include "network/world_stream/world_setup.h"
 #include "tools/settings/numbered_avatars.h"
+#include "tools/settings/person_settings.h"
 #include "tools/settings/stream_settings.h"
 #include "tools/settings/world_settings.h"
 
@@ -43,6 +44,7 @@ struct ServeConfig {
   WorldRequest world;  ///< Fidelity: link or exact.
   StreamPolicy stream;
   StreamSolidRequest solid;
+  PersonRequest person;
   std::string worldPath;  ///< A world file: then scene and avatars are its.
   WorldPolicy worldPolicy;
   std::vector<NumberedAvatar> avatars;  ///< At least one; ids differ.

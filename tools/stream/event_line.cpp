@@ -7,6 +7,7 @@
 #include "assets/json_writer.h"
 #include "network/wire/codec.h"
 #include "tools/stream/contacts_line.h"
+#include "tools/stream/person_text.h"
 #include "tools/stream/pushes_text.h"
 #include "tools/stream/solid_text.h"
 
@@ -76,6 +77,11 @@ void write(const SolidMessage& message, JsonWriter& out) {
   writeSolid(message, Stamps::With, out);
 }
 
+void write(const PersonMessage& message, JsonWriter& out) {
+  out.key("person_step");
+  writePerson(message, Stamps::With, out);
+}
+
 void write(const PushesMessage& message, JsonWriter& out) {
   out.key("pushes");
   writePushes(message, out);
@@ -112,6 +118,7 @@ void writeContent(const LogEvent& event, const ChannelNames& channels, JsonWrite
   if (event.channel == channels.skeleton) return writeMessage<SkeletonMessage>(event, out);
   if (event.channel == channels.contacts) return writeMessage<ContactsMessage>(event, out);
   if (event.channel == channels.solid) return writeMessage<SolidMessage>(event, out);
+  if (event.channel == channels.person) return writeMessage<PersonMessage>(event, out);
   if (event.channel == channels.pushes) return writeMessage<PushesMessage>(event, out);
   if (event.channel == channels.speaker) return writeMessage<SpeakerMessage>(event, out);
   if (event.channel == channels.status) return writeMessage<StatusMessage>(event, out);

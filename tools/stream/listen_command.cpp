@@ -22,6 +22,7 @@
 #include "tools/settings/world_settings.h"
 #include "tools/stream/answer_tracker.h"
 #include "tools/stream/contacts_line.h"
+#include "tools/stream/person_text.h"
 #include "tools/stream/pushes_text.h"
 #include "tools/stream/solid_text.h"
 #include "tools/stream/stop_signal.h"
@@ -53,7 +54,7 @@ Result<std::unique_ptr<Receiver>> receiverFor(const ListenJob& job) {
   const auto url = parseUdpmUrl(job.url);
   if (!url.ok()) return inFile(url.error(), "--url");
   FORETOUCH_CHECK(testMulticast(url.value()));
-  std::vector<std::string> channels{job.channels.solid, job.channels.pushes};
+  std::vector<std::string> channels{job.channels.solid, job.channels.person, job.channels.pushes};
   if (job.worldPath.empty()) {
     channels.push_back(job.channels.contacts);
   } else {
@@ -70,11 +71,12 @@ enum Topic : std::uint8_t {
   kStatusTopic,
   kContactsTopic,
   kSolidTopic,
+  kPersonTopic,
   kPushesTopic,
   kEventsTopic,
   kBodyTopic
 };
-constexpr std::size_t kMostGuards = 3 * kMostAvatars + 1;
+constexpr std::size_t kMostGuards = 4 * kMostAvatars + 1;
 
 /// Prints messages as they arrive, line by line.
 class Listener {
@@ -115,6 +117,9 @@ class Listener {
     }
     if (message.channel == channels.solid) {
       return read(message, shown_, kSolidTopic, [this] { printSolid(); });
+    }
+    if (message.channel == channels.person) {
+      return read(message, person_, kPersonTopic, [this] { printPerson(); });
     }
     if (message.channel == channels.pushes) {
       return read(message, pushes_, kPushesTopic, [this] { printPushes(); });
@@ -162,6 +167,11 @@ class Listener {
     const bool isNews = news_.isNews(shown_);
     if (job_.each || isNews) print(solidText(shown_));
   }
+  void printPerson() {
+    if (job_.json) return printLine(personStepLine(person_, Stamps::With));
+    const bool isNews = personNews_.isNews(person_);
+    if (job_.each || isNews) print(personStepText(person_));
+  }
   void printPushes() {
     if (job_.json) return printLine(pushesLine(pushes_));
     const bool isNews = pushesNews_.isNews(pushes_);
@@ -204,6 +214,8 @@ class Listener {
   ContactsMessage contacts_;
   SolidMessage shown_;
   SolidNews news_;
+  PersonMessage person_;
+  PersonNews personNews_;
   PushesMessage pushes_;
   PushesNews pushesNews_;
   StatusMessage status_;
@@ -270,7 +282,8 @@ constexpr char kListenExamples[] = R"(Examples:
 With --world it prints what happens in the moving world of a service (serve --world) in place of
 verdicts, and --count and --timeout are about its messages; --json writes an events file.
 Of a solid avatar (serve --solid) it also prints where the state of what is shown changes, and of
-one in a moving world what moves and presses against it. The lines of --json are described in
+one in a moving world what moves and presses against it; of a person (serve --bounds) where what they
+touched, surely or perhaps, changes. The lines of --json are described in
 docs/formats.md. With --count, exit code 1 says that so many verdicts did not come.)";
 
 }  // namespace

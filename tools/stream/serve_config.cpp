@@ -56,11 +56,11 @@ Result<ServeConfig> parseServeConfig(std::string_view text, const std::string& f
   ServeConfig config;
   TomlSection root(reading, parsed, "the file");
   // A project file may be a configuration, too: what it says of a clip is not about streams.
-  root.allowOnly(
-      {"service", "scene", "query", "policy", "stream", "solid", "avatar", "clip", "made"});
+  root.allowOnly({"service", "scene", "query", "policy", "stream", "solid", "person", "avatar",
+                  "clip", "made"});
   Settings settings;
   addServeSettings(settings, config);
-  for (const char* const table : {"service", "scene", "query", "stream", "solid"}) {
+  for (const char* const table : {"service", "scene", "query", "stream", "solid", "person"}) {
     readWholeTable(root, table, reading, settings);
   }
   readPolicies(root, reading, config.world.policies);

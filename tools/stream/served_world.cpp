@@ -7,6 +7,7 @@
 #include "tools/console.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/inputs/replay_inputs.h"
+#include "tools/stream/stream_person.h"
 #include "tools/stream/stream_solid.h"
 
 namespace foretouch::tools {
@@ -27,7 +28,7 @@ Result<StreamSolver> loadAvatar(const ServeConfig& config, const NumberedAvatar&
 
 Result<ServedWorld> loadServedWorld(const ServeConfig& config) {
   FORETOUCH_TRY(const auto scene, loadScene(config.world));
-  ServedWorld world{scene, {}, std::nullopt, 0, {}};
+  ServedWorld world{scene, {}, {}, std::nullopt, 0, {}};
   world.numTriangles = scene.numTriangles();
   if (const std::size_t dropped = scene.audit().droppedNonFinite; dropped > 0) {
     world.remarks.push_back(config.world.scenePath + ": " + std::to_string(dropped) +
@@ -41,6 +42,8 @@ Result<ServedWorld> loadServedWorld(const ServeConfig& config) {
     }
     world.avatars.push_back(std::move(solver));
   }
+  FORETOUCH_TRY(auto persons, makePersons(config.person, world.avatars, scene));
+  world.persons = std::move(persons);
   return world;
 }
 

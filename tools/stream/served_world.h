@@ -8,6 +8,7 @@
 
 #include "articulated/result.h"
 #include "middleware/scene/scene.h"
+#include "network/stream/person_stream.h"
 #include "network/stream/stream_solver.h"
 #include "network/world_stream/world_solver.h"
 #include "tools/settings/serve_settings.h"
@@ -17,6 +18,7 @@ namespace foretouch::tools {
 struct ServedWorld {
   Scene scene;
   std::vector<StreamSolver> avatars;
+  std::vector<PersonStream> persons;
   std::optional<WorldSolver> world;  ///< That moves, if one was asked for: the caller fills it in.
   std::size_t numTriangles = 0;
   std::vector<std::string> remarks;  ///< Tolerated faults: one sentence each.

@@ -143,5 +143,29 @@ TEST(MetricsText, SaysWhatSolidAvatarsShow) {
   EXPECT_EQ(read(metricsText({}, {}, {})).types.count("foretouch_solid_poses_total"), 0U);
 }
 
+TEST(MetricsText, SaysWhatIsKnownOfPersons) {
+  PersonCounter counter;
+  PersonMessage message;
+  message.avatar = 4;
+  message.kind = StepKind::Consecutive;
+  message.verdicts = {BracketVerdict::Excluded, BracketVerdict::Excluded, BracketVerdict::Certain};
+  message.broken.resize(2);
+  counter.said(message);
+  message.kind = StepKind::First;  // no step
+  message.broken.clear();
+  counter.said(message);
+  const Page page = read(metricsText({}, {}, {}, {}, nullptr, counter.counts()));
+  const auto value = [&](const std::string& name) {
+    const auto found = page.values.find(name);
+    return found == page.values.end() ? "none" : found->second;
+  };
+  EXPECT_EQ(value("foretouch_person_links_total{avatar=\"4\",verdict=\"excluded\"}"), "2");
+  EXPECT_EQ(value("foretouch_person_links_total{avatar=\"4\",verdict=\"certain\"}"), "1");
+  EXPECT_EQ(value("foretouch_person_links_total{avatar=\"4\",verdict=\"possible\"}"), "none");
+  EXPECT_EQ(value("foretouch_person_bounds_broken_total{avatar=\"4\"}"), "2");
+  EXPECT_EQ(value("foretouch_person_seconds_count"), "2");
+  EXPECT_EQ(read(metricsText({}, {}, {})).types.count("foretouch_person_links_total"), 0U);
+}
+
 }  // namespace
 }  // namespace foretouch

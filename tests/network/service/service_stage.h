@@ -69,7 +69,8 @@ class Stage {
  public:
   explicit Stage(std::int32_t avatars = 1, ServiceOptions options = {}, bool isRecorded = false,
                  StepObserver* observer = nullptr, bool areSolid = false,
-                 std::optional<WorldSolver> world = std::nullopt) {
+                 std::optional<WorldSolver> world = std::nullopt,
+                 std::vector<PersonStream> persons = {}) {
     ServiceParts parts;
     parts.receiver = std::make_unique<FakeReceiver>(inbox);
     parts.publisher = std::make_unique<FakePublisher>(outbox);
@@ -77,6 +78,7 @@ class Stage {
     parts.clock = &clock;
     parts.observer = observer;
     parts.world = std::move(world);
+    parts.persons = std::move(persons);
     service_.emplace(
         Service::start(solversOf(avatars, areSolid), std::move(parts), options).value());
   }

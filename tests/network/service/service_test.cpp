@@ -211,6 +211,80 @@ TEST(Service, ShowsEveryAcceptedPoseOnceAfterItsAnswer) {
   }
 }
 
+/// Of every avatar: what is 20 m/s^2 from a curve at most.
+std::vector<PersonStream> personsOf(std::int32_t avatars) {
+  BoundEntry entry;
+  entry.part = "all";
+  entry.bound.acceleration = 20.0;
+  entry.bound.speed = 3.0;
+  entry.bound.aheadAcceleration = 20.0;
+  const PersonStreamOptions options{{"", "", {entry}}, MotionModel::CubicLate, 100'000, {}};
+  std::vector<PersonStream> persons;
+  for (std::int32_t id = 0; id < avatars; ++id) {
+    persons.push_back(PersonStream::make(id, smallAvatar(), test::farWall(), options).value());
+  }
+  return persons;
+}
+
+// The answers are those without a person; each message about one comes after the answer of the pose
+// that allows it, and is in the journal; no byte depends on the workers.
+TEST(Service, SaysOfEveryPersonWhatPosesAllowAfterTheirAnswers) {
+  constexpr std::int32_t kAvatars = 3;
+  const std::vector<Sent> sent = mixedStreams(kAvatars, 600, 5);
+  const auto expected = verdictsOneByOne(sent, kAvatars);
+  std::map<std::int32_t, std::vector<Bytes>> first;
+  for (const int workers : {1, 3}) {
+    SCOPED_TRACE(workers);
+    Stage stage(kAvatars, withWorkers(workers), true, nullptr, false, std::nullopt,
+                personsOf(kAvatars));
+    for (const Sent& message : sent) stage.inbox->send(message.channel, message.payload);
+    ASSERT_TRUE(stage.settles(posesIn(sent)));
+    stage.service().stop();
+    EXPECT_TRUE(same(verdictsByAvatar(stage.outbox->on(kContacts)), expected));
+    std::map<std::int32_t, std::vector<Bytes>> said;
+    std::map<std::int32_t, std::int64_t> answered;
+    std::uint64_t links = 0, inJournal = 0;
+    for (const test::Recorded& event : stage.book->events()) {
+      if (event.channel == kContacts) {
+        const ContactsMessage answer = answerIn(event.payload);
+        answered[answer.avatar] = answer.sequenceTo;
+      } else if (event.channel == kPersonChannel) {
+        PersonMessage message;
+        ASSERT_EQ(decode(event.payload, message), Reject::None);
+        EXPECT_EQ(answered[message.avatar], message.sequence);
+        said[message.avatar].push_back(verdictsIn(event.payload));
+        if (message.kind != StepKind::First) links += message.verdicts.size();
+        ++inJournal;
+      }
+    }
+    if (first.empty()) first = said;
+    EXPECT_TRUE(same(said, first));
+    for (const auto& [avatar, verdicts] : expected) {
+      EXPECT_GE(said.at(avatar).size(), verdicts.size());
+    }
+    EXPECT_EQ(inJournal, stage.outbox->on(kPersonChannel).size());
+    const PersonCounts counts = stage.service().personCounts();
+    ASSERT_EQ(counts.avatars.size(), 3U);
+    std::uint64_t counted = 0;
+    for (const PersonCount& count : counts.avatars) {
+      for (const std::uint64_t ofVerdict : count.links) counted += ofVerdict;
+    }
+    EXPECT_EQ(counted, links);
+    EXPECT_EQ(counts.times.count(), inJournal);
+  }
+}
+
+TEST(Service, RefusesAPersonOfNoAvatar) {
+  ServiceParts parts;
+  const auto inbox = std::make_shared<test::Inbox>();
+  parts.receiver = std::make_unique<test::FakeReceiver>(inbox);
+  parts.publisher = std::make_unique<test::FakePublisher>(std::make_shared<test::Outbox>());
+  parts.persons = personsOf(2);
+  const auto started = Service::start(test::solversOf(1), std::move(parts), {});
+  ASSERT_FALSE(started.ok());
+  EXPECT_NE(describe(started.error()).find("avatar 1"), std::string::npos);
+}
+
 /// Keeps what it is shown of the avatars that it wants.
 class Onlooker final : public StepObserver {
  public:

@@ -18,6 +18,7 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
+using test::hipsAt;
 using test::kStepUs;
 using test::skeletonMessage;
 using test::smallAvatar;
@@ -31,12 +32,6 @@ Scene solidWall() {
   raw.triangles = {{a, b, c}, {a, c, d}};
   raw.objectOf = {0, 0};
   return Scene::build(raw).value();
-}
-
-PoseMessage hipsAt(double x, std::int64_t n, std::int64_t session = 1) {
-  PoseMessage message = test::nthPose(n, session);
-  message.translations[0].translation = {x, 1.0, 0.0};
-  return message;
 }
 
 class SolidStreams : public testing::Test {

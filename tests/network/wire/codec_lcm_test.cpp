@@ -1,6 +1,7 @@
 // The codec against lcm-gen's own: what either writes, the other reads, field by field.
 #include <cstring>
 #include <foretouch/contacts_t.hpp>
+#include <foretouch/person_t.hpp>
 #include <foretouch/pose_t.hpp>
 #include <foretouch/skeleton_t.hpp>
 #include <foretouch/solid_t.hpp>
@@ -266,6 +267,62 @@ TEST(CodecAgainstLcmGen, ReadsOurSolidMessages) {
     EXPECT_TRUE(same(w.objects, part([](const ShownContact& c) { return c.otherName; })));
     EXPECT_EQ(lcmBytes(w), bytes);
   }
+}
+
+TEST(CodecAgainstLcmGen, ReadsOurPersonMessages) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const PersonMessage m = test::randomPersonMessage(random, random.below(9), random.below(5));
+    Bytes bytes;
+    encode(m, bytes);
+    person_t w;
+    ASSERT_EQ(w.decode(bytes.data(), 0, static_cast<int>(bytes.size())),
+              static_cast<int>(bytes.size()));
+    EXPECT_TRUE(w.version == 1 && w.avatar == m.avatar && w.sequence == m.sequence &&
+                w.utime_to == m.utimeToUs && w.bounds_hash == m.boundsHash &&
+                w.between == static_cast<int>(m.model) && w.not_before == m.notBeforeUs &&
+                w.ahead_us == m.aheadUs && same(w.person_us, m.personUs));
+    const auto part = [&](auto field) { return listOf(m.brackets, field); };
+    EXPECT_TRUE(
+        same(w.possible_from, part([](const ToldBracket& t) { return t.bracket.possibleFrom; })));
+    EXPECT_TRUE(
+        same(w.certain_until, part([](const ToldBracket& t) { return t.bracket.certainUntil; })));
+    EXPECT_TRUE(same(w.growth, part([](const ToldBracket& t) { return t.bracket.growth; })));
+    EXPECT_TRUE(same(w.others, part([](const ToldBracket& t) { return t.bracket.other; })));
+    EXPECT_TRUE(same(w.objects, part([](const ToldBracket& t) { return t.otherName; })));
+    EXPECT_TRUE(same(w.beyond, listOf(m.broken, [](const BrokenBound& b) { return b.beyond; })));
+    EXPECT_EQ(lcmBytes(w), bytes);
+  }
+}
+
+// What no encoder of ours writes.
+TEST(CodecAgainstLcmGen, RefusesPersonMessagesBeyondTheirLimit) {
+  const auto after = [](int numBrackets) {
+    PersonMessage small;
+    small.verdicts = {BracketVerdict::Possible};
+    small.notBeforeUs = {-1};
+    Bytes bytes;
+    encode(small, bytes);
+    person_t w;
+    EXPECT_GT(w.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
+    const auto n = static_cast<std::size_t>(numBrackets);
+    w.num_brackets = numBrackets;
+    w.links.assign(n, 0);
+    w.link_names.assign(n, "a");
+    w.triangles.assign(n, 0);
+    w.objects.assign(n, "o");
+    w.others.assign(n, -1);
+    w.claims.assign(n, 2);
+    for (auto* const list :
+         {&w.possible_from, &w.possible_until, &w.certain_from, &w.certain_until, &w.growth}) {
+      list->assign(n, 0.0);
+    }
+    PersonMessage decoded;
+    return decode(lcmBytes(w), decoded);
+  };
+  EXPECT_EQ(after(256), Reject::None);
+  EXPECT_EQ(after(257), Reject::Limit);
 }
 
 // What no encoder of ours writes.

@@ -58,6 +58,8 @@ TEST(Codec, MessagesSurviveTheWireBitForBit) {
   expectRoundTrips<SolidMessage>([](Random& r) {
     return test::randomSolidMessage(r, 1 + r.below(40), 1 + r.below(6), r.below(20));
   });
+  expectRoundTrips<PersonMessage>(
+      [](Random& r) { return test::randomPersonMessage(r, r.below(40), r.below(20)); });
   expectRoundTrips<SpeakerMessage>([](Random& r) { return test::randomSpeakerMessage(r); });
   expectRoundTrips<StatusMessage>(
       [](Random& r) { return test::randomStatusMessage(r, r.below(20)); });
@@ -84,6 +86,14 @@ TEST(Codec, LargestMessagesSurvive) {
   const Bytes bytes = bytesOf(solid);
   EXPECT_LE(bytes.size(), kMaxMessageBytes);
   EXPECT_EQ(decode(bytes, solid), Reject::None);
+  PersonMessage person = test::randomPersonMessage(random, kMaxJoints, kMaxPersonBrackets);
+  for (ToldBracket& told : person.brackets) {
+    told.linkName.assign(kMaxNameBytes, 'n');
+    told.otherName.assign(kMaxTextBytes, 'o');
+  }
+  const Bytes ofPerson = bytesOf(person);
+  EXPECT_LE(ofPerson.size(), kMaxMessageBytes);
+  EXPECT_EQ(decode(ofPerson, person), Reject::None);
 }
 
 TEST(Codec, PosesIntoReusedMemoryAllocateNothing) {
@@ -437,6 +447,87 @@ TEST(DecodeContacts, VerdictsAreAllButStampsAndTimeTaken) {
   const Bytes other = bytesOf(message);
   EXPECT_FALSE(std::equal(verdicts.data, verdicts.data + verdicts.size, other.data()));
   EXPECT_EQ(verdictBytes(ByteView(bytes.data(), 23)).size, 0u);
+}
+
+// --- person_t
+
+/// Two links, of which one surely touched the scene, and perhaps the other; a broken bound.
+PersonMessage twoBrackets() {
+  PersonMessage message;
+  message.kind = StepKind::Consecutive;
+  message.sequenceTo = message.utimeToUs = 2;
+  message.aheadUs = 100;
+  message.verdicts = {BracketVerdict::Excluded, BracketVerdict::Certain};
+  message.notBeforeUs = {102, -1};
+  message.brackets.resize(2);
+  for (ToldBracket& told : message.brackets) {
+    told.linkName = "Hand";
+    told.otherName = "table";
+    told.bracket.link = 1;
+    told.bracket.verdict = BracketVerdict::Certain;
+  }
+  message.brackets[0].bracket.triangle = 3;
+  message.brackets[1].bracket.other = 0;
+  message.brackets[1].bracket.verdict = BracketVerdict::Possible;
+  message.broken = {{1, BrokenBound::Claim::Ahead, 0.01}};
+  return message;
+}
+
+template <typename Change>
+Reject personAfter(Change change) {
+  return rejectAfter(twoBrackets(), change);
+}
+
+TEST(DecodePerson, AcceptsTheMessageThatIsChangedBelow) {
+  EXPECT_EQ(personAfter([](PersonMessage&) {}), Reject::None);
+}
+
+TEST(DecodePerson, RefusesCodesThatDoNotExist) {
+  using M = PersonMessage;
+  const auto out = Reject::OutOfRange;
+  EXPECT_EQ(personAfter([](M& m) { m.model = static_cast<MotionModel>(3); }), out);
+  EXPECT_EQ(personAfter([](M& m) { m.kind = static_cast<StepKind>(3); }), out);
+  EXPECT_EQ(personAfter([](M& m) { m.verdicts[0] = static_cast<BracketVerdict>(4); }), out);
+  EXPECT_EQ(personAfter([](M& m) { m.brackets[0].bracket.verdict = BracketVerdict::Excluded; }),
+            out);
+  EXPECT_EQ(personAfter([](M& m) { m.brackets[0].bracket.verdict = BracketVerdict::Unclaimed; }),
+            out);
+  EXPECT_EQ(personAfter([](M& m) { m.broken[0].claim = static_cast<BrokenBound::Claim>(2); }), out);
+}
+
+TEST(DecodePerson, RefusesNumbersOutOfRange) {
+  using M = PersonMessage;
+  const auto out = Reject::OutOfRange;
+  EXPECT_EQ(personAfter([](M& m) { m.sequenceFrom = 3; }), out);
+  EXPECT_EQ(personAfter([](M& m) { m.utimeFromUs = 3; }), out);
+  EXPECT_EQ(personAfter([](M& m) { m.notBeforeUs[1] = -2; }), out);
+  EXPECT_EQ(personAfter([](M& m) { m.aheadUs = -1; }), out);
+  EXPECT_EQ(personAfter([](M& m) { m.bracketsLeftOut = -1; }), out);
+  EXPECT_EQ(personAfter([](M& m) { m.resolution = -1.0; }), out);
+  EXPECT_EQ(personAfter([](M& m) { m.resolution = kNaN; }), Reject::NonFinite);
+  EXPECT_EQ(personAfter([](M& m) { m.personUs = kInfinity; }), Reject::NonFinite);
+  EXPECT_EQ(personAfter([](M& m) { m.broken[0].beyond = -0.1; }), out);
+  EXPECT_EQ(personAfter([](M& m) { m.broken[0].beyond = kNaN; }), Reject::NonFinite);
+  for (double LinkBracket::*const t : {&LinkBracket::possibleFrom, &LinkBracket::possibleUntil,
+                                       &LinkBracket::certainFrom, &LinkBracket::certainUntil}) {
+    EXPECT_EQ(personAfter([&](M& m) { m.brackets[0].bracket.*t = 1.5; }), out);
+    EXPECT_EQ(personAfter([&](M& m) { m.brackets[0].bracket.*t = -0.1; }), out);
+    EXPECT_EQ(personAfter([&](M& m) { m.brackets[0].bracket.*t = kNaN; }), Reject::NonFinite);
+  }
+  EXPECT_EQ(personAfter([](M& m) { m.brackets[0].bracket.growth = -1e-9; }), out);
+}
+
+TEST(DecodePerson, RefusesLinksThatAreNone) {
+  using M = PersonMessage;
+  const auto bad = Reject::BadIndex;
+  EXPECT_EQ(personAfter([](M& m) { m.brackets[0].bracket.link = 2; }), bad);
+  EXPECT_EQ(personAfter([](M& m) { m.brackets[0].bracket.link = -1; }), bad);
+  EXPECT_EQ(personAfter([](M& m) { m.brackets[0].bracket.triangle = -2; }), bad);
+  EXPECT_EQ(personAfter([](M& m) { m.brackets[0].bracket.other = 0; }), bad);  // both
+  EXPECT_EQ(personAfter([](M& m) { m.brackets[1].bracket.other = 1; }), bad);
+  EXPECT_EQ(personAfter([](M& m) { m.brackets[1].bracket.other = 2; }), bad);
+  EXPECT_EQ(personAfter([](M& m) { m.broken[0].link = 2; }), bad);
+  EXPECT_EQ(personAfter([](M& m) { m.brackets[0].linkName.clear(); }), Reject::BadName);
 }
 
 // --- solid_t

@@ -156,6 +156,20 @@ Sample pushesSample(Random& random) {
   return sample;
 }
 
+Sample personSample(Random& random) {
+  Sample sample{PayloadType::Person, {}, {}, {}};
+  encode(test::randomPersonMessage(random, 1 + random.below(4), random.below(4)), sample.bytes);
+  const auto times = [](int count, std::size_t size) {
+    return static_cast<std::size_t>(count) * size;
+  };
+  const std::size_t links = kHead + 28 + 17 + 33;
+  const std::size_t brackets = links + 4 + times(countAt(sample, links), 1 + 8) + 8;
+  const int n = countAt(sample, brackets);
+  const std::size_t objects = textsAt(sample, brackets + 4 + times(n, 4), n) + times(n, 4);
+  countAt(sample, textsAt(sample, objects, n) + times(n, 4 + 1 + 5 * 8) + 4);
+  return sample;
+}
+
 std::vector<Sample> samples() {
   std::vector<Sample> all;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
@@ -170,6 +184,7 @@ std::vector<Sample> samples() {
     all.push_back(rigidPoseSample(random));
     all.push_back(eventsSample(random));
     all.push_back(pushesSample(random));
+    all.push_back(personSample(random));
   }
   return all;
 }
@@ -186,6 +201,7 @@ Reject decodeAny(PayloadType type, ByteView bytes) {
   static RigidPoseMessage rigidPose;
   static EventsMessage events;
   static PushesMessage pushes;
+  static PersonMessage person;
   switch (type) {
     case PayloadType::Skeleton: return decode(bytes, skeleton);
     case PayloadType::Pose: return decode(bytes, pose);
@@ -197,6 +213,7 @@ Reject decodeAny(PayloadType type, ByteView bytes) {
     case PayloadType::RigidPose: return decode(bytes, rigidPose);
     case PayloadType::Events: return decode(bytes, events);
     case PayloadType::Pushes: return decode(bytes, pushes);
+    case PayloadType::Person: return decode(bytes, person);
   }
   return Reject::Length;
 }

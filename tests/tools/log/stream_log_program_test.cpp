@@ -226,6 +226,73 @@ TEST(ReplayOfALog, RefusesByNameWhatMakesNoSense) {
             2);
 }
 
+// What is said of the person of a log is what is said of the clip's; a log that holds it is
+// compared byte for byte, and a message that was changed is found.
+TEST(ReplayOfALog, SaysOfThePersonWhatAServiceSaid) {
+  const LoggedWorld world;
+  const std::string bounds = world.folder.write(
+      "man.bounds.json",
+      R"({"format": "foretouch-bounds", "version": 1, "bounds": [{"part": "all", "model": "cubic-late",
+          "acceleration_m_s2": 5, "gap_speed_m_s": 2, "ahead_acceleration_m_s2": 30}]})");
+  const std::vector<std::string> asked{"--bounds",   bounds,    "--between",
+                                       "cubic-late", "--ahead", "0.1"};
+  ASSERT_EQ(world.replayLog(world.log, asked).exitCode, 0);
+  std::vector<json> steps;
+  for (const std::string& line : linesOf(contentOf(world.folder / "log.jsonl"))) {
+    const json one = json::parse(line);
+    if (one.contains("person_step")) steps.push_back(one["person_step"]);
+  }
+  ASSERT_EQ(steps.size(), 60U);
+  int certain = 0, excluded = 0;
+  for (const json& step : steps) {
+    for (const json& verdict : step["verdicts"]) {
+      certain += verdict == "certain" ? 1 : 0;
+      excluded += verdict == "excluded" ? 1 : 0;
+    }
+  }
+  EXPECT_GT(certain, 10);
+  EXPECT_GT(excluded, 10);
+  const auto journal = [&](const std::string& name, std::int64_t later) {
+    tools::LogReplayRequest request;
+    request.world.scenePath = world.folder / "wall.obj";
+    request.logPath = world.log;
+    request.avatars = {{1, world.folder / "man.json"}};
+    request.person = {bounds, MotionModel::CubicLate, 100'000};
+    auto reader = EventLogReader::open(world.log).value();
+    auto writer = EventLogWriter::create(world.folder / name).value();
+    LogEvent event;
+    while (reader.next(event).value()) {
+      EXPECT_TRUE(writer.write(event.utimeUs, event.channel, event.payload).ok());
+    }
+    const auto inputs = tools::loadLogReplayInputs(request).value();
+    EXPECT_TRUE(tools::replayLog(inputs, [&](const tools::AnsweredPose& answered) {
+                  Bytes payload;
+                  PersonMessage said = answered.person->said(0);
+                  said.sendUtimeUs = 77;
+                  said.notBeforeUs[0] += said.sequence == 30 ? later : 0;
+                  encode(said, payload);
+                  EXPECT_TRUE(writer.write(said.utimeUs, kPersonChannel, payload).ok());
+                  return true;
+                }).ok());
+    EXPECT_TRUE(writer.close().ok());
+    return world.folder / name;
+  };
+  const std::string same = journal("same.lcmlog", 0);
+  const Ended equal = world.replayLog(same, asked);
+  EXPECT_EQ(equal.exitCode, 0) << equal.out;
+  EXPECT_TRUE(holds(equal.out, "60 of 60 messages about the person equal the journal's"))
+      << equal.out;
+  const Ended notAsked = world.replayLog(same);
+  EXPECT_EQ(notAsked.exitCode, 0);
+  EXPECT_TRUE(holds(notAsked.out, "60 messages about the person: --bounds")) << notAsked.out;
+  const Ended other = world.replayLog(journal("other.lcmlog", 1), asked);
+  EXPECT_EQ(other.exitCode, 1);
+  EXPECT_TRUE(holds(other.out,
+                    "pose 30 is known differently: the instant until which nothing is "
+                    "touched of link 0"))
+      << other.out;
+}
+
 TEST(ReplayOfALog, RefusesWhatIsNoLog) {
   const LoggedWorld world;
   const std::string junk = world.folder.write("junk.lcmlog", "no log at all");

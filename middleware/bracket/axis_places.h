@@ -1,4 +1,4 @@
-// tools/person/axis_places.h: where poses have the ends of an avatar's axes, and how far two
+// middleware/bracket/axis_places.h: where poses have the ends of an avatar's axes, and how far two
 // places, or a bend of three, are apart, link by link. Metres in W.
 #pragma once
 
@@ -10,7 +10,7 @@
 #include "articulated/avatar.h"
 #include "articulated/motion.h"
 
-namespace foretouch::tools {
+namespace foretouch {
 
 /// The ends of all axes, link by link.
 using AxisPlaces = std::vector<std::array<Eigen::Vector3d, 2>>;
@@ -35,4 +35,4 @@ class AxisPlacer {
   std::vector<LinkState> states_;
 };
 
-}  // namespace foretouch::tools
+}  // namespace foretouch

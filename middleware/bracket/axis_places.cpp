@@ -1,10 +1,10 @@
-#include "tools/person/axis_places.h"
+#include "middleware/bracket/axis_places.h"
 
 #include <algorithm>
 
 #include "lss/index.h"
 
-namespace foretouch::tools {
+namespace foretouch {
 
 AxisPlacer::AxisPlacer(const Avatar& avatar) : avatar_(avatar) {
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
@@ -49,4 +49,4 @@ void AxisPlacer::bends(const std::vector<Bend>& given, std::vector<double>& most
   }
 }
 
-}  // namespace foretouch::tools
+}  // namespace foretouch

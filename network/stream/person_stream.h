@@ -1,0 +1,114 @@
+// network/stream/person_stream.h: what the person of one avatar's stream surely touched, may have
+// touched and cannot have touched, step by step, and until when nothing will be touched: within
+// bounds on how far they are from a model of their motion (docs/person.md). Pure apart from the
+// clock that measures personUs: what it says follows from the steps, the scene and the options
+// alone, so that a recorded stream repeats it.
+//
+// - A step is answered when its poses are known: of MotionModel::CubicLate a pose later, or where a
+//   gap or another timeline begins. So a pose has one message, or two.
+// - A bound is about poses at its rate: of a step that is not so long nothing is claimed.
+// - A link that a pose does not know is unclaimed in every step whose curve that pose bends.
+// - Across lost poses only LinkBound::speed and error count, at the rate that the lost ones had.
+// - `notBeforeUs` never falls while poses go on: what was excluded stays excluded, unless a pose
+//   shows that the bound was wrong.
+// Not installed.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+#include "articulated/avatar.h"
+#include "articulated/motion_model.h"
+#include "articulated/result.h"
+#include "articulated/skeleton.h"
+#include "assets/bounds/bounds_file.h"
+#include "middleware/bracket/axis_places.h"
+#include "middleware/bracket/bracket_query.h"
+#include "middleware/scene/scene.h"
+#include "network/stream/avatar_stream.h"
+#include "network/wire/messages.h"
+
+namespace foretouch {
+
+inline constexpr std::int64_t kMostAheadUs = 10'000'000;
+
+struct PersonStreamOptions {
+  BoundsFile bounds;
+  MotionModel model = MotionModel::ConstantRate;
+  std::int64_t aheadUs = 0;  ///< How far to look ahead, at most kMostAheadUs; 0: not at all.
+  BracketOptions brackets;
+};
+
+class PersonStream {
+ public:
+  /// `id`: the avatar's number in messages. Errors: as BracketQuery::build() and
+  /// BoundsByRate::make(); an `aheadUs` out of range.
+  static Result<PersonStream> make(std::int32_t id, const Avatar& avatar, const Scene& scene,
+                                   const PersonStreamOptions& options);
+  PersonStream(PersonStream&&) noexcept = default;
+  PersonStream& operator=(PersonStream&&) = delete;
+
+  /// Follows the step of one accepted pose, in the order of acceptance.
+  void follow(const StreamStep& step);
+  /// What the last pose lets be said: one message or two, but for the stamps of receiving and
+  /// sending.
+  [[nodiscard]] std::size_t numSaid() const { return numSaid_; }
+  [[nodiscard]] PersonMessage& said(std::size_t i) { return said_[i]; }
+  [[nodiscard]] const PersonMessage& said(std::size_t i) const { return said_[i]; }
+
+  [[nodiscard]] std::int32_t id() const { return id_; }
+
+ private:
+  /// A pose of the timeline at hand, and how it was reached.
+  struct Kept {
+    Pose pose;
+    std::int64_t sequence = 0, utimeUs = 0;
+    std::vector<std::uint8_t> isUnknown;  ///< Per link: in the step that it ends.
+  };
+  PersonStream(std::int32_t id, BracketQuery query, const Scene& scene, BoundsByRate bounds,
+               const PersonStreamOptions& options);
+
+  [[nodiscard]] static double secondsBetween(const Kept& from, const Kept& to);
+  [[nodiscard]] static PosedStep between(const Kept& from, const Kept& to);
+  void keep(const StreamStep& step);
+  [[nodiscard]] const Kept* back(int i) const;
+  const std::vector<LinkBound>& claimed(double rateHz, std::initializer_list<const Kept*> ends);
+  PersonMessage& begin(const StreamStep& step);
+  void sayStep(const StreamStep& step, int newer);
+  void sayGap(const StreamStep& step);
+  void take(const StepBrackets& brackets, PersonMessage& message) const;
+  void lookAhead(PersonMessage& message);
+  void lower(const LinkBracket& bracket, LinkId link, std::int64_t utimeUs);
+  void checkAhead(const StreamStep& step);
+  void checkGap(const StreamStep& step, const std::vector<LinkBound>& bounds);
+  void addBroken(BrokenBound::Claim claim, LinkId link, double beyond);
+
+  std::int32_t id_ = 0;
+  BracketQuery query_;
+  Scene scene_;
+  BoundsByRate bounds_;
+  MotionModel model_;
+  std::int64_t aheadUs_ = 0, boundsHash_ = 0;
+  double resolution_ = 0.0;
+  /// The newest is kept_[(numKept_ - 1) % size].
+  std::array<Kept, 4> kept_;
+  std::size_t numKept_ = 0;  // since the timeline began, or the last gap
+  std::vector<std::int64_t> notBeforeUs_, nowNotBeforeUs_;
+  std::vector<BrokenBound> broken_;  // of the pose at hand
+  std::array<PersonMessage, 2> said_;
+  std::size_t numSaid_ = 0;
+  // Scratch.
+  Scratch scratch_;
+  StepBrackets brackets_;
+  std::vector<LinkBound> claimed_;
+  AxisPlacer placer_;
+  AxisPlaces one_, other_;
+  std::vector<double> apart_;
+  std::vector<double> ahead_;
+  std::vector<Pose> aheadPoses_;
+};
+
+}  // namespace foretouch

@@ -1,0 +1,321 @@
+// What is said of a stream's person: the answers of the query itself, at the pose that allows them;
+// nothing where nothing is claimed; never a touch before the instant until which none was possible.
+#include "network/stream/person_stream.h"
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "middleware/bracket/bracket_query.h"
+#include "network/stream/stream_solver.h"
+#include "network/wire/codec.h"
+#include "tests/network/small_stream.h"
+
+namespace foretouch {
+namespace {
+
+using test::farWall;
+using test::hipsAt;
+using test::kStepUs;
+using test::skeletonMessage;
+using test::smallAvatar;
+using test::smallSkeleton;
+
+constexpr double kAcceleration = 800.0, kAheadAcceleration = 60.0, kSpeed = 3.0;
+constexpr std::int64_t kAheadUs = 200'000;
+
+/// Of poses at any rate, unless one is given.
+BoundsFile bounds(double rateHz = 0.0) {
+  BoundEntry entry;
+  entry.part = "all";
+  entry.rateHz = rateHz;
+  entry.bound.acceleration = kAcceleration;
+  entry.bound.speed = kSpeed;
+  entry.bound.aheadAcceleration = kAheadAcceleration;
+  return {"", "", {entry}};
+}
+
+/// Where the hips are at the nth pose: nearly to the wall and back, then into it.
+double swing(std::int64_t n) {
+  const auto x = static_cast<double>(n);
+  return 0.6 + (0.335 + 0.002 * x) * std::sin(0.3 * x);
+}
+
+class PersonStreams : public testing::Test {
+ protected:
+  void begin(MotionModel model, const BoundsFile& file = bounds(),
+             std::int64_t aheadUs = kAheadUs) {
+    solver_.emplace(StreamSolver::make(0, smallAvatar(), farWall(), {}, {}).value());
+    EXPECT_EQ(solver_->take(skeletonMessage(smallSkeleton())), Reject::None);
+    person_.emplace(
+        PersonStream::make(0, solver_->avatar(), farWall(), {file, model, aheadUs, {}}).value());
+    poses_.clear();
+  }
+  void follow(const PoseMessage& message) {
+    ASSERT_EQ(solver_->take(message, answer_), Reject::None);
+    poses_.push_back(*solver_->lastStep().to);
+    person_->follow(solver_->lastStep());
+    Bytes bytes;
+    for (std::size_t i = 0; i < person_->numSaid(); ++i) {
+      encode(person_->said(i), bytes);
+      PersonMessage read;
+      ASSERT_EQ(decode(bytes, read), Reject::None);
+    }
+  }
+  [[nodiscard]] const PersonMessage& last() { return person_->said(person_->numSaid() - 1); }
+
+  std::optional<StreamSolver> solver_;
+  std::optional<PersonStream> person_;
+  ContactsMessage answer_;
+  std::vector<Pose> poses_;
+};
+
+/// The step from the ith of these poses, as the query has it.
+StepBrackets asked(const std::vector<Pose>& poses, std::size_t i, MotionModel model) {
+  const auto query = BracketQuery::build(smallAvatar(), farWall()).value();
+  const double seconds = static_cast<double>(kStepUs) / 1e6;
+  PosedStep step;
+  step.from = &poses[i];
+  step.to = &poses[i + 1];
+  step.seconds = step.secondsBefore = step.secondsAfter = seconds;
+  if (i > 0) step.before = &poses[i - 1];
+  if (model == MotionModel::CubicLate && i + 2 < poses.size()) step.after = &poses[i + 2];
+  Scratch scratch;
+  StepBrackets brackets;
+  const std::vector<LinkBound> all(4, bounds().entries[0].bound);
+  EXPECT_TRUE(query.answer(step, model, all, scratch, brackets).ok());
+  return brackets;
+}
+
+void expectSaid(const PersonMessage& message, const StepBrackets& brackets) {
+  std::size_t told = 0;
+  ASSERT_EQ(message.verdicts.size(), brackets.links.size());
+  for (std::size_t link = 0; link < brackets.links.size(); ++link) {
+    const LinkBracket& bracket = brackets.links[link];
+    EXPECT_EQ(message.verdicts[link], bracket.verdict);
+    if (bracket.verdict == BracketVerdict::Excluded) continue;
+    ASSERT_LT(told, message.brackets.size());
+    const ToldBracket& one = message.brackets[told++];
+    EXPECT_EQ(one.bracket.link, bracket.link);
+    EXPECT_EQ(one.bracket.possibleFrom, bracket.possibleFrom);
+    EXPECT_EQ(one.bracket.possibleUntil, bracket.possibleUntil);
+    EXPECT_EQ(one.bracket.certainFrom, bracket.certainFrom);
+    EXPECT_EQ(one.bracket.growth, bracket.growth);
+    EXPECT_EQ(one.linkName, smallSkeleton().joints[link].name);
+    EXPECT_EQ(one.otherName, "wall");
+  }
+  EXPECT_EQ(told, message.brackets.size());
+}
+
+TEST_F(PersonStreams, SayWhatTheQuerySaysOnceItsPosesAreKnown) {
+  for (const MotionModel model :
+       {MotionModel::ConstantRate, MotionModel::Cubic, MotionModel::CubicLate}) {
+    SCOPED_TRACE(toString(model));
+    begin(model);
+    std::vector<PersonMessage> said;
+    for (std::int64_t n = 1; n <= 60; ++n) {
+      follow(hipsAt(swing(n), n));
+      ASSERT_EQ(person_->numSaid(), 1U);
+      if (last().kind == StepKind::Consecutive) said.push_back(last());
+    }
+    const std::size_t waits = model == MotionModel::CubicLate ? 1 : 0;
+    ASSERT_EQ(said.size(), 59 - waits);
+    std::size_t certain = 0, possible = 0;
+    for (std::size_t i = 0; i < said.size(); ++i) {
+      SCOPED_TRACE(i);
+      const auto n = static_cast<std::int64_t>(i) + 1;
+      EXPECT_EQ(said[i].sequenceFrom, n);
+      EXPECT_EQ(said[i].sequenceTo, n + 1);
+      EXPECT_EQ(said[i].sequence, n + 1 + static_cast<std::int64_t>(waits));
+      expectSaid(said[i], asked(poses_, i, model));
+      for (const ToldBracket& told : said[i].brackets) {
+        ++(told.bracket.verdict == BracketVerdict::Certain ? certain : possible);
+      }
+    }
+    EXPECT_GT(certain, 10U);
+    EXPECT_GE(possible, 1U);
+  }
+}
+
+TEST_F(PersonStreams, EndTheWaitWhereNoPoseCanCome) {
+  begin(MotionModel::CubicLate);
+  for (std::int64_t n = 1; n <= 5; ++n) follow(hipsAt(swing(n), n));
+  follow(hipsAt(swing(9), 9));  // three are lost
+  ASSERT_EQ(person_->numSaid(), 2U);
+  EXPECT_EQ(person_->said(0).kind, StepKind::Consecutive);
+  EXPECT_EQ(person_->said(0).sequenceFrom, 4);
+  EXPECT_EQ(person_->said(0).sequence, 9);
+  EXPECT_EQ(person_->said(1).kind, StepKind::AcrossGap);
+  EXPECT_EQ(person_->said(1).sequenceFrom, 5);
+  EXPECT_EQ(person_->said(1).sequenceTo, 9);
+  follow(hipsAt(swing(10), 10));
+  follow(hipsAt(swing(1), 1, 2));  // another session
+  ASSERT_EQ(person_->numSaid(), 2U);
+  EXPECT_EQ(person_->said(0).sequenceFrom, 9);
+  EXPECT_EQ(person_->said(0).session, 2);
+  EXPECT_EQ(person_->said(1).kind, StepKind::First);
+  EXPECT_EQ(person_->said(1).sequenceFrom, 1);
+  for (const BracketVerdict verdict : person_->said(1).verdicts) {
+    EXPECT_EQ(verdict, BracketVerdict::Unclaimed);
+  }
+}
+
+TEST_F(PersonStreams, ExcludeAcrossAGapWhatTheSpeedExcludes) {
+  begin(MotionModel::Cubic);
+  follow(hipsAt(0.0, 1));
+  follow(hipsAt(0.0, 2));
+  follow(hipsAt(0.0, 12));  // 0.1 s at 3 m/s: at most 15 cm of the metre, there and back
+  ASSERT_EQ(last().kind, StepKind::AcrossGap);
+  EXPECT_EQ(last().verdicts[0], BracketVerdict::Excluded);
+  EXPECT_TRUE(last().broken.empty());
+  follow(hipsAt(0.8, 62));  // half a second: 75 cm beyond either
+  EXPECT_EQ(last().verdicts[0], BracketVerdict::Possible);
+  EXPECT_TRUE(last().broken.empty());
+  follow(hipsAt(-1.0, 72));  // 1.8 m in 0.1 s
+  ASSERT_EQ(last().broken.size(), 4U);
+  for (const BrokenBound& broken : last().broken) {
+    EXPECT_EQ(broken.claim, BrokenBound::Claim::InGap);
+    EXPECT_NEAR(broken.beyond, 1.8 - 0.1 * kSpeed, 1e-9);
+  }
+}
+
+// A pose without the arm: nothing is claimed of the arm and the hand on it, in any step whose curve
+// that pose bends.
+TEST_F(PersonStreams, ClaimNothingOfLinksThatAPoseDoesNotKnow) {
+  constexpr std::int64_t kLost = 6;
+  begin(MotionModel::CubicLate);
+  int unclaimed = 0;
+  for (std::int64_t n = 1; n <= 14; ++n) {
+    PoseMessage pose = hipsAt(0.3, n);
+    if (n == kLost) pose.joints[1].flags = 0;
+    follow(pose);
+    if (last().kind != StepKind::Consecutive) continue;
+    const bool bends = last().sequenceFrom - 1 <= kLost && kLost <= last().sequenceTo + 1;
+    SCOPED_TRACE(last().sequenceFrom);
+    EXPECT_EQ(last().verdicts[0], BracketVerdict::Excluded);
+    EXPECT_EQ(last().verdicts[3], BracketVerdict::Excluded);
+    for (const std::size_t link : {std::size_t{1}, std::size_t{2}}) {
+      EXPECT_EQ(last().verdicts[link] == BracketVerdict::Unclaimed, bends);
+      unclaimed += bends ? 1 : 0;
+    }
+    const bool isKnown = last().sequence != kLost && last().sequence != kLost + 1;
+    EXPECT_EQ(last().notBeforeUs[2] >= 0, isKnown);
+    EXPECT_GE(last().notBeforeUs[0], 0);
+  }
+  EXPECT_EQ(unclaimed, 2 * 4);
+}
+
+TEST_F(PersonStreams, ClaimNothingAtRatesThatNoBoundIsAbout) {
+  begin(MotionModel::Cubic, bounds(100.0));
+  follow(hipsAt(0.0, 1));
+  follow(hipsAt(0.0, 2));
+  EXPECT_EQ(last().verdicts[0], BracketVerdict::Excluded);
+  PoseMessage late = hipsAt(0.0, 3);
+  late.utimeUs += kStepUs;  // 20 ms after the last one
+  follow(late);
+  EXPECT_EQ(last().kind, StepKind::Consecutive);
+  EXPECT_EQ(last().verdicts[0], BracketVerdict::Unclaimed);
+  EXPECT_EQ(last().notBeforeUs[0], -1);
+  // Of a gap the rate is that of the lost poses.
+  PoseMessage across = hipsAt(0.0, 13);
+  across.utimeUs = late.utimeUs + 10 * kStepUs;
+  follow(across);
+  EXPECT_EQ(last().kind, StepKind::AcrossGap);
+  EXPECT_EQ(last().verdicts[0], BracketVerdict::Excluded);
+}
+
+// A person who keeps the bounds: brakes and accelerates at random, within what is claimed.
+TEST_F(PersonStreams, TouchNothingBeforeTheySay) {
+  for (int run = 0; run < 20; ++run) {
+    SCOPED_TRACE(run);
+    begin(MotionModel::Cubic);
+    double x = 0.2, previous = 0.2 - 0.004 * (run % 5);
+    std::vector<std::int64_t> notBefore(4, 0);
+    std::optional<std::int64_t> touchedUs;
+    for (std::int64_t n = 1; n < 200 && !touchedUs; ++n) {
+      follow(hipsAt(x, n));
+      ASSERT_TRUE(last().broken.empty());
+      for (std::size_t link = 0; link < 4 && n > 1; ++link) {
+        EXPECT_GE(last().notBeforeUs[link], notBefore[link]) << "never falls";
+        notBefore[link] = last().notBeforeUs[link];
+      }
+      // Half the acceleration of poses is the half of their second difference.
+      const double dt = static_cast<double>(kStepUs) / 1e6;
+      const double bend = 0.5 * kAheadAcceleration * dt * dt;
+      const double next = 2.0 * x - previous + bend * std::sin(static_cast<double>(n * (run + 3)));
+      previous = std::exchange(x, next);
+      if (x + 0.05 >= 1.0) touchedUs = (n + 1) * kStepUs;  // at the latest
+    }
+    if (!touchedUs) continue;
+    EXPECT_LE(notBefore[0], *touchedUs);
+  }
+}
+
+TEST_F(PersonStreams, SayWhichBoundTheNextPoseBreaks) {
+  begin(MotionModel::Cubic);
+  follow(hipsAt(0.0, 1));
+  follow(hipsAt(0.0, 2));
+  const std::int64_t before = last().notBeforeUs[0];
+  follow(hipsAt(0.1, 3));
+  ASSERT_EQ(last().broken.size(), 4U);
+  EXPECT_EQ(last().broken[0].claim, BrokenBound::Claim::Ahead);
+  EXPECT_NEAR(last().broken[0].beyond, 0.1 - 0.5 * kAheadAcceleration * 1e-4, 1e-9);
+  EXPECT_LT(last().notBeforeUs[0], before) << "what rested on it is taken back";
+}
+
+TEST_F(PersonStreams, DoNotLookAheadUnlessAsked) {
+  begin(MotionModel::Cubic, bounds(), 0);
+  for (std::int64_t n = 1; n < 5; ++n) {
+    follow(hipsAt(0.1 * static_cast<double>(n * n), n));
+    EXPECT_EQ(last().aheadUs, 0);
+    EXPECT_EQ(last().notBeforeUs, std::vector<std::int64_t>(4, -1));
+    EXPECT_TRUE(last().broken.empty());
+  }
+}
+
+TEST_F(PersonStreams, RepeatEveryByte) {
+  const auto bytesOfRun = [&] {
+    begin(MotionModel::CubicLate);
+    std::vector<Bytes> all;
+    for (std::int64_t n = 1; n < 120; ++n) {
+      PoseMessage pose = hipsAt(swing(n), n + n / 40);
+      if (n % 7 == 3) pose.joints[2].flags = 0;
+      follow(pose);
+      for (std::size_t i = 0; i < person_->numSaid(); ++i) {
+        Bytes bytes;
+        encode(person_->said(i), bytes);
+        const ByteView repeated = verdictBytes(bytes);
+        all.emplace_back(repeated.data, repeated.data + repeated.size);
+      }
+    }
+    return all;
+  };
+  EXPECT_EQ(bytesOfRun(), bytesOfRun());
+}
+
+TEST(PersonStreamOptions, ThatAreRefusedAreNamed) {
+  const auto made = [](const PersonStreamOptions& options) {
+    return PersonStream::make(0, smallAvatar(), farWall(), options);
+  };
+  const auto far = made({bounds(), MotionModel::Cubic, kMostAheadUs + 1, {}});
+  ASSERT_FALSE(far.ok());
+  EXPECT_EQ(far.error().file, "ahead");
+  BoundsFile of = bounds(30.0);
+  of.entries[0].model = MotionModel::CubicLate;
+  const auto other = made({of, MotionModel::Cubic, 0, {}});
+  ASSERT_FALSE(other.ok());
+  EXPECT_NE(describe(other.error()).find("cubic-late at 30 Hz"), std::string::npos);
+  of.entries[0].model = MotionModel::Cubic;
+  of.entries[0].part.clear();
+  of.entries[0].link = "Hands";
+  const auto named = made({of, MotionModel::Cubic, 0, {}});
+  ASSERT_FALSE(named.ok());
+  EXPECT_NE(describe(named.error()).find("'Hands'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace foretouch

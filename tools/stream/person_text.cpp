@@ -1,0 +1,165 @@
+#include "tools/stream/person_text.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "articulated/quoted.h"
+#include "lss/index.h"
+#include "tools/microseconds.h"
+
+namespace foretouch::tools {
+namespace {
+
+/// Beyond this many avatars, forgets the known ones.
+constexpr std::size_t kMostToldAvatars = 4096;
+constexpr double kUsPerMs = 1e3;
+constexpr double kMmInM = 1e3;
+
+void writeTold(const ToldBracket& told, JsonWriter& out) {
+  const LinkBracket& bracket = told.bracket;
+  out.beginObject();
+  out.field("link", told.linkName);
+  if (bracket.other != kNoParent) {
+    out.field("other", told.otherName);
+  } else if (bracket.triangle >= 0) {
+    out.field("object", told.otherName);
+    out.field("triangle", bracket.triangle);
+  }
+  out.field("verdict", toString(bracket.verdict));
+  out.field("possible_from", bracket.possibleFrom);
+  out.field("possible_until", bracket.possibleUntil);
+  if (bracket.verdict == BracketVerdict::Certain) {
+    out.field("certain_from", bracket.certainFrom);
+    out.field("certain_until", bracket.certainUntil);
+  }
+  out.field("growth", bracket.growth);
+  out.endObject();
+}
+
+std::string touchText(const ToldBracket& told, double stepUs) {
+  const LinkBracket& bracket = told.bracket;
+  std::string text = inQuotes(told.linkName);
+  if (!told.otherName.empty()) text += " on " + inQuotes(told.otherName);
+  const auto ms = [stepUs](double t) { return t * stepUs / kUsPerMs; };
+  if (bracket.verdict == BracketVerdict::Certain && bracket.possibleFrom > 0.0) {
+    return text + fmt::format(", from {:.1f} to {:.1f} ms on", ms(bracket.possibleFrom),
+                              ms(bracket.certainFrom));
+  }
+  return text;
+}
+
+/// Those of one verdict, after these words.
+std::string touchesText(const PersonMessage& message, BracketVerdict verdict, const char* words) {
+  constexpr int kShown = 4;
+  const auto stepUs = static_cast<double>(message.utimeToUs - message.utimeFromUs);
+  std::string text;
+  int count = 0;
+  for (const ToldBracket& told : message.brackets) {
+    if (told.bracket.verdict != verdict || ++count > kShown) continue;
+    text += (count == 1 ? words : "; ") + touchText(told, stepUs);
+  }
+  if (count > kShown) text += fmt::format("; and {} more", count - kShown);
+  return text;
+}
+
+std::string aheadText(const PersonMessage& message) {
+  std::int64_t least = message.utimeUs + message.aheadUs;
+  bool isClaimed = false;
+  for (const std::int64_t notBefore : message.notBeforeUs) {
+    if (notBefore < 0) continue;
+    isClaimed = true;
+    least = std::min(least, notBefore);
+  }
+  if (!isClaimed) return "";
+  return fmt::format(
+      ", nothing for {:.1f} ms",
+      static_cast<double>(std::max<std::int64_t>(0, least - message.utimeUs)) / kUsPerMs);
+}
+
+std::string brokenText(const BrokenBound& broken) {
+  return fmt::format(", link {} breaks its bound ({}) by {:.1f} mm", broken.link,
+                     toString(broken.claim), kMmInM * broken.beyond);
+}
+
+}  // namespace
+
+void writePerson(const PersonMessage& message, Stamps stamps, JsonWriter& out) {
+  out.beginObject();
+  out.field("avatar", message.avatar);
+  out.field("session", message.session);
+  out.field("sequence", message.sequence);
+  out.field("utime", message.utimeUs);
+  out.field("between", toString(message.model));
+  out.field("bounds_hash", hashText(message.boundsHash));
+  out.field("resolution", message.resolution);
+  out.field("kind", toString(message.kind));
+  out.field("sequence_from", message.sequenceFrom);
+  out.field("sequence_to", message.sequenceTo);
+  out.field("utime_from", message.utimeFromUs);
+  out.field("utime_to", message.utimeToUs);
+  out.list("verdicts", message.verdicts,
+           [&](BracketVerdict verdict) { out.value(toString(verdict)); });
+  if (message.aheadUs > 0) {
+    out.field("ahead_us", message.aheadUs);
+    out.list("not_before", message.notBeforeUs, [&](std::int64_t notBefore) {
+      notBefore < 0 ? out.raw("null") : out.value(notBefore);
+    });
+  }
+  out.list("brackets", message.brackets, [&](const ToldBracket& told) { writeTold(told, out); });
+  if (message.bracketsLeftOut > 0) out.field("brackets_left_out", message.bracketsLeftOut);
+  out.list("broken", message.broken, [&](const BrokenBound& broken) {
+    out.beginObject();
+    out.field("link", broken.link);
+    out.field("claim", toString(broken.claim));
+    out.field("beyond", broken.beyond);
+    out.endObject();
+  });
+  if (stamps == Stamps::With) {
+    out.field("receive_utime", message.receiveUtimeUs);
+    out.field("send_utime", message.sendUtimeUs);
+    out.field("person_us", message.personUs);
+  }
+  out.endObject();
+}
+
+std::string personStepLine(const PersonMessage& message, Stamps stamps) {
+  std::string text;
+  JsonWriter out(text);
+  out.beginObject();
+  out.key("person_step");
+  writePerson(message, stamps, out);
+  out.endObject();
+  return text + "\n";
+}
+
+std::string personStepText(const PersonMessage& message) {
+  std::string text =
+      fmt::format("avatar {}, pose {}: the person", message.avatar, message.sequenceTo);
+  const std::string surely = touchesText(message, BracketVerdict::Certain, " surely touched "),
+                    perhaps = touchesText(message, BracketVerdict::Possible, " perhaps touched ");
+  text += surely + (surely.empty() || perhaps.empty() ? "" : ",") + perhaps;
+  if (surely.empty() && perhaps.empty()) {
+    const bool isKnown =
+        std::any_of(message.verdicts.begin(), message.verdicts.end(),
+                    [](BracketVerdict v) { return v != BracketVerdict::Unclaimed; });
+    text += isKnown ? " touched nothing of the scene" : ": nothing is claimed";
+  }
+  text += aheadText(message);
+  for (const BrokenBound& broken : message.broken) text += brokenText(broken);
+  return text + "\n";
+}
+
+bool PersonNews::isNews(const PersonMessage& message) {
+  if (last_.size() >= kMostToldAvatars && last_.count(message.avatar) == 0) last_.clear();
+  Touching now;
+  for (const ToldBracket& told : message.brackets) {
+    now.emplace_back(told.bracket.link, told.bracket.other, told.bracket.verdict);
+  }
+  Touching& before = last_[message.avatar];
+  const bool isOther = now != before;
+  before = std::move(now);
+  return isOther || !message.broken.empty();
+}
+
+}  // namespace foretouch::tools
