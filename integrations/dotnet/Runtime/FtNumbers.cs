@@ -54,12 +54,7 @@ namespace Foretouch {
       Ft.Must(FtNative.ft_rotations_from_floats(&xyzw.x, 1, axes, &converted.w));
       return converted;
     }
-    public static double[] Positions(ReadOnlySpan<Float3> positions, int axes) {
-      var converted = new double[3 * positions.Length];
-      if (converted.Length == 0) return converted;
-      fixed (Float3* from = &MemoryMarshal.GetReference(positions)) fixed (double* to = converted)
-        Ft.Must(FtNative.ft_positions_from_floats(&from->x, (ulong)positions.Length, axes, to));
-      return converted;
-    }
+    /// <summary>Metres, of a length in the engine's unit.</summary>
+    public static double Length(float length, int axes) { return Position(new Float3(length, 0, 0), axes).x; }
   }
 }

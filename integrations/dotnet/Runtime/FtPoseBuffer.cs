@@ -34,6 +34,29 @@ namespace Foretouch {
     /// <summary>x, y, z per joint, metres.</summary>
     public Span<double> Translations { get { return new Span<double>(Native->translations, 3 * joints); } }
 
+    /// <summary>Of one joint, in its parent's frame; of a root in W.</summary>
+    public void SetPosition(int joint, FtVector to) {
+      Span<double> position = Translations.Slice(3 * joint, 3);
+      position[0] = to.x;
+      position[1] = to.y;
+      position[2] = to.z;
+    }
+    public void SetRotation(int joint, FtRotation to) {
+      Span<double> rotation = Rotations.Slice(4 * joint, 4);
+      rotation[0] = to.w;
+      rotation[1] = to.x;
+      rotation[2] = to.y;
+      rotation[3] = to.z;
+    }
+    public FtVector Position(int joint) {
+      Span<double> at = Translations.Slice(3 * joint, 3);
+      return new FtVector(at[0], at[1], at[2]);
+    }
+    public FtRotation Rotation(int joint) {
+      Span<double> at = Rotations.Slice(4 * joint, 4);
+      return new FtRotation(at[0], at[1], at[2], at[3]);
+    }
+
     public void CopyFrom(FtPoseBuffer other) {
       other.Rotations.CopyTo(Rotations);
       other.Translations.CopyTo(Translations);
