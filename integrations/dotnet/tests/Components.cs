@@ -185,6 +185,13 @@ static class Components {
     Player.FixedUpdate(ball, events);
     Check.Equal(touches.Count, 1, "and it goes on");
     Check.Equal(told.Count, 2, "and so do events");
+    Player.Pause(ball, events);
+    ball.transform.localPosition = new Vector3(0, 0, 2);
+    Player.FixedUpdate(ball, events);
+    ball.transform.localPosition = new Vector3(0, 0, 0);
+    Player.Pause(ball, events);
+    Player.FixedUpdate(ball, events);
+    Check.Equal(touches.Count + told.Count, 3, "nor is what nobody saw while the program slept");
     scene.Rebuild();
     Player.FixedUpdate(ball, events);
     ball.transform.localPosition = new Vector3(0, 0, 2);
@@ -193,13 +200,47 @@ static class Components {
     NothingSaid("a reload");
   }
 
+  static void WhoIsToldMayDestroyWhatTells() {
+    Clear();
+    var rig = new Transform("Rig", null);
+    foreach (string name in new[] { "Left", "Right" }) {
+      var joint = new Transform(name, rig) { localPosition = new Vector3(name == "Left" ? -0.5f : 0.5f, 0, 0) };
+      joint.AddComponent<SphereCollider>().radius = 0.05f;
+    }
+    ForetouchScene scene = Wall();
+    var body = rig.AddComponent<ForetouchBody>();
+    body.scene = scene;
+    var events = rig.AddComponent<TouchEvents>();
+    events.still = scene;
+    events.bodies = new[] { body };
+    int touches = 0, told = 0;
+    body.Touched += touch => {
+      if (++touches == 1) Player.Destroy(body);
+      if (touches == 1) Player.Destroy(scene);
+    };
+    events.Happened += happened => {
+      if (++told == 1) Player.Destroy(events);
+    };
+    Run(body);
+    Run(events);
+    rig.localPosition = new Vector3(0, 0, 2);
+    Player.FixedUpdate(events, body);
+    Check.Equal(touches + told, 2, "of two touches and four events, the first ones");
+    NothingSaid("what is destroyed");
+  }
+
+  static void Run(MonoBehaviour one) {
+    Player.Enable(one);
+    Player.FixedUpdate(one);
+  }
+
   static void BadHabitsAreToldInTheHostsWords() {
     Clear();
     // Non-uniform scale, at the begin and later.
     var uneven = new Transform("Arm", null) { localScale = new Vector3(1, 2, 1) };
     uneven.AddComponent<SphereCollider>().radius = 0.05f;
     var body = uneven.AddComponent<ForetouchBody>();
-    Player.Enable(body);
+    Run(body);
     Check.Has(Said(), "ForetouchBody 'Arm': transform 'Arm' has the scale (1, 2, 1)");
     Check.That(!body.enabled, "it is disabled");
     Clear();
@@ -254,31 +295,31 @@ static class Components {
 
     // A skeleton without capsules, out of order, and a hand that shows another number.
     var plain = new Transform("Plain", null);
-    Player.Enable(plain.AddComponent<ForetouchBody>());
+    Run(plain.AddComponent<ForetouchBody>());
     Check.Has(Said(), "has no joints");
     Clear();
     var child = new Transform("Child", plain);
     var listed = plain.AddComponent<ForetouchBody>();
     listed.joints = new[] { child, plain };
-    Player.Enable(listed);
+    Run(listed);
     Check.Has(Said(), "joint 'Child' is listed before its parent 'Plain'");
     Clear();
     listed.joints = new[] { plain, child };
-    Player.Enable(listed);
+    Run(listed);
     Check.Has(Said(), "has no capsules");
     Clear();
     listed.joints = new[] { plain, null };
-    Player.Enable(listed);
+    Run(listed);
     Check.Has(Said(), "the transform of joint 1 is missing");
     Clear();
     var hand = new Transform("Hand", null).AddComponent<SolidHand>();
     hand.scene = Wall();
     hand.tracked = Ball("Tracked", null);
-    Player.Enable(hand);
+    Run(hand);
     Check.Has(Said(), "shows 0 transforms and 1 joints are tracked");
     Clear();
     hand.shown = new[] { new Transform("Shown", null) };
-    Player.Enable(hand);
+    Run(hand);
     Player.FixedUpdate(hand);
     NothingSaid("a hand that is right");
     Player.Destroy(hand.tracked);
@@ -291,11 +332,11 @@ static class Components {
     door.transform.localScale = new Vector3(-1, 1, 1);
     var events = new Transform("Events", null).AddComponent<TouchEvents>();
     events.props = new[] { door };
-    Player.Enable(events);
+    Run(events);
     Check.Has(Said(), "the prop 'Door' is mirrored, flat or skewed");
     Clear();
     door.transform.localScale = new Vector3(1, 1, 1);
-    Player.Enable(events);
+    Run(events);
     Player.FixedUpdate(events);
     door.transform.localScale = new Vector3(1, 1, 3);
     Player.FixedUpdate(events);
@@ -325,6 +366,7 @@ static class Components {
     AHandStopsAndComesBack();
     EventsAreToldOnce();
     AReloadOfScriptsIsAGap();
+    WhoIsToldMayDestroyWhatTells();
     BadHabitsAreToldInTheHostsWords();
     return Check.Done("components");
   }

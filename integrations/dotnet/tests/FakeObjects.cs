@@ -1,14 +1,10 @@
-// FakeObjects.cs: game objects of FakeUnity.cs, as the sample makes them: components of an active object
-// are enabled when they are added, those of another one when it becomes active.
-using System.Collections.Generic;
-
+// FakeObjects.cs: game objects of FakeUnity.cs, as the sample makes them: components are enabled when they
+// are added.
 namespace UnityEngine {
   public enum PrimitiveType { Sphere, Cube }
 
   public sealed class GameObject : Object {
     public readonly Transform transform;
-    readonly List<MonoBehaviour> waiting = new List<MonoBehaviour>();
-    bool isActive = true;
 
     public GameObject(string name) {
       transform = new Transform(name, null);
@@ -18,23 +14,11 @@ namespace UnityEngine {
     public T AddComponent<T>() where T : Component, new() {
       T added = transform.AddComponent<T>();
       var script = added as MonoBehaviour;
-      if (script != null) waiting.Add(script);
-      if (isActive) Wake();
+      if (script == null) return added;
+      Player.Call(script, "Awake");
+      Player.Scripts.Add(script);
+      Player.Enable(script);
       return added;
-    }
-
-    public void SetActive(bool active) {
-      isActive = active;
-      if (active) Wake();
-    }
-
-    void Wake() {
-      foreach (MonoBehaviour one in waiting.ToArray()) {
-        waiting.Remove(one);
-        Player.Call(one, "Awake");
-        Player.Scripts.Add(one);
-        Player.Enable(one);
-      }
     }
 
     public static GameObject CreatePrimitive(PrimitiveType kind) {

@@ -137,13 +137,13 @@ namespace UnityEngine {
   public static class Player {
     /// Of game objects: all that get fixed updates.
     public static readonly List<MonoBehaviour> Scripts = new List<MonoBehaviour>();
-    public static void Call(MonoBehaviour of, string message) {
+    public static void Call(MonoBehaviour of, string message, params object[] arguments) {
       MethodInfo method = null;
       for (Type type = of.GetType(); method == null && type != null; type = type.BaseType)
         method = type.GetMethod(message, BindingFlags.NonPublic | BindingFlags.Public | BindingFlags.Instance | BindingFlags.DeclaredOnly);
       if (method == null) return;
       try {
-        method.Invoke(of, null);
+        method.Invoke(of, arguments);
       } catch (TargetInvocationException reason) {
         throw new Exception(of.name + "." + message + ": " + reason.InnerException, reason.InnerException);
       }
@@ -163,6 +163,10 @@ namespace UnityEngine {
     public static void Destroy(Transform one) { one.isDestroyed = true; }
     public static void FixedUpdate(params MonoBehaviour[] all) {
       foreach (MonoBehaviour one in all) if (one.isActiveAndEnabled) Call(one, "FixedUpdate");
+    }
+    public static void Pause(params MonoBehaviour[] all) {
+      foreach (bool isPaused in new[] { true, false })
+        foreach (MonoBehaviour one in all) Call(one, "OnApplicationPause", isPaused);
     }
     /// As the editor does when scripts were changed.
     public static void Reload(params MonoBehaviour[] all) {

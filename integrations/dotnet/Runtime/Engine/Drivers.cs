@@ -31,7 +31,9 @@ namespace Foretouch {
       hasBegun = true;
       if (!goesOn || tell == null) return;
       ReadOnlySpan<FtContact> contacts = query.Contacts();
-      for (int i = 0; i < contacts.Length; ++i) tell(BodyTouch.Of(contacts[i], skeleton.Avatar, scene, skeleton.Axes));
+      // Who is told may destroy what tells.
+      for (int i = 0; i < contacts.Length && !query.IsClosed; ++i)
+        tell(BodyTouch.Of(contacts[i], skeleton.Avatar, scene, skeleton.Axes));
     }
 
     /// <summary>After a teleport, or a gap in tracking.</summary>
@@ -84,7 +86,8 @@ namespace Foretouch {
     /// <summary>Of the last Follow().</summary>
     public void TellPresses(Action<HandPress> tell) {
       ReadOnlySpan<FtSolidContact> contacts = solid.Contacts();
-      for (int i = 0; i < contacts.Length; ++i) tell(HandPress.Of(contacts[i], tracked.Avatar, scene, tracked.Axes));
+      for (int i = 0; i < contacts.Length && !solid.IsClosed; ++i)
+        tell(HandPress.Of(contacts[i], tracked.Avatar, scene, tracked.Axes));
     }
 
     public void Reset() { solid.Reset(); }

@@ -59,8 +59,8 @@ namespace Foretouch {
       }
       world.Follow(us);
       ReadOnlySpan<FtEvent> events = world.Events();
-      for (int i = 0; i < events.Length; ++i) tell(Told(events[i]));
-      world.ForgetBefore(us);
+      for (int i = 0; i < events.Length && !world.IsClosed; ++i) tell(Told(events[i]));
+      if (!world.IsClosed) world.ForgetBefore(us);
     }
 
     TouchEvent Told(FtEvent e) {

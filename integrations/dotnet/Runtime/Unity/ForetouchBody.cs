@@ -6,6 +6,7 @@ using UnityEngine;
 
 namespace Foretouch {
   [AddComponentMenu("Foretouch/Foretouch Body")]
+  [DefaultExecutionOrder(-50)]
   public sealed class ForetouchBody : ForetouchComponent {
     [Tooltip("What it touches. None: it is for SolidHand or TouchEvents alone.")]
     public ForetouchScene scene;
@@ -32,6 +33,9 @@ namespace Foretouch {
       if (stepper != null) stepper.Restart();
     }
 
+    /// Nobody saw what the body did while the program slept.
+    void OnApplicationPause(bool isPaused) { Restart(); }
+
     protected override void Build() {
       Joints = joints.Length > 0 ? joints : WithColliders();
       var capsules = new List<BodyCapsule>();
@@ -50,7 +54,7 @@ namespace Foretouch {
 
     void FixedUpdate() {
       hadScene |= scene != null;  // one that was destroyed since is told
-      if (hadScene && IsReady) Try(step);
+      if (IsReady && hadScene) Try(step);
     }
 
     void Step() {

@@ -1,5 +1,6 @@
-// ForetouchComponent.cs: what all components share: they build when they are enabled, release when they
-// are disabled (as Unity does to all of them before it reloads scripts), and say once what is wrong.
+// ForetouchComponent.cs: what all components share: they build when they are first needed, so that it does
+// not matter which one Unity enables first, nor that fields are set after a component was added; they
+// release when they are disabled (as Unity does to all before it reloads scripts), and say once what is wrong.
 #if UNITY_5_3_OR_NEWER
 using System;
 using UnityEngine;
@@ -43,7 +44,6 @@ namespace Foretouch {
       enabled = false;
     }
 
-    protected virtual void OnEnable() { bool isReady = IsReady; }
     protected virtual void OnDisable() {
       isBuilt = false;
       Release();

@@ -18,6 +18,8 @@ namespace Foretouch {
       OnEnable();
     }
 
+    void OnEnable() { bool isReady = IsReady; }
+
     protected override void Build() {
       made = SceneMaker.Make(Owner, UnityHost.Meshes(GetComponentsInChildren<MeshFilter>()), FtAxes.YUpLeft, Warn);
       ++Version;

@@ -66,6 +66,9 @@ namespace Foretouch {
       teller.Tick(Time.fixedDeltaTime, tell);
     }
 
+    /// Nobody saw what happened while the program slept: it begins anew.
+    void OnApplicationPause(bool isPaused) { OnDisable(); }
+
     void Tell(TouchEvent happened) {
       if (Happened != null) Happened(happened);
     }

@@ -30,14 +30,10 @@ public sealed class HandOnDesk : MonoBehaviour {
     GameObject shown = GameObject.CreatePrimitive(PrimitiveType.Sphere);
     shown.name = "Shown hand";
     shown.transform.localScale = ball.transform.localScale;
-    // Fields are set before the component is enabled.
-    var holder = new GameObject("Solid hand");
-    holder.SetActive(false);
-    hand = holder.AddComponent<SolidHand>();
+    hand = shown.AddComponent<SolidHand>();
     hand.scene = scene;
     hand.tracked = body;
     hand.shown = new[] { shown.transform };
-    holder.SetActive(true);
   }
 
   // Down into the desk, along it and up again, every four seconds.
