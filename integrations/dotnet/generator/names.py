@@ -1,4 +1,5 @@
 """How the names and types of C are called in C#, and the header's comments as documentation."""
+import textwrap
 from xml.sax.saxutils import escape
 
 SCALARS = {"int32_t": "int", "uint32_t": "uint", "int64_t": "long", "uint64_t": "ulong", "double": "double",
@@ -23,13 +24,6 @@ def type_name(c_name):
 
 
 def summary(doc, indent):
-    if not doc:
-        return ""
-    lines, line = [], ""
-    for word in escape(doc).split(" "):
-        if len(indent) + len(line) + len(word) > 104:
-            lines, line = lines + [line], ""
-        line += (" " if line else "") + word
-    return "".join(f"{indent}/// {one}\n" for one in ["<summary>" + (lines + [line])[0]] +
-                   (lines + [line])[1:-1] + ([line + "</summary>"] if lines else [])) if lines else \
-        f"{indent}/// <summary>{line}</summary>\n"
+    """A comment of the header, for whoever writes C# in an editor that shows it."""
+    lines = textwrap.wrap(f"<summary>{escape(doc)}</summary>", 100, break_long_words=False, break_on_hyphens=False)
+    return "".join(f"{indent}/// {line}\n" for line in lines) if doc else ""

@@ -33,6 +33,7 @@ fi
 
 echo "== what is generated"
 generate check
+python3 "$here/generator_test.py" 2>&1 | tail -n 1
 
 echo "== how structs lie in memory, and what functions take"
 generate layout >"$folder/layout.c"

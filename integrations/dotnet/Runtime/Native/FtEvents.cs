@@ -8,9 +8,9 @@ namespace Foretouch {
     public uint size;
     /// <summary>1 to 256, the calling one among them; default 1</summary>
     public int threads;
-    /// <summary>Where time is cut. 0, the default: at every pose of any body. Else at the multiples of so many
-    /// microseconds, up to 10^7: less work for many bodies with clocks of their own; what is after the last
-    /// multiple waits.</summary>
+    /// <summary>Where time is cut. 0, the default: at every pose of any body. Else at the multiples of so
+    /// many microseconds, up to 10^7: less work for many bodies with clocks of their own; what is after the
+    /// last multiple waits.</summary>
     public long cutUs;
   }
   public partial struct FtEvent {
@@ -44,9 +44,9 @@ namespace Foretouch {
     /// <summary>metres; below zero where the two overlap</summary>
     public double separation;
   }
-  /// <summary>One thing that happens to two links, or to a link and an object of a mesh or of what is still. Of
-  /// FT_EVENT_UNRESOLVED_* the points are zero, links may be FT_EVERY_LINK, and b.body may be FT_EVERY_BODY:
-  /// a body that is silent, and taken to be undecided.</summary>
+  /// <summary>One thing that happens to two links, or to a link and an object of a mesh or of what is
+  /// still. Of FT_EVENT_UNRESOLVED_* the points are zero, links may be FT_EVERY_LINK, and b.body may be
+  /// FT_EVERY_BODY: a body that is silent, and taken to be undecided.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtEvent {
     public uint size;
@@ -73,11 +73,11 @@ namespace Foretouch {
     public FtVector velocity;
     /// <summary>m/s along the normal, above zero while the two approach</summary>
     public double approachSpeed;
-    /// <summary>If these two points touch before the next pose of any body that they depend on, they do so at a speed
-    /// between these along this normal. A lower one below zero: a graze, perhaps.</summary>
+    /// <summary>If these two points touch before the next pose of any body that they depend on, they do so
+    /// at a speed between these along this normal. A lower one below zero: a graze, perhaps.</summary>
     public double approachLower;
-    /// <summary>If these two points touch before the next pose of any body that they depend on, they do so at a speed
-    /// between these along this normal. A lower one below zero: a graze, perhaps.</summary>
+    /// <summary>If these two points touch before the next pose of any body that they depend on, they do so
+    /// at a speed between these along this normal. A lower one below zero: a graze, perhaps.</summary>
     public double approachUpper;
     /// <summary>kg along the normal; infinite if neither body was weighed</summary>
     public double effectiveMass;
@@ -106,8 +106,8 @@ namespace Foretouch {
       }
     }
   }
-  /// <summary>What two do in a part of the time. Everything else is free: their separation is above zero throughout.
-  /// Contact: it is at most twice the tolerance throughout.</summary>
+  /// <summary>What two do in a part of the time. Everything else is free: their separation is above zero
+  /// throughout. Contact: it is at most twice the tolerance throughout.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtPart {
     public uint size;
@@ -134,7 +134,8 @@ namespace Foretouch {
     public FtWorldSide b;
   }
   public static partial class Ft {
-    /// <summary>In the event of a body altogether, in place of the other one: whatever it is asked about.</summary>
+    /// <summary>In the event of a body altogether, in place of the other one: whatever it is asked
+    /// about.</summary>
     public const int EveryBody = -2;
   }
   public unsafe partial struct FtFollowOptions {
@@ -149,8 +150,8 @@ namespace Foretouch {
   }
   public sealed unsafe partial class FtWorld {
     readonly FtBuffer<FtEvent> eventsBuffer = new FtBuffer<FtEvent>();
-    /// <summary>All events of the last call, earliest first. In arrays, the first element's size applies to all.
-    /// FT_ERROR_NO_STEP before the first ft_world_follow(), as for the next one. O(n).</summary>
+    /// <summary>All events of the last call, earliest first. In arrays, the first element's size applies to
+    /// all. FT_ERROR_NO_STEP before the first ft_world_follow(), as for the next one. O(n).</summary>
     public ReadOnlySpan<FtEvent> Events() {
       ulong count;
       int status;
@@ -163,7 +164,8 @@ namespace Foretouch {
       return eventsBuffer.First(count);
     }
     readonly FtBuffer<FtPart> partsBuffer = new FtBuffer<FtPart>();
-    /// <summary>The parts of the last call's time in which two are not free, by pair, then by time. O(n).</summary>
+    /// <summary>The parts of the last call's time in which two are not free, by pair, then by time.
+    /// O(n).</summary>
     public ReadOnlySpan<FtPart> Parts() {
       ulong count;
       int status;
@@ -191,28 +193,31 @@ namespace Foretouch {
   }
   public static unsafe partial class FtNative {
     [DllImport(Library)] public static extern int ft_follow_options_init(FtFollowOptions* options, ulong size);
-    /// <summary>Follows the world from `from_us` on: nothing before is told, and who is in contact there starts
-    /// inside. Called again, it begins anew: what bodies weigh is to be said again. `options` may be NULL.
-    /// Errors: options or an instant out of range.</summary>
+    /// <summary>Follows the world from `from_us` on: nothing before is told, and who is in contact there
+    /// starts inside. Called again, it begins anew: what bodies weigh is to be said again. `options` may be
+    /// NULL. Errors: options or an instant out of range.</summary>
     [DllImport(Library)] public static extern int ft_world_follow_from(FtWorld world, long fromUs, FtFollowOptions* options);
-    /// <summary>What a rigid body weighs, for the effective mass: `center[3]` (metres) and `inertia[9]` (kg m2, row
-    /// after row, about the centre) in the body's frame. Whoever is not weighed is moved by nothing.
-    /// FT_ERROR_NO_STEP before ft_world_follow_from(), as for all that follow. Errors: an unknown body, one
-    /// of several joints, a mass that nothing can have.</summary>
+    /// <summary>What a rigid body weighs, for the effective mass: `center[3]` (metres) and `inertia[9]` (kg
+    /// m2, row after row, about the centre) in the body's frame. Whoever is not weighed is moved by
+    /// nothing. FT_ERROR_NO_STEP before ft_world_follow_from(), as for all that follow. Errors: an unknown
+    /// body, one of several joints, a mass that nothing can have.</summary>
     [DllImport(Library)] public static extern int ft_world_weigh(FtWorld world, int body, double kg, double* center, double* inertia);
-    /// <summary>The same of an avatar that is a ragdoll: its LSS weigh `kg` in all, of one density.</summary>
+    /// <summary>The same of an avatar that is a ragdoll: its LSS weigh `kg` in all, of one
+    /// density.</summary>
     [DllImport(Library)] public static extern int ft_world_weigh_avatar(FtWorld world, int body, double kg);
-    /// <summary>Finds everything that happens from where the last call ended until `until_us`; nothing if that is not
-    /// later. What is told depends on the poses alone: not on threads, on the order in which poses came, nor
-    /// on the calls, as long as each ends where time is cut (ft_world_known_until() is a pose). Errors: as
-    /// ft_world_answer(), and more than 10^7 cuts in one call; then nothing has been followed.</summary>
+    /// <summary>Finds everything that happens from where the last call ended until `until_us`; nothing if
+    /// that is not later. What is told depends on the poses alone: not on threads, on the order in which
+    /// poses came, nor on the calls, as long as each ends where time is cut (ft_world_known_until() is a
+    /// pose). Errors: as ft_world_answer(), and more than 10^7 cuts in one call; then nothing has been
+    /// followed.</summary>
     [DllImport(Library)] public static extern int ft_world_follow(FtWorld world, long untilUs);
     /// <summary>Stores from and until where the last call has followed. Either may be NULL.</summary>
     [DllImport(Library)] public static extern int ft_world_followed(FtWorld world, out long fromUs, out long untilUs);
-    /// <summary>All events of the last call, earliest first. In arrays, the first element's size applies to all.
-    /// FT_ERROR_NO_STEP before the first ft_world_follow(), as for the next one. O(n).</summary>
+    /// <summary>All events of the last call, earliest first. In arrays, the first element's size applies to
+    /// all. FT_ERROR_NO_STEP before the first ft_world_follow(), as for the next one. O(n).</summary>
     [DllImport(Library)] public static extern int ft_world_events(FtWorld world, FtEvent* events, ulong capacity, out ulong required);
-    /// <summary>The parts of the last call's time in which two are not free, by pair, then by time. O(n).</summary>
+    /// <summary>The parts of the last call's time in which two are not free, by pair, then by time.
+    /// O(n).</summary>
     [DllImport(Library)] public static extern int ft_world_parts(FtWorld world, FtPart* parts, ulong capacity, out ulong required);
     /// <summary>Those that have not ended, by pair: who is in contact now, and since when. O(n).</summary>
     [DllImport(Library)] public static extern int ft_world_open_parts(FtWorld world, FtPart* parts, ulong capacity, out ulong required);

@@ -105,17 +105,19 @@ namespace Foretouch {
   [StructLayout(LayoutKind.Sequential)]
   public unsafe partial struct FtImportOptions {
     public uint size;
-    /// <summary>Of the file, in place of what it says itself; default FT_UP_FILE. Z: (x, y, z) becomes (x, z, -y).</summary>
+    /// <summary>Of the file, in place of what it says itself; default FT_UP_FILE. Z: (x, y, z) becomes (x,
+    /// z, -y).</summary>
     public int up;
     /// <summary>metres per unit, likewise; default 0: as the file says, else 1</summary>
     public double scale;
-    /// <summary>Of the importing process; default 8 GiB. At most half of the machine's memory is used.</summary>
+    /// <summary>Of the importing process; default 8 GiB. At most half of the machine's memory is
+    /// used.</summary>
     public ulong memoryLimitBytes;
     /// <summary>likewise; default 60</summary>
     public double timeLimitS;
-    /// <summary>Path of the program foretouch-import. NULL: $FORETOUCH_IMPORTER; else in the library's folder; else
-    /// in libexec/foretouch of the library's prefix, beside the running program, and where Foretouch was
-    /// installed.</summary>
+    /// <summary>Path of the program foretouch-import. NULL: $FORETOUCH_IMPORTER; else in the library's
+    /// folder; else in libexec/foretouch of the library's prefix, beside the running program, and where
+    /// Foretouch was installed.</summary>
     public byte* importer;
   }
   [StructLayout(LayoutKind.Sequential)]
@@ -181,7 +183,8 @@ namespace Foretouch {
     /// <summary>x, y, z per joint; replace the offsets; NULL: the offsets</summary>
     public double* translations;
   }
-  /// <summary>Axes and units of an engine's floats, and their conversion; quaternions in the order x, y, z, w.</summary>
+  /// <summary>Axes and units of an engine's floats, and their conversion; quaternions in the order x, y,
+  /// z, w.</summary>
   public static partial class FtAxes {
     /// <summary>metres, as here: Godot, OpenXR, glTF</summary>
     public const int YUpRight = 0;
@@ -276,16 +279,16 @@ namespace Foretouch {
     public ulong leftOut;
     public ulong radii;
   }
-  /// <summary>Of every pair of links with LSS, by a, then by b: in how many of the usual poses the two touch. None of
-  /// rules that were not derived from poses.</summary>
+  /// <summary>Of every pair of links with LSS, by a, then by b: in how many of the usual poses the two
+  /// touch. None of rules that were not derived from poses.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtPairTouches {
     public int a;
     public int b;
     public long touches;
   }
-  /// <summary>What counts as a link's surface. 1, 2 and 3 were LIMB, AVATAR and ELLIPSOID, volumes around several
-  /// links: they are refused, and the error says why.</summary>
+  /// <summary>What counts as a link's surface. 1, 2 and 3 were LIMB, AVATAR and ELLIPSOID, volumes around
+  /// several links: they are refused, and the error says why.</summary>
   public static partial class FtFidelity {
     /// <summary>its LSS</summary>
     public const int Link = 0;
@@ -297,8 +300,8 @@ namespace Foretouch {
     public const int EveryLink = 0;
     /// <summary>the links that touch first; others: undecided, after_first</summary>
     public const int FirstOfAvatar = 1;
-    /// <summary>every link's own first contact with each object as well (ft_query_objects); FT_FIDELITY_LINK or
-    /// _EXACT, no budget</summary>
+    /// <summary>every link's own first contact with each object as well (ft_query_objects);
+    /// FT_FIDELITY_LINK or _EXACT, no budget</summary>
     public const int EveryObject = 2;
   }
   /// <summary>A link, or a link and one object, whose contacts the query ignores.</summary>
@@ -318,9 +321,9 @@ namespace Foretouch {
     /// <summary>0</summary>
     public int reserved;
   }
-  /// <summary>What a link has with one object, if objects differ. Later policies win; what one leaves out stays as
-  /// earlier ones set it, or else as for all links. A link's tolerance is the least of those that it has
-  /// with the objects that it does not ignore.</summary>
+  /// <summary>What a link has with one object, if objects differ. Later policies win; what one leaves out
+  /// stays as earlier ones set it, or else as for all links. A link's tolerance is the least of those
+  /// that it has with the objects that it does not ignore.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtObjectPolicy {
     /// <summary>or FT_EVERY_LINK</summary>
@@ -358,9 +361,10 @@ namespace Foretouch {
     public FtObjectPolicy* objectPolicies;
     /// <summary>with tolerance or fidelity: not beside policies</summary>
     public ulong objectPolicyCount;
-    /// <summary>1: a link that begins within the tolerance of the scene without touching it, and does not approach
-    /// it, goes on; its first contact is the next one within a quarter of the separation that it began with.
-    /// So an avatar that was stopped at `toi` can leave again. FT_FIDELITY_LINK or _EXACT.</summary>
+    /// <summary>1: a link that begins within the tolerance of the scene without touching it, and does not
+    /// approach it, goes on; its first contact is the next one within a quarter of the separation that it
+    /// began with. So an avatar that was stopped at `toi` can leave again. FT_FIDELITY_LINK or
+    /// _EXACT.</summary>
     public int passSeparating;
     /// <summary>0</summary>
     public int reservedEnd;
@@ -391,8 +395,8 @@ namespace Foretouch {
     public const int Edge = 1;
     public const int Face = 2;
   }
-  /// <summary>What one link meets first. Sound: toi and free_until never exceed the true time of contact. In arrays,
-  /// the first element's size applies to all, and the library sets the others'.</summary>
+  /// <summary>What one link meets first. Sound: toi and free_until never exceed the true time of contact.
+  /// In arrays, the first element's size applies to all, and the library sets the others'.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtContact {
     public uint size;
@@ -452,7 +456,8 @@ namespace Foretouch {
     /// <summary>0</summary>
     public int reserved;
   }
-  /// <summary>More about one contact, at its toi. Velocities in metres per unit of t: divide by the step's seconds.</summary>
+  /// <summary>More about one contact, at its toi. Velocities in metres per unit of t: divide by the
+  /// step's seconds.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtContactDetails {
     public uint size;
@@ -462,14 +467,16 @@ namespace Foretouch {
     public FtVector velocityLink;
     /// <summary>along the normal, above 0 while the two approach; 0 without a normal</summary>
     public double approachSpeed;
-    /// <summary>If these two points touch in the rest of the step, within the tolerance from here, they do so at a
-    /// speed between these along this normal. A lower bound below 0: perhaps they never touch.</summary>
+    /// <summary>If these two points touch in the rest of the step, within the tolerance from here, they do
+    /// so at a speed between these along this normal. A lower bound below 0: perhaps they never
+    /// touch.</summary>
     public double approachLower;
-    /// <summary>If these two points touch in the rest of the step, within the tolerance from here, they do so at a
-    /// speed between these along this normal. A lower bound below 0: perhaps they never touch.</summary>
+    /// <summary>If these two points touch in the rest of the step, within the tolerance from here, they do
+    /// so at a speed between these along this normal. A lower bound below 0: perhaps they never
+    /// touch.</summary>
     public double approachUpper;
-    /// <summary>Of what is within the tolerance: the nearest first, then points far from it and from each other. At
-    /// FT_FIDELITY_LINK and _EXACT; elsewhere there are none.</summary>
+    /// <summary>Of what is within the tolerance: the nearest first, then points far from it and from each
+    /// other. At FT_FIDELITY_LINK and _EXACT; elsewhere there are none.</summary>
     public FtContactPointOf4 points;
   }
   [StructLayout(LayoutKind.Sequential)]
@@ -544,8 +551,8 @@ namespace Foretouch {
     public FtIgnoredPair* ignored;
     public ulong ignoredCount;
   }
-  /// <summary>One place where an LSS of a link is near the scene. In arrays, the first element's size applies to all,
-  /// and the library sets the others'.</summary>
+  /// <summary>One place where an LSS of a link is near the scene. In arrays, the first element's size
+  /// applies to all, and the library sets the others'.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtNearFeature {
     public uint size;
@@ -577,8 +584,9 @@ namespace Foretouch {
     public int reserved;
   }
   public static partial class Ft {
-    /// <summary>Of this header and those beside it. Every new function or field increments it; programs built with an
-    /// older header still work. A change that would break them changes the library's soname instead.</summary>
+    /// <summary>Of this header and those beside it. Every new function or field increments it; programs
+    /// built with an older header still work. A change that would break them changes the library's soname
+    /// instead.</summary>
     public const int AbiVersion = 7;
     public const int EveryObject = -1;
     public const int EveryLink = -1;
@@ -624,8 +632,8 @@ namespace Foretouch {
     }
   }
   public sealed unsafe partial class FtAvatar {
-    /// <summary>Rotations (4 per joint) and translations (3 per joint) of the rest pose; either may be NULL.
-    /// `capacity` and `required` are in joints.</summary>
+    /// <summary>Rotations (4 per joint) and translations (3 per joint) of the rest pose; either may be
+    /// NULL. `capacity` and `required` are in joints.</summary>
     public void RestPose(FtPoseBuffer into) {
       ulong count;
       Ft.Must(FtNative.ft_avatar_rest_pose(this, into.Native->rotations, into.Native->translations, (ulong)into.JointCount, out count));
@@ -741,8 +749,8 @@ namespace Foretouch {
       return linksBuffer.First(count);
     }
     readonly FtBuffer<FtContact> contactsBuffer = new FtBuffer<FtContact>();
-    /// <summary>The links of the last step that are not clear, earliest first (undecided ones at their free_until);
-    /// at equal times, the lowest link first. O(links log links).</summary>
+    /// <summary>The links of the last step that are not clear, earliest first (undecided ones at their
+    /// free_until); at equal times, the lowest link first. O(links log links).</summary>
     public ReadOnlySpan<FtContact> Contacts() {
       ulong count;
       int status;
@@ -755,9 +763,10 @@ namespace Foretouch {
       return contactsBuffer.First(count);
     }
     readonly FtBuffer<FtContact> objectsBuffer = new FtBuffer<FtContact>();
-    /// <summary>With FT_SCOPE_EVERY_OBJECT: the first contact of every link with every object in the last step, in
-    /// the order of ft_query_contacts(). A link and an object that it does not list never touch, unless it
-    /// lists the link as undecided: then only before that. FT_ERROR_MISMATCH at other scopes.</summary>
+    /// <summary>With FT_SCOPE_EVERY_OBJECT: the first contact of every link with every object in the last
+    /// step, in the order of ft_query_contacts(). A link and an object that it does not list never touch,
+    /// unless it lists the link as undecided: then only before that. FT_ERROR_MISMATCH at other
+    /// scopes.</summary>
     public ReadOnlySpan<FtContact> Objects() {
       ulong count;
       int status;
@@ -769,17 +778,17 @@ namespace Foretouch {
       } while (objectsBuffer.HasGrown(status, count));
       return objectsBuffer.First(count);
     }
-    /// <summary>Fills as much of `details` as details-&gt;size covers, about the contact that `list` has at `index`.
-    /// Not meant for every contact of every step: it looks at the near pairs once more. FT_ERROR_MISMATCH if
-    /// the step has no such list, or if nothing is touched there.</summary>
+    /// <summary>Fills as much of `details` as details-&gt;size covers, about the contact that `list` has at
+    /// `index`. Not meant for every contact of every step: it looks at the near pairs once more.
+    /// FT_ERROR_MISMATCH if the step has no such list, or if nothing is touched there.</summary>
     public FtContactDetails Details(int list, int index) {
       var answer = new FtContactDetails { size = (uint)sizeof(FtContactDetails) };
       Ft.Must(FtNative.ft_query_details(this, list, (ulong)index, &answer));
       return answer;
     }
     readonly FtBuffer<FtTransform> motionTransformsBuffer = new FtBuffer<FtTransform>();
-    /// <summary>All links at `t` in [0, 1] of the last step's motion; at toi, the avatar's pose as it touches.
-    /// O(joints).</summary>
+    /// <summary>All links at `t` in [0, 1] of the last step's motion; at toi, the avatar's pose as it
+    /// touches. O(joints).</summary>
     public ReadOnlySpan<FtTransform> MotionTransforms(double t) {
       ulong count;
       int status;
@@ -790,8 +799,8 @@ namespace Foretouch {
       } while (motionTransformsBuffer.HasGrown(status, count));
       return motionTransformsBuffer.First(count);
     }
-    /// <summary>The pose at `t` in [0, 1] of the last step's motion, to begin the next step with: from toi on, say.
-    /// The given poses at both ends; otherwise like ft_avatar_rest_pose().</summary>
+    /// <summary>The pose at `t` in [0, 1] of the last step's motion, to begin the next step with: from toi
+    /// on, say. The given poses at both ends; otherwise like ft_avatar_rest_pose().</summary>
     public void MotionPose(double t, FtPoseBuffer into) {
       ulong count;
       Ft.Must(FtNative.ft_motion_pose(this, t, into.Native->rotations, into.Native->translations, (ulong)into.JointCount, out count));
@@ -815,7 +824,8 @@ namespace Foretouch {
   }
   public sealed unsafe partial class FtNear {
     readonly FtBuffer<FtNearFeature> featuresBuffer = new FtBuffer<FtNearFeature>();
-    /// <summary>Of the last ft_near_ask(), by link, LSS, gap and triangle. FT_ERROR_NO_STEP if there was none.</summary>
+    /// <summary>Of the last ft_near_ask(), by link, LSS, gap and triangle. FT_ERROR_NO_STEP if there was
+    /// none.</summary>
     public ReadOnlySpan<FtNearFeature> Features() {
       ulong count;
       int status;
@@ -841,13 +851,16 @@ namespace Foretouch {
     }
   }
   public static unsafe partial class FtNative {
-    /// <summary>Of the library that runs: "0.1.0", a text that lives for ever, and its FT_ABI_VERSION.</summary>
+    /// <summary>Of the library that runs: "0.1.0", a text that lives for ever, and its
+    /// FT_ABI_VERSION.</summary>
     [DllImport(Library)] public static extern byte* ft_version();
     [DllImport(Library)] public static extern uint ft_abi_version();
-    /// <summary>The status as a stable word, "file-not-found"; "unknown" for any other number. Never fails.</summary>
+    /// <summary>The status as a stable word, "file-not-found"; "unknown" for any other number. Never
+    /// fails.</summary>
     [DllImport(Library)] public static extern byte* ft_status_name(int status);
-    /// <summary>One line about this thread's last call that failed, with file, place and expectation; "" if none has.
-    /// UTF-8, at most 1023 bytes. The text lives until the thread's next call that fails.</summary>
+    /// <summary>One line about this thread's last call that failed, with file, place and expectation; "" if
+    /// none has. UTF-8, at most 1023 bytes. The text lives until the thread's next call that
+    /// fails.</summary>
     [DllImport(Library)] public static extern byte* ft_last_error();
     /// <summary>The joint, link, frame, triangle or body at fault in that call; -1 if none.</summary>
     [DllImport(Library)] public static extern long ft_last_error_index();
@@ -855,12 +868,12 @@ namespace Foretouch {
     [DllImport(Library)] public static extern int ft_check_abi(uint headerVersion);
     /// <summary>Writes zeroes and the size, at most `size` bytes. Likewise all ft_*_init().</summary>
     [DllImport(Library)] public static extern int ft_scene_arrays_init(FtSceneArrays* arrays, ulong size);
-    /// <summary>Triangles are two-sided. Keeps those without area; drops and counts those that are not finite
-    /// (ft_scene_info). O(n log n). Errors: bad arrays, no finite triangle.</summary>
+    /// <summary>Triangles are two-sided. Keeps those without area; drops and counts those that are not
+    /// finite (ft_scene_info). O(n log n). Errors: bad arrays, no finite triangle.</summary>
     [DllImport(Library)] public static extern int ft_scene_create(FtSceneArrays* arrays, out FtScene scene);
     [DllImport(Library)] public static extern int ft_import_options_init(FtImportOptions* options, ulong size);
-    /// <summary>Reads OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X or IQM, in a caged child process: a file that
-    /// crashes the importer is an error here. `options` may be NULL.</summary>
+    /// <summary>Reads OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X or IQM, in a caged child process: a
+    /// file that crashes the importer is an error here. `options` may be NULL.</summary>
     [DllImport(Library)] public static extern int ft_scene_create_from_file(byte* path, FtImportOptions* options, out FtScene scene);
     /// <summary>Fills as much of `info` as info-&gt;size covers.</summary>
     [DllImport(Library)] public static extern int ft_scene_get_info(FtScene scene, FtSceneInfo* info);
@@ -869,10 +882,11 @@ namespace Foretouch {
     /// <summary>NULL is legal. Do not call while another thread uses this handle.</summary>
     [DllImport(Library)] public static extern void ft_scene_destroy(IntPtr scene);
     [DllImport(Library)] public static extern int ft_avatar_arrays_init(FtAvatarArrays* arrays, ulong size);
-    /// <summary>O(joints + LSS + triangles). Errors: bad arrays; ft_last_error_index() is the joint.</summary>
+    /// <summary>O(joints + LSS + triangles). Errors: bad arrays; ft_last_error_index() is the
+    /// joint.</summary>
     [DllImport(Library)] public static extern int ft_avatar_create(FtAvatarArrays* arrays, out FtAvatar avatar);
-    /// <summary>Reads an avatar file (docs/formats.md). `meshes`: how to read the triangles that it refers to, scale
-    /// and up included; NULL: does not read them, and queries refuse exact fidelity.</summary>
+    /// <summary>Reads an avatar file (docs/formats.md). `meshes`: how to read the triangles that it refers
+    /// to, scale and up included; NULL: does not read them, and queries refuse exact fidelity.</summary>
     [DllImport(Library)] public static extern int ft_avatar_create_from_file(byte* path, FtImportOptions* meshes, out FtAvatar avatar);
     /// <summary>The same from text in memory, without meshes; errors name `name` as the file.</summary>
     [DllImport(Library)] public static extern int ft_avatar_create_from_text(byte* text, ulong length, byte* name, out FtAvatar avatar);
@@ -883,33 +897,35 @@ namespace Foretouch {
     [DllImport(Library)] public static extern int ft_avatar_joint_parent(FtAvatar avatar, int joint, out int parent);
     /// <summary>FT_ERROR_UNKNOWN_NAME if no joint has this name. O(joints).</summary>
     [DllImport(Library)] public static extern int ft_avatar_find_joint(FtAvatar avatar, byte* name, out int joint);
-    /// <summary>Rotations (4 per joint) and translations (3 per joint) of the rest pose; either may be NULL.
-    /// `capacity` and `required` are in joints.</summary>
+    /// <summary>Rotations (4 per joint) and translations (3 per joint) of the rest pose; either may be
+    /// NULL. `capacity` and `required` are in joints.</summary>
     [DllImport(Library)] public static extern int ft_avatar_rest_pose(FtAvatar avatar, double* rotations, double* translations, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern void ft_avatar_destroy(IntPtr avatar);
     [DllImport(Library)] public static extern int ft_pose_init(FtPose* pose, ulong size);
-    /// <summary>`count` triples or quadruples; NULL with count 0 is legal. Passes non-finite numbers on. O(n).</summary>
+    /// <summary>`count` triples or quadruples; NULL with count 0 is legal. Passes non-finite numbers on.
+    /// O(n).</summary>
     [DllImport(Library)] public static extern int ft_positions_from_floats(float* xyz, ulong count, int axes, double* positions);
     [DllImport(Library)] public static extern int ft_positions_to_floats(double* positions, ulong count, int axes, float* xyz);
     [DllImport(Library)] public static extern int ft_rotations_from_floats(float* xyzw, ulong count, int axes, double* wxyz);
     [DllImport(Library)] public static extern int ft_rotations_to_floats(double* wxyz, ulong count, int axes, float* xyzw);
     [DllImport(Library)] public static extern int ft_clip_options_init(FtClipOptions* options, ulong size);
-    /// <summary>Reads a BVH clip, or the first animation of a model (.glb, .gltf, .fbx, .dae, .x) in 30 poses a
-    /// second. Its joints drive those of the avatar that have the same name; the others keep their rest
-    /// pose. Error if no name matches. `options` may be NULL.</summary>
+    /// <summary>Reads a BVH clip, or the first animation of a model (.glb, .gltf, .fbx, .dae, .x) in 30
+    /// poses a second. Its joints drive those of the avatar that have the same name; the others keep their
+    /// rest pose. Error if no name matches. `options` may be NULL.</summary>
     [DllImport(Library)] public static extern int ft_clip_create_from_file(byte* path, FtAvatar avatar, FtClipOptions* options, out FtClip clip);
     [DllImport(Library)] public static extern int ft_clip_get_info(FtClip clip, FtClipInfo* info);
     /// <summary>Frame `frame` as a pose of the avatar; otherwise like ft_avatar_rest_pose().</summary>
     [DllImport(Library)] public static extern int ft_clip_pose(FtClip clip, ulong frame, double* rotations, double* translations, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern void ft_clip_destroy(IntPtr clip);
     [DllImport(Library)] public static extern int ft_pair_rule_options_init(FtPairRuleOptions* options, ulong size);
-    /// <summary>Leaves out what the enumeration above names; `options` may be NULL. Rules belong to this avatar.
-    /// Errors: bad options, and rules that leave no pair to ask. O(LSS^2) per pose.</summary>
+    /// <summary>Leaves out what the enumeration above names; `options` may be NULL. Rules belong to this
+    /// avatar. Errors: bad options, and rules that leave no pair to ask. O(LSS^2) per pose.</summary>
     [DllImport(Library)] public static extern int ft_pair_rules_create(FtAvatar avatar, FtPairRuleOptions* options, out FtPairRules rules);
-    /// <summary>All pairs are asked but these, which are left out, and only these LSS have radii of their own.</summary>
+    /// <summary>All pairs are asked but these, which are left out, and only these LSS have radii of their
+    /// own.</summary>
     [DllImport(Library)] public static extern int ft_pair_rules_create_exactly(FtAvatar avatar, FtLeftOutPair* leftOut, ulong leftOutCount, FtPairRadius* radii, ulong radiusCount, out FtPairRules rules);
-    /// <summary>The other way round: only these pairs are asked, all others are left out (FT_PAIR_USER). Errors: no
-    /// pair, links that are not there or have no LSS; the index is the link.</summary>
+    /// <summary>The other way round: only these pairs are asked, all others are left out (FT_PAIR_USER).
+    /// Errors: no pair, links that are not there or have no LSS; the index is the link.</summary>
     [DllImport(Library)] public static extern int ft_pair_rules_create_asking(FtAvatar avatar, FtLinkPair* asked, ulong askedCount, out FtPairRules rules);
     /// <summary>Reads a file of pair rules (docs/formats.md).</summary>
     [DllImport(Library)] public static extern int ft_pair_rules_create_from_file(byte* path, FtAvatar avatar, out FtPairRules rules);
@@ -924,53 +940,55 @@ namespace Foretouch {
     [DllImport(Library)] public static extern int ft_query_create(FtScene scene, FtAvatar avatar, FtQueryOptions* options, out FtQuery query);
     /// <summary>Changes the options and forgets the last step's answer, but not its pose.</summary>
     [DllImport(Library)] public static extern int ft_query_set_options(FtQuery query, FtQueryOptions* options);
-    /// <summary>Asks whether own links touch, too; NULL: no longer. The rules stay when options change, which must
-    /// then be FT_FIDELITY_LINK or _EXACT (without radii), and not FT_SCOPE_FIRST_OF_AVATAR. Forgets the
-    /// last step's answer, but not its pose. The query keeps no handle of the rules.</summary>
+    /// <summary>Asks whether own links touch, too; NULL: no longer. The rules stay when options change,
+    /// which must then be FT_FIDELITY_LINK or _EXACT (without radii), and not FT_SCOPE_FIRST_OF_AVATAR.
+    /// Forgets the last step's answer, but not its pose. The query keeps no handle of the rules.</summary>
     [DllImport(Library)] public static extern int ft_query_set_pair_rules(FtQuery query, FtPairRules rules);
-    /// <summary>Answers the motion from one pose to another: every joint turns at constant rate on the shorter arc,
-    /// translations are linear, links follow down the chain. `from` NULL: from where the last step ended
-    /// (FT_ERROR_NO_STEP if there was none). Allocates nothing once memory has grown to the scene's needs. A
-    /// step that fails leaves the query unchanged. Cost: docs/performance.md.</summary>
+    /// <summary>Answers the motion from one pose to another: every joint turns at constant rate on the
+    /// shorter arc, translations are linear, links follow down the chain. `from` NULL: from where the last
+    /// step ended (FT_ERROR_NO_STEP if there was none). Allocates nothing once memory has grown to the
+    /// scene's needs. A step that fails leaves the query unchanged. Cost: docs/performance.md.</summary>
     [DllImport(Library)] public static extern int ft_query_step(FtQuery query, FtPose* @from, FtPose* to);
     /// <summary>All links of the last step, in order. O(links).</summary>
     [DllImport(Library)] public static extern int ft_query_links(FtQuery query, FtContact* links, ulong capacity, out ulong required);
-    /// <summary>The links of the last step that are not clear, earliest first (undecided ones at their free_until);
-    /// at equal times, the lowest link first. O(links log links).</summary>
+    /// <summary>The links of the last step that are not clear, earliest first (undecided ones at their
+    /// free_until); at equal times, the lowest link first. O(links log links).</summary>
     [DllImport(Library)] public static extern int ft_query_contacts(FtQuery query, FtContact* contacts, ulong capacity, out ulong required);
-    /// <summary>With FT_SCOPE_EVERY_OBJECT: the first contact of every link with every object in the last step, in
-    /// the order of ft_query_contacts(). A link and an object that it does not list never touch, unless it
-    /// lists the link as undecided: then only before that. FT_ERROR_MISMATCH at other scopes.</summary>
+    /// <summary>With FT_SCOPE_EVERY_OBJECT: the first contact of every link with every object in the last
+    /// step, in the order of ft_query_contacts(). A link and an object that it does not list never touch,
+    /// unless it lists the link as undecided: then only before that. FT_ERROR_MISMATCH at other
+    /// scopes.</summary>
     [DllImport(Library)] public static extern int ft_query_objects(FtQuery query, FtContact* contacts, ulong capacity, out ulong required);
     /// <summary>All asked pairs of own links of the last step that are not clear, in the order of
-    /// ft_query_contacts(), then of the other link; every other asked pair is proven clear. In each contact,
-    /// `point_scene`, `triangle` and `scene_feature` are of the other link and its mesh, and `object` is -1.
-    /// FT_ERROR_MISMATCH without pair rules.</summary>
+    /// ft_query_contacts(), then of the other link; every other asked pair is proven clear. In each
+    /// contact, `point_scene`, `triangle` and `scene_feature` are of the other link and its mesh, and
+    /// `object` is -1. FT_ERROR_MISMATCH without pair rules.</summary>
     [DllImport(Library)] public static extern int ft_query_pairs(FtQuery query, FtContact* contacts, FtOtherLink* others, ulong capacity, out ulong required);
-    /// <summary>Fills as much of `details` as details-&gt;size covers, about the contact that `list` has at `index`.
-    /// Not meant for every contact of every step: it looks at the near pairs once more. FT_ERROR_MISMATCH if
-    /// the step has no such list, or if nothing is touched there.</summary>
+    /// <summary>Fills as much of `details` as details-&gt;size covers, about the contact that `list` has at
+    /// `index`. Not meant for every contact of every step: it looks at the near pairs once more.
+    /// FT_ERROR_MISMATCH if the step has no such list, or if nothing is touched there.</summary>
     [DllImport(Library)] public static extern int ft_query_details(FtQuery query, int list, ulong index, FtContactDetails* details);
-    /// <summary>All links at `t` in [0, 1] of the last step's motion; at toi, the avatar's pose as it touches.
-    /// O(joints).</summary>
+    /// <summary>All links at `t` in [0, 1] of the last step's motion; at toi, the avatar's pose as it
+    /// touches. O(joints).</summary>
     [DllImport(Library)] public static extern int ft_motion_transforms(FtQuery query, double t, FtTransform* transforms, ulong capacity, out ulong required);
-    /// <summary>The pose at `t` in [0, 1] of the last step's motion, to begin the next step with: from toi on, say.
-    /// The given poses at both ends; otherwise like ft_avatar_rest_pose().</summary>
+    /// <summary>The pose at `t` in [0, 1] of the last step's motion, to begin the next step with: from toi
+    /// on, say. The given poses at both ends; otherwise like ft_avatar_rest_pose().</summary>
     [DllImport(Library)] public static extern int ft_motion_pose(FtQuery query, double t, double* rotations, double* translations, ulong capacity, out ulong required);
-    /// <summary>What a discrete check sees: stores 1 in *touches if the link's surface touches the scene at `t` of
-    /// the last step's motion, else 0. Uses computed distances, without the promise.</summary>
+    /// <summary>What a discrete check sees: stores 1 in *touches if the link's surface touches the scene at
+    /// `t` of the last step's motion, else 0. Uses computed distances, without the promise.</summary>
     [DllImport(Library)] public static extern int ft_touches_at(FtQuery query, int link, double t, out int touches);
     [DllImport(Library)] public static extern int ft_query_counters(FtQuery query, FtCounters* counters);
     [DllImport(Library)] public static extern void ft_query_destroy(IntPtr query);
     [DllImport(Library)] public static extern int ft_near_options_init(FtNearOptions* options, ulong size);
-    /// <summary>Of the links' LSS; `options` may be NULL. For one thread. The first of a scene finds the edges over
-    /// which its surfaces go on flat: they are no features.</summary>
+    /// <summary>Of the links' LSS; `options` may be NULL. For one thread. The first of a scene finds the
+    /// edges over which its surfaces go on flat: they are no features.</summary>
     [DllImport(Library)] public static extern int ft_near_create(FtScene scene, FtAvatar avatar, FtNearOptions* options, out FtNear nearQuery);
-    /// <summary>Finds what is within `reach` of the links at `pose`: metres, one per link, at most 1e7; below 0: the
-    /// link is not asked. Allocates nothing once memory has grown. A call that fails leaves the last answer,
-    /// if its arguments were wrong.</summary>
+    /// <summary>Finds what is within `reach` of the links at `pose`: metres, one per link, at most 1e7;
+    /// below 0: the link is not asked. Allocates nothing once memory has grown. A call that fails leaves
+    /// the last answer, if its arguments were wrong.</summary>
     [DllImport(Library)] public static extern int ft_near_ask(FtNear nearQuery, FtPose* pose, double* reach, ulong reachCount);
-    /// <summary>Of the last ft_near_ask(), by link, LSS, gap and triangle. FT_ERROR_NO_STEP if there was none.</summary>
+    /// <summary>Of the last ft_near_ask(), by link, LSS, gap and triangle. FT_ERROR_NO_STEP if there was
+    /// none.</summary>
     [DllImport(Library)] public static extern int ft_near_features(FtNear nearQuery, FtNearFeature* features, ulong capacity, out ulong required);
     /// <summary>One per link, in order.</summary>
     [DllImport(Library)] public static extern int ft_near_ranges(FtNear nearQuery, FtNearRange* ranges, ulong capacity, out ulong required);

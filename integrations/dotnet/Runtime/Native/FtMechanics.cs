@@ -35,14 +35,14 @@ namespace Foretouch {
     public double effectiveMass;
   }
   public static unsafe partial class FtNative {
-    /// <summary>How a free rigid body's point answers an impulse there: velocity change per N s, row after row in
-    /// inverse_mass[9], symmetric. `center[3]` and `inertia[9]` (about the centre) are in the body's frame,
-    /// which `rotation` (w, x, y, z) and `translation` put into W; `point` is in W. Errors: a mass that
-    /// nothing can have, a rotation that is not unit, what is not finite.</summary>
+    /// <summary>How a free rigid body's point answers an impulse there: velocity change per N s, row after
+    /// row in inverse_mass[9], symmetric. `center[3]` and `inertia[9]` (about the centre) are in the body's
+    /// frame, which `rotation` (w, x, y, z) and `translation` put into W; `point` is in W. Errors: a mass
+    /// that nothing can have, a rotation that is not unit, what is not finite.</summary>
     [DllImport(Library)] public static extern int ft_inverse_mass_at(double kg, double* center, double* inertia, double* rotation, double* translation, double* point, double* inverseMass);
-    /// <summary>Nothing if they part, or if neither can be moved. The impulse pushes, stays in the cone of friction,
-    /// and never adds kinetic energy. Errors: what is not finite, a restitution outside [0, 1], a friction
-    /// below 0.</summary>
+    /// <summary>Nothing if they part, or if neither can be moved. The impulse pushes, stays in the cone of
+    /// friction, and never adds kinetic energy. Errors: what is not finite, a restitution outside [0, 1], a
+    /// friction below 0.</summary>
     [DllImport(Library)] public static extern int ft_collide(FtCollisionPoint* point, FtCollisionImpulse* impulse);
   }
 }

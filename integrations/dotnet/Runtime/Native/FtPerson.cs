@@ -19,9 +19,11 @@ namespace Foretouch {
     public double error;
     /// <summary>of person minus model within a step, m/s^2</summary>
     public double acceleration;
-    /// <summary>Instead, if less: a length, m, and a share of how much the poses around the step bend.</summary>
+    /// <summary>Instead, if less: a length, m, and a share of how much the poses around the step
+    /// bend.</summary>
     public double followFloor;
-    /// <summary>Instead, if less: a length, m, and a share of how much the poses around the step bend.</summary>
+    /// <summary>Instead, if less: a length, m, and a share of how much the poses around the step
+    /// bend.</summary>
     public double followShare;
     /// <summary>of the person where poses were lost, m/s</summary>
     public double speed;
@@ -47,8 +49,8 @@ namespace Foretouch {
     /// <summary>own links; NULL, the default: not asked</summary>
     public IntPtr self;
   }
-  /// <summary>Two poses and those around them: of a step of `seconds`, above 0. Where there is none before or after,
-  /// or it is not known yet, NULL.</summary>
+  /// <summary>Two poses and those around them: of a step of `seconds`, above 0. Where there is none
+  /// before or after, or it is not known yet, NULL.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public unsafe partial struct FtPosedStep {
     public uint size;
@@ -71,8 +73,8 @@ namespace Foretouch {
     /// <summary>proven: the person touched something with it</summary>
     public const int Certain = 3;
   }
-  /// <summary>Nothing was touched on [0, possible_from) and (possible_until, 1]; of a certain one, something was at
-  /// certain_from and at certain_until.</summary>
+  /// <summary>Nothing was touched on [0, possible_from) and (possible_until, 1]; of a certain one,
+  /// something was at certain_from and at certain_until.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtLinkBracket {
     public uint size;
@@ -153,20 +155,22 @@ namespace Foretouch {
   public static unsafe partial class FtNative {
     /// <summary>Claims nothing, and no error.</summary>
     [DllImport(Library)] public static extern int ft_link_bound_init(FtLinkBound* bound);
-    /// <summary>One per link, from a file of format "foretouch-bounds", for one way between poses of this rate.
-    /// Errors: those of the file; a name that is no link; no entry for them.</summary>
+    /// <summary>One per link, from a file of format "foretouch-bounds", for one way between poses of this
+    /// rate. Errors: those of the file; a name that is no link; no entry for them.</summary>
     [DllImport(Library)] public static extern int ft_bounds_read(byte* path, FtAvatar avatar, int between, double rateHz, FtLinkBound* bounds, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_bracket_options_init(FtBracketOptions* options, ulong size);
-    /// <summary>`options` may be NULL. For one thread; keeps scene and avatar alive, the rules are copied.</summary>
+    /// <summary>`options` may be NULL. For one thread; keeps scene and avatar alive, the rules are
+    /// copied.</summary>
     [DllImport(Library)] public static extern int ft_brackets_create(FtScene scene, FtAvatar avatar, FtBracketOptions* options, out FtBrackets brackets);
     [DllImport(Library)] public static extern int ft_posed_step_init(FtPosedStep* step, ulong size);
-    /// <summary>Of each link, what follows from its bound. `bounds`: one per link. Allocates nothing once memory has
-    /// grown. A call that fails leaves the last answer, if its arguments were wrong.</summary>
+    /// <summary>Of each link, what follows from its bound. `bounds`: one per link. Allocates nothing once
+    /// memory has grown. A call that fails leaves the last answer, if its arguments were wrong.</summary>
     [DllImport(Library)] public static extern int ft_brackets_answer(FtBrackets brackets, FtPosedStep* step, FtLinkBound* bounds, ulong count);
-    /// <summary>Poses were lost between `from` and `to`: of the bounds, `speed` and `error` count.</summary>
+    /// <summary>Poses were lost between `from` and `to`: of the bounds, `speed` and `error`
+    /// count.</summary>
     [DllImport(Library)] public static extern int ft_brackets_answer_gap(FtBrackets brackets, FtPosedStep* step, FtLinkBound* bounds, ulong count);
-    /// <summary>What comes: t is 0 at the step's `to` and 1 after `horizon` seconds, at most 1e6. The model goes on
-    /// as it went. Links are excluded, or possible from `possible_from` on.</summary>
+    /// <summary>What comes: t is 0 at the step's `to` and 1 after `horizon` seconds, at most 1e6. The model
+    /// goes on as it went. Links are excluded, or possible from `possible_from` on.</summary>
     [DllImport(Library)] public static extern int ft_brackets_look_ahead(FtBrackets brackets, FtPosedStep* step, double horizon, FtLinkBound* bounds, ulong count);
     /// <summary>One per link, in order. FT_ERROR_NO_STEP before the first answer.</summary>
     [DllImport(Library)] public static extern int ft_brackets_links(FtBrackets brackets, FtLinkBracket* links, ulong capacity, out ulong required);

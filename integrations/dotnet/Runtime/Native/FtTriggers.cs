@@ -3,8 +3,9 @@ using System;
 using System.Runtime.InteropServices;
 
 namespace Foretouch {
-  /// <summary>A trigger is a body of the world: it is there from its first pose on, may move, and may be carried
-  /// (ft_world_push(), ft_world_attach()). Its events come with those of ft_world_follow().</summary>
+  /// <summary>A trigger is a body of the world: it is there from its first pose on, may move, and may be
+  /// carried (ft_world_push(), ft_world_attach()). Its events come with those of
+  /// ft_world_follow().</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtTriggerOptions {
     public uint size;
@@ -12,12 +13,14 @@ namespace Foretouch {
     public int group;
     /// <summary>default FT_SILENT_HOLD_STILL</summary>
     public int whenSilent;
-    /// <summary>0, the default: a body is inside while any of its links is. 1: each link enters and leaves by itself</summary>
+    /// <summary>0, the default: a body is inside while any of its links is. 1: each link enters and leaves
+    /// by itself</summary>
     public int byLink;
   }
-  /// <summary>Somebody is inside if a point of his volume is in the trigger's: also if he passes through between two
-  /// poses, and if he is inside altogether. Sound: nobody is inside, at any instant, who is not told to be,
-  /// or to be unresolved. Tight: who is told to be is, but for twice the tolerance.</summary>
+  /// <summary>Somebody is inside if a point of his volume is in the trigger's: also if he passes through
+  /// between two poses, and if he is inside altogether. Sound: nobody is inside, at any instant, who is
+  /// not told to be, or to be unresolved. Tight: who is told to be is, but for twice the
+  /// tolerance.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtTriggerEvent {
     public uint size;
@@ -67,8 +70,8 @@ namespace Foretouch {
     /// <summary>in [0, 1)</summary>
     public double timeFraction;
   }
-  /// <summary>No translation shorter than `lower` clears the body; moved by `way_out` it is proven clear, and that is
-  /// not longer than `upper`. Two that are apart: all zero, and certified.</summary>
+  /// <summary>No translation shorter than `lower` clears the body; moved by `way_out` it is proven clear,
+  /// and that is not longer than `upper`. Two that are apart: all zero, and certified.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtDepth {
     public uint size;
@@ -109,8 +112,8 @@ namespace Foretouch {
   }
   public sealed unsafe partial class FtWorld {
     readonly FtBuffer<FtTriggerEvent> triggerEventsBuffer = new FtBuffer<FtTriggerEvent>();
-    /// <summary>Of the last ft_world_follow(), earliest first; at one instant what ends before what begins. In
-    /// arrays, the first element's size applies to all. FT_ERROR_NO_STEP before. O(n).</summary>
+    /// <summary>Of the last ft_world_follow(), earliest first; at one instant what ends before what begins.
+    /// In arrays, the first element's size applies to all. FT_ERROR_NO_STEP before. O(n).</summary>
     public ReadOnlySpan<FtTriggerEvent> TriggerEvents() {
       ulong count;
       int status;
@@ -123,7 +126,8 @@ namespace Foretouch {
       return triggerEventsBuffer.First(count);
     }
     readonly FtBuffer<FtOccupant> occupantsBuffer = new FtBuffer<FtOccupant>();
-    /// <summary>Who is inside, or may be, where the last ft_world_follow() ended: by trigger, body and link.</summary>
+    /// <summary>Who is inside, or may be, where the last ft_world_follow() ended: by trigger, body and
+    /// link.</summary>
     public ReadOnlySpan<FtOccupant> Occupants() {
       ulong count;
       int status;
@@ -138,28 +142,30 @@ namespace Foretouch {
   }
   public static unsafe partial class FtNative {
     [DllImport(Library)] public static extern int ft_trigger_options_init(FtTriggerOptions* options, ulong size);
-    /// <summary>Around the origin of the trigger's frame, along its axes. Stores the trigger's number, 0, 1, 2, ...,
-    /// in *trigger and that of its body in *body; either may be NULL, and so may `options`. Errors: an
-    /// extent that is not above 0 and within 10^7 m, options out of range, too many bodies; of the mesh
-    /// besides (FT_ERROR_MISMATCH) an open edge, with its object, its ends and a triangle of it.</summary>
+    /// <summary>Around the origin of the trigger's frame, along its axes. Stores the trigger's number, 0,
+    /// 1, 2, ..., in *trigger and that of its body in *body; either may be NULL, and so may `options`.
+    /// Errors: an extent that is not above 0 and within 10^7 m, options out of range, too many bodies; of
+    /// the mesh besides (FT_ERROR_MISMATCH) an open edge, with its object, its ends and a triangle of
+    /// it.</summary>
     [DllImport(Library)] public static extern int ft_world_add_trigger_box(FtWorld world, double* halfExtents, FtTriggerOptions* options, out int trigger, out int body);
     [DllImport(Library)] public static extern int ft_world_add_trigger_sphere(FtWorld world, double radius, FtTriggerOptions* options, out int trigger, out int body);
-    /// <summary>What is inside some object of it. Each object is closed: every edge, by its exact coordinates,
-    /// belongs to two of the object's triangles, turned any way.</summary>
+    /// <summary>What is inside some object of it. Each object is closed: every edge, by its exact
+    /// coordinates, belongs to two of the object's triangles, turned any way.</summary>
     [DllImport(Library)] public static extern int ft_world_add_trigger_mesh(FtWorld world, FtScene closed, FtTriggerOptions* options, out int trigger, out int body);
-    /// <summary>Looks at this body, or at this link of it, and no more at everybody; called again, at several. `link`
-    /// may be FT_EVERY_LINK. Before the trigger's first ft_world_follow().</summary>
+    /// <summary>Looks at this body, or at this link of it, and no more at everybody; called again, at
+    /// several. `link` may be FT_EVERY_LINK. Before the trigger's first ft_world_follow().</summary>
     [DllImport(Library)] public static extern int ft_world_watch(FtWorld world, int trigger, int body, int link);
-    /// <summary>Puts a trigger that has no pose where it stays, from an instant on: known for eleven days, and then
-    /// as `when_silent` says. Of `pose`, the one joint is the trigger's.</summary>
+    /// <summary>Puts a trigger that has no pose where it stays, from an instant on: known for eleven days,
+    /// and then as `when_silent` says. Of `pose`, the one joint is the trigger's.</summary>
     [DllImport(Library)] public static extern int ft_world_stand_trigger(FtWorld world, int trigger, long fromUs, FtPose* pose);
-    /// <summary>Of the last ft_world_follow(), earliest first; at one instant what ends before what begins. In
-    /// arrays, the first element's size applies to all. FT_ERROR_NO_STEP before. O(n).</summary>
+    /// <summary>Of the last ft_world_follow(), earliest first; at one instant what ends before what begins.
+    /// In arrays, the first element's size applies to all. FT_ERROR_NO_STEP before. O(n).</summary>
     [DllImport(Library)] public static extern int ft_world_trigger_events(FtWorld world, FtTriggerEvent* events, ulong capacity, out ulong required);
-    /// <summary>Who is inside, or may be, where the last ft_world_follow() ended: by trigger, body and link.</summary>
+    /// <summary>Who is inside, or may be, where the last ft_world_follow() ended: by trigger, body and
+    /// link.</summary>
     [DllImport(Library)] public static extern int ft_world_occupants(FtWorld world, FtOccupant* occupants, ulong capacity, out ulong required);
-    /// <summary>At an instant, of bodies where they are then. One of two must be made of LSS. Errors: unknown bodies
-    /// and links, two links that are one, a body that is not there or silent then.</summary>
+    /// <summary>At an instant, of bodies where they are then. One of two must be made of LSS. Errors:
+    /// unknown bodies and links, two links that are one, a body that is not there or silent then.</summary>
     [DllImport(Library)] public static extern int ft_world_depth(FtWorld world, FtDepthQuestion* question, FtDepth* depth);
   }
 }

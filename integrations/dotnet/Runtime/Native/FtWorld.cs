@@ -3,9 +3,9 @@ using System;
 using System.Runtime.InteropServices;
 
 namespace Foretouch {
-  /// <summary>Bodies, where they are known to be, and the last window's answer. For one thread at a time; any number
-  /// of worlds may share scenes and avatars, which they keep alive. Answers depend on the poses alone: not
-  /// on the order in which bodies' poses came, nor on time or threads.</summary>
+  /// <summary>Bodies, where they are known to be, and the last window's answer. For one thread at a time;
+  /// any number of worlds may share scenes and avatars, which they keep alive. Answers depend on the
+  /// poses alone: not on the order in which bodies' poses came, nor on time or threads.</summary>
   public sealed unsafe partial class FtWorld : FtHandle {
     /// <summary>In place of one that is not there: NULL in C.</summary>
     public static readonly FtWorld None = new FtWorld();
@@ -18,13 +18,14 @@ namespace Foretouch {
     public int asksMeshes;
     /// <summary>metres, of every contact: 1e-8 to 1e7; default 1e-3</summary>
     public double tolerance;
-    /// <summary>Work, counted as ft_query_options.work_budget, that two bodies may cost in one window, and a body by
-    /// itself in one span between its poses; default 100,000,000. Beyond it: undecided.</summary>
+    /// <summary>Work, counted as ft_query_options.work_budget, that two bodies may cost in one window, and
+    /// a body by itself in one span between its poses; default 100,000,000. Beyond it: undecided.</summary>
     public ulong workPerPair;
-    /// <summary>Work that all pairs of a window may cost together, shared by bodies; default UINT64_MAX.</summary>
+    /// <summary>Work that all pairs of a window may cost together, shared by bodies; default
+    /// UINT64_MAX.</summary>
     public ulong workPerWindow;
-    /// <summary>A body that may meet more than so many others in a window is crowded; two crowded ones are not asked
-    /// about each other, and each is listed as silent. Default UINT64_MAX.</summary>
+    /// <summary>A body that may meet more than so many others in a window is crowded; two crowded ones are
+    /// not asked about each other, and each is listed as silent. Default UINT64_MAX.</summary>
     public ulong mostNear;
   }
   /// <summary>What a body is taken to do after its last known pose.</summary>
@@ -54,8 +55,8 @@ namespace Foretouch {
     public uint size;
     public int body;
     public int link;
-    /// <summary>0: what it carries keeps the place that it is attached at, and needs no poses until it is detached.
-    /// 1: its poses are in the frame of that link, and are pushed like all others.</summary>
+    /// <summary>0: what it carries keeps the place that it is attached at, and needs no poses until it is
+    /// detached. 1: its poses are in the frame of that link, and are pushed like all others.</summary>
     public int movesInFrame;
   }
   /// <summary>One of two that meet.</summary>
@@ -76,8 +77,8 @@ namespace Foretouch {
     /// <summary>witness point on its surface, W</summary>
     public FtVector point;
   }
-  /// <summary>The first contact of two links in a window. Sound: its time is never later than their first touch
-  /// there. FT_VERDICT_CONTACT: their separation is then at most the tolerance.
+  /// <summary>The first contact of two links in a window. Sound: its time is never later than their first
+  /// touch there. FT_VERDICT_CONTACT: their separation is then at most the tolerance.
   /// FT_VERDICT_STARTS_IN_CONTACT: they touch where the window begins, or where one of them appears or is
   /// attached. FT_VERDICT_UNDECIDED: free until then, nothing claimed after it.</summary>
   [StructLayout(LayoutKind.Sequential)]
@@ -148,8 +149,8 @@ namespace Foretouch {
     public ulong rungTests;
   }
   public static partial class Ft {
-    /// <summary>In contacts, in place of a body: what is still. In place of a link, of a body that is undecided:
-    /// every link that has no contact of its own listed.</summary>
+    /// <summary>In contacts, in place of a body: what is still. In place of a link, of a body that is
+    /// undecided: every link that has no contact of its own listed.</summary>
     public const int StillScene = -1;
   }
   public unsafe partial struct FtWorldOptions {
@@ -174,10 +175,11 @@ namespace Foretouch {
   }
   public sealed unsafe partial class FtWorld {
     readonly FtBuffer<FtWorldContact> contactsBuffer = new FtBuffer<FtWorldContact>();
-    /// <summary>All contacts of the last window, earliest first; at equal times by a's body and link, then by b's.
-    /// Every pair that was asked and is not listed is proven clear while both are there; but nothing is
-    /// claimed of a silent body that is taken to be undecided, nor of what it carries. In arrays, the first
-    /// element's size applies to all. FT_ERROR_NO_STEP before the first answer, as for the next two. O(n).</summary>
+    /// <summary>All contacts of the last window, earliest first; at equal times by a's body and link, then
+    /// by b's. Every pair that was asked and is not listed is proven clear while both are there; but
+    /// nothing is claimed of a silent body that is taken to be undecided, nor of what it carries. In
+    /// arrays, the first element's size applies to all. FT_ERROR_NO_STEP before the first answer, as for
+    /// the next two. O(n).</summary>
     public ReadOnlySpan<FtWorldContact> Contacts() {
       ulong count;
       int status;
@@ -214,50 +216,53 @@ namespace Foretouch {
     /// <summary>`still`: what never moves; NULL: nothing. `options` may be NULL.</summary>
     [DllImport(Library)] public static extern int ft_world_create(FtScene still, FtWorldOptions* options, out FtWorld world);
     [DllImport(Library)] public static extern int ft_body_options_init(FtBodyOptions* options, ulong size);
-    /// <summary>An avatar, or a prop made of LSS: the LSS of its links touch, or its triangles. Stores the body's
-    /// number in *body: 0, 1, 2, ... in the order of adding. `options` may be NULL. Errors: options out of
-    /// range, rules of another avatar, FT_FIDELITY_EXACT of an avatar without triangles or beside rules with
-    /// pair radii, more than 100,000 bodies.</summary>
+    /// <summary>An avatar, or a prop made of LSS: the LSS of its links touch, or its triangles. Stores the
+    /// body's number in *body: 0, 1, 2, ... in the order of adding. `options` may be NULL. Errors: options
+    /// out of range, rules of another avatar, FT_FIDELITY_EXACT of an avatar without triangles or beside
+    /// rules with pair radii, more than 100,000 bodies.</summary>
     [DllImport(Library)] public static extern int ft_world_add_avatar(FtWorld world, FtAvatar avatar, FtBodyOptions* options, out int body);
-    /// <summary>A rigid prop: its triangles touch, in its own frame. It has one joint, 0, as poses and contacts
-    /// count. It meets avatars, and whatever ft_world_options.asks_meshes says besides.</summary>
+    /// <summary>A rigid prop: its triangles touch, in its own frame. It has one joint, 0, as poses and
+    /// contacts count. It meets avatars, and whatever ft_world_options.asks_meshes says besides.</summary>
     [DllImport(Library)] public static extern int ft_world_add_mesh(FtWorld world, FtScene mesh, FtBodyOptions* options, out int body);
     [DllImport(Library)] public static extern int ft_world_body_count(FtWorld world, out ulong count);
-    /// <summary>Whether bodies of two groups are asked if they meet, 0 or 1; everything is, to begin with.</summary>
+    /// <summary>Whether bodies of two groups are asked if they meet, 0 or 1; everything is, to begin
+    /// with.</summary>
     [DllImport(Library)] public static extern int ft_world_ask(FtWorld world, int group, int other, int isAsked);
     /// <summary>The same of bodies of a group and what is still.</summary>
     [DllImport(Library)] public static extern int ft_world_ask_still(FtWorld world, int group, int isAsked);
-    /// <summary>The body's next pose: in W, or in the frame of what carries it and lets it move. A body is there from
-    /// its first pose on; before, nothing touches it. Allocates nothing once memory has grown, if
-    /// ft_world_forget_before() is called now and then. Errors: an unknown body (ft_last_error_index()), an
-    /// instant that is not after the last one or that is forgotten, a pose that is none, a body that is held
-    /// fast; then nothing has changed.</summary>
+    /// <summary>The body's next pose: in W, or in the frame of what carries it and lets it move. A body is
+    /// there from its first pose on; before, nothing touches it. Allocates nothing once memory has grown,
+    /// if ft_world_forget_before() is called now and then. Errors: an unknown body (ft_last_error_index()),
+    /// an instant that is not after the last one or that is forgotten, a pose that is none, a body that is
+    /// held fast; then nothing has changed.</summary>
     [DllImport(Library)] public static extern int ft_world_push(FtWorld world, int body, long utimeUs, FtPose* pose);
-    /// <summary>From `utime_us` on, the body is carried; `pose` is its pose there, in the frame of the carrier's
-    /// link. The body and that link are not asked whether they meet. Errors: unknown bodies and links, who
-    /// would carry himself (FT_ERROR_BAD_HIERARCHY), an instant at which one of the two is not known, or
-    /// that is not after the last change.</summary>
+    /// <summary>From `utime_us` on, the body is carried; `pose` is its pose there, in the frame of the
+    /// carrier's link. The body and that link are not asked whether they meet. Errors: unknown bodies and
+    /// links, who would carry himself (FT_ERROR_BAD_HIERARCHY), an instant at which one of the two is not
+    /// known, or that is not after the last change.</summary>
     [DllImport(Library)] public static extern int ft_world_attach(FtWorld world, int body, FtCarrier* carrier, long utimeUs, FtPose* pose);
-    /// <summary>From `utime_us` on, nobody carries it; `pose` is its pose there, in W. Errors: likewise, and a body
-    /// that is not carried.</summary>
+    /// <summary>From `utime_us` on, nobody carries it; `pose` is its pose there, in W. Errors: likewise,
+    /// and a body that is not carried.</summary>
     [DllImport(Library)] public static extern int ft_world_detach(FtWorld world, int body, long utimeUs, FtPose* pose);
-    /// <summary>Stores in *utime_us until when all is known, or taken to be: the earliest last pose of the bodies
-    /// that wait for theirs; if nobody waits, the latest pose of all. In *waits_for the body with that pose;
-    /// -1: nobody waits. Either may be NULL. FT_ERROR_EMPTY if no body has a pose. O(bodies).</summary>
+    /// <summary>Stores in *utime_us until when all is known, or taken to be: the earliest last pose of the
+    /// bodies that wait for theirs; if nobody waits, the latest pose of all. In *waits_for the body with
+    /// that pose; -1: nobody waits. Either may be NULL. FT_ERROR_EMPTY if no body has a pose.
+    /// O(bodies).</summary>
     [DllImport(Library)] public static extern int ft_world_known_until(FtWorld world, out long utimeUs, out int waitsFor);
-    /// <summary>Lets go of what no window from `utime_us` on needs. Earlier poses and windows are refused from now
-    /// on.</summary>
+    /// <summary>Lets go of what no window from `utime_us` on needs. Earlier poses and windows are refused
+    /// from now on.</summary>
     [DllImport(Library)] public static extern int ft_world_forget_before(FtWorld world, long utimeUs);
-    /// <summary>Finds the first contact, in the window, of every two links of different bodies that are asked, of
-    /// every link and what is still, and of own links where a body has rules. Allocates nothing once memory
-    /// has grown, as long as nobody is added or carried in another way. Errors: a window without length,
-    /// that begins before what was forgotten, or ends after ft_world_known_until(); carriers whose chains
-    /// are too deep together. After an error the last answer stays.</summary>
+    /// <summary>Finds the first contact, in the window, of every two links of different bodies that are
+    /// asked, of every link and what is still, and of own links where a body has rules. Allocates nothing
+    /// once memory has grown, as long as nobody is added or carried in another way. Errors: a window
+    /// without length, that begins before what was forgotten, or ends after ft_world_known_until();
+    /// carriers whose chains are too deep together. After an error the last answer stays.</summary>
     [DllImport(Library)] public static extern int ft_world_answer(FtWorld world, long fromUs, long toUs);
-    /// <summary>All contacts of the last window, earliest first; at equal times by a's body and link, then by b's.
-    /// Every pair that was asked and is not listed is proven clear while both are there; but nothing is
-    /// claimed of a silent body that is taken to be undecided, nor of what it carries. In arrays, the first
-    /// element's size applies to all. FT_ERROR_NO_STEP before the first answer, as for the next two. O(n).</summary>
+    /// <summary>All contacts of the last window, earliest first; at equal times by a's body and link, then
+    /// by b's. Every pair that was asked and is not listed is proven clear while both are there; but
+    /// nothing is claimed of a silent body that is taken to be undecided, nor of what it carries. In
+    /// arrays, the first element's size applies to all. FT_ERROR_NO_STEP before the first answer, as for
+    /// the next two. O(n).</summary>
     [DllImport(Library)] public static extern int ft_world_contacts(FtWorld world, FtWorldContact* contacts, ulong capacity, out ulong required);
     /// <summary>By body.</summary>
     [DllImport(Library)] public static extern int ft_world_silent(FtWorld world, FtSilentBody* bodies, ulong capacity, out ulong required);
