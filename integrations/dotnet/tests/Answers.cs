@@ -109,6 +109,9 @@ static class Answers {
         dump.Each(moving.OpenParts());
         dump.Each(moving.TriggerEvents());
         dump.Each(moving.Occupants());
+        dump.One(moving.Depth(new FtDepthQuestion {
+          body = body, link = Ft.EveryLink, fromBody = door, fromLink = Ft.EveryLink, timeUs = until - 1000, timeFraction = 0.25
+        }));
         moving.ForgetBefore(until - stride * usPerFrame);
       }
     }
@@ -163,6 +166,38 @@ static class Answers {
     }
   }
 
+  static void Edges() {
+    const int Count = 200;
+    var kinds = new FtRobotJoint[avatar.JointCount];
+    for (int i = 0; i < kinds.Length; ++i)
+      kinds[i] = new FtRobotJoint { kind = FtJoint.Continuous, mimicOf = -1, axis = new FtVector(0, 0, 1) };
+    kinds[0].kind = FtJoint.Planar;
+    kinds[0].axis = new FtVector(0, 1, 0);
+    using (FtRobot robot = FtRobot.Create(avatar, kinds))
+    using (FtEdges asked = FtEdges.Create(robot, scene)) {
+      int coordinates = robot.CoordinateCount;
+      var q = new double[Count * coordinates];
+      uint drawn = 1;
+      for (int i = 0; i < q.Length; ++i) {
+        drawn = 1664525 * drawn + 1013904223;
+        q[i] = ((double)(drawn >> 8) / 16777216 - 0.5) * 2;
+      }
+      var answers = new FtEdge[Count - 1];
+      ReadOnlySpan<double> all = q;
+      asked.Answer(all.Slice(0, q.Length - coordinates), all.Slice(coordinates), answers);
+      for (int i = 0; i < answers.Length; ++i) {
+        dump.One(answers[i]);
+        if (answers[i].verdict == FtVerdict.Clear) continue;
+        FtOtherLink other;
+        dump.One(asked.Contact(i, out other));
+        dump.One(other);
+      }
+      dump.One(asked.AnswerPath(q));
+      robot.Pose(all.Slice(0, coordinates), pose);
+      dump.Pose(pose);
+    }
+  }
+
   static int Main(string[] arguments) {
     using (var to = new StreamWriter(Console.OpenStandardOutput(), new UTF8Encoding(false), 1 << 16)) {
       dump = new Dump(to);
@@ -177,6 +212,7 @@ static class Answers {
       Solid();
       SolidWorld();
       NearAndPerson();
+      Edges();
       Release();
     }
     Console.Error.WriteLine(linkSteps + " link-steps; " + string.Join(", ", dump.Counts.OrderBy(one => one.Key).Select(one => one.Value + " " + one.Key).ToArray()));

@@ -213,6 +213,16 @@ static void world(size_t stride, int64_t us_per_frame) {
     EACH(ft_part, ft_world_open_parts(moving, list, MOST, &count));
     EACH(ft_trigger_event, ft_world_trigger_events(moving, list, MOST, &count));
     EACH(ft_occupant, ft_world_occupants(moving, list, MOST, &count));
+    {
+      ft_depth_question question = {sizeof question, 0, FT_EVERY_LINK, 0, FT_EVERY_LINK, 0, 0, 0.25};
+      ft_depth depth;
+      depth.size = sizeof depth;
+      question.body = body;
+      question.from_body = door;
+      question.time_us = until - 1000;
+      must(ft_world_depth(moving, &question, &depth));
+      ONE(ft_depth, &depth);
+    }
     must(ft_world_forget_before(moving, until - (int64_t)stride * us_per_frame));
   }
   ft_world_destroy(moving);
@@ -291,6 +301,50 @@ static void near_and_person(void) {
   ft_brackets_destroy(brackets);
 }
 
+/* The avatar as a robot: edges between configurations that both languages draw alike, and a path of them. */
+static void edges(void) {
+  enum { EDGES = 200 };
+  static ft_robot_joint kinds[MOST];
+  static double q[EDGES * 64];
+  static ft_edge answers[EDGES];
+  uint32_t drawn = 1;
+  ft_robot* robot;
+  ft_edges* asked;
+  ft_path path;
+  size_t coordinates, i;
+  for (i = 0; i < joints; ++i) {
+    kinds[i].kind = i == 0 ? FT_JOINT_PLANAR : FT_JOINT_CONTINUOUS;
+    kinds[i].mimic_of = -1;
+    kinds[i].axis[i == 0 ? 1 : 2] = 1; /* the base turns, the arm swings down */
+  }
+  must(ft_robot_create(avatar, kinds, joints, NULL, &robot));
+  must(ft_robot_coordinate_count(robot, &coordinates));
+  for (i = 0; i < EDGES * coordinates; ++i) {
+    drawn = 1664525 * drawn + 1013904223;
+    q[i] = ((double)(drawn >> 8) / 16777216 - 0.5) * 2;
+  }
+  must(ft_edges_create(robot, scene, NULL, &asked));
+  answers[0].size = sizeof answers[0];
+  must(ft_edges_answer(asked, q, q + coordinates, EDGES - 1, coordinates, answers));
+  for (i = 0; i < EDGES - 1; ++i) {
+    ft_contact contact;
+    ft_other_link other;
+    contact.size = sizeof contact;
+    ONE(ft_edge, &answers[i]);
+    if (answers[i].verdict == FT_VERDICT_CLEAR) continue;
+    must(ft_edges_contact(asked, i, &contact, &other));
+    ONE(ft_contact, &contact);
+    ONE(ft_other_link, &other);
+  }
+  path.size = sizeof path;
+  must(ft_edges_answer_path(asked, q, EDGES, coordinates, &path));
+  ONE(ft_path, &path);
+  must(ft_robot_pose(robot, q, coordinates, rotations, translations, joints, NULL));
+  print_pose();
+  ft_edges_destroy(asked);
+  ft_robot_destroy(robot);
+}
+
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   load(arguments[1], "room", "dancer");
@@ -304,6 +358,7 @@ int main(int count, char** arguments) {
   solid();
   solid_world();
   near_and_person();
+  edges();
   release();
   return 0;
 }
