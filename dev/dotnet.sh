@@ -11,10 +11,13 @@ make_package() {
   date_of_sources
   configure portable
   cmake --build --preset portable --target foretouch_c >&2
-  library=$(find build/cross/arm64/bindings -name 'libforetouch.so.*.*' 2>/dev/null | head -n 1)
-  if [ -n "$library" ]; then others+=(--linux-arm64 "$library" --sysroot build/cross/sysroot-arm64); fi
-  library=$(find build/cross/windows -name foretouch.dll -not -path '*/installed/*' 2>/dev/null | head -n 1)
-  if [ -n "$library" ]; then others+=(--win-x64 "$library"); fi
+  if [ -f build/cross/arm64/bindings/c/libforetouch.so ]; then
+    library=$(readlink -f build/cross/arm64/bindings/c/libforetouch.so)
+    others+=(--linux-arm64 "$library" --sysroot build/cross/sysroot-arm64)
+  fi
+  for library in build/cross/windows/bin/foretouch.dll build/cross/windows/bindings/c/foretouch.dll; do
+    if [ -f "$library" ]; then others+=(--win-x64 "$library"); fi
+  done
   python3 $package/packaging/make_package.py --output build/dotnet --version "$(version_of_sources)" \
     --linux-x64 "$(readlink -f build/portable/bindings/c/libforetouch.so)" "${others[@]}"
   $package/packaging/try_package.sh build/dotnet/com.foretouch.unity-*.tgz
