@@ -7,14 +7,14 @@
 #include <cmath>
 #include <cstdint>
 
-#include <boost/math/constants/constants.hpp>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <gtest/gtest.h>
+
+#include "judge/precise.h"
 
 namespace foretouch {
 namespace {
 
-using Real = boost::multiprecision::cpp_bin_float_50;
+using Fifty = oracle::Precise;
 
 void cutLongDouble() {
 #if defined(__GNUC__) && defined(__x86_64__)
@@ -31,27 +31,27 @@ std::uint16_t controlWord() {
   return word;
 }
 
-Real node(int k) {
-  return -cos(Real(k) * boost::math::constants::pi<Real>() / (kNodes - 1));
+Fifty lobattoNode(int k) {
+  return -cos(Fifty(k) * Fifty::pi() / (kNodes - 1));
 }
 
 /// The coefficient of u^power of the polynomial that is 1 at node k and 0 at all others: the
 /// elementary symmetric sum of the other nodes, over the product of what they are away.
-Real coefficient(int k, int power) {
-  Real sum = 0, away = 1;
+Fifty trueCoefficient(int k, int power) {
+  Fifty sum = 0, away = 1;
   for (int chosen = 0; chosen < 1 << kNodes; ++chosen) {
     if ((chosen >> k & 1) != 0) continue;
-    Real product = 1;
+    Fifty product = 1;
     int factors = 0;
     for (int other = 0; other < kNodes; ++other) {
       if ((chosen >> other & 1) == 0) continue;
-      product *= -node(other);
+      product *= -lobattoNode(other);
       ++factors;
     }
     if (factors == kNodes - 1 - power) sum += product;
   }
   for (int other = 0; other < kNodes; ++other) {
-    if (other != k) away *= node(k) - node(other);
+    if (other != k) away *= lobattoNode(k) - lobattoNode(other);
   }
   return sum / away;
 }
@@ -66,10 +66,10 @@ TEST(PolynomialMatrices, AreNearestDoublesWhateverTheHostSetLongDoubleTo) {
   for (int k = 0; k < kNodes; ++k) {
     for (int power = 0; power < kNodes; ++power) {
       const double found = matrices.coefficients[k][power];
-      const Real off = abs(Real(found) - coefficient(k, power));
+      const double off = std::abs(static_cast<double>(Fifty(found) - trueCoefficient(k, power)));
       // In units of the last place. Those that are zero but for roundings are of the size of one.
       const double place = std::ldexp(1.0, std::ilogb(std::max(std::abs(found), 0x1p-4)) - 52);
-      worst = std::max(worst, static_cast<double>(off) / place);
+      worst = std::max(worst, off / place);
     }
   }
   EXPECT_LE(worst, 0.51);  // half a place, and a few roundings of 64 bits
