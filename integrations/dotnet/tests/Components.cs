@@ -318,6 +318,10 @@ static class Components {
     Run(hand);
     Check.Has(Said(), "shows 0 transforms and 1 joints are tracked");
     Clear();
+    hand.shown = new[] { hand.tracked.transform };
+    Run(hand);
+    Check.Has(Said(), "'Tracked' is tracked and shown");
+    Clear();
     hand.shown = new[] { new Transform("Shown", null) };
     Run(hand);
     Player.FixedUpdate(hand);

@@ -32,6 +32,10 @@ namespace Foretouch {
       FtScene at = SceneOf(scene);
       if (tracked == null || !tracked.IsReady)
         throw new HostProblem(Owner + ": its ForetouchBody is missing, disabled, or has said what is wrong");
+      foreach (Transform one in shown) {
+        if (one != null && Array.IndexOf(tracked.Joints, one) >= 0)
+          throw new HostProblem(Owner + ": '" + one.name + "' is tracked and shown: show another object, a copy, and hide this one");
+      }
       followed = tracked.Skeleton;
       follower = new HandFollower(Owner, at, followed, UnityHost.Bones(shown));
       sceneVersion = scene.Version;
