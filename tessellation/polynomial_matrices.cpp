@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "lss/extended_precision.h"
 #include "lss/index.h"
 
 namespace foretouch::internal {
@@ -52,6 +53,7 @@ double controlPoint(int degree, int power, int point) {
 }
 
 PolynomialMatrices computed() {
+  const ExtendedPrecision digits;
   PolynomialMatrices m{};
   for (int k = 0; k < kNodes; ++k) {
     const Coefficients basis = lagrange(k);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "lss/extended_precision.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
 #include "middleware/scene/raw_scene.h"
@@ -76,6 +77,7 @@ bool onLine(double ax, double ay, double bx, double by, double cx, double cy) {
   constexpr double kRounding = 4.0 * kUnitRoundoff;
   const double magnitude = std::abs(left) + std::abs(right);
   if (magnitude > 1e-280 && std::abs(left - right) > kRounding * magnitude) return false;
+  const internal::ExtendedPrecision digits;
   ExactSum determinant;
   addProduct(determinant, ax, by, 1);
   addProduct(determinant, bx, ay, -1);

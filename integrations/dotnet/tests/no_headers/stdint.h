@@ -1,0 +1,1 @@
+/* Empty on purpose: tests/prototypes.py declares the types itself. */
