@@ -1,6 +1,7 @@
 """From enter to leave: what touches what, and when, in frames. Nothing here knows Blender."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,13 +12,23 @@ PROPS = 1
 """The group of what moves beside the body."""
 
 
+class Instant(NamedTuple):
+    """A whole frame of the scene, and the share of the way to the next one. Apart, no digit is lost."""
+
+    whole: int
+    share: float
+
+    @property
+    def frame(self):
+        return self.whole + self.share
+
+
 @dataclass
 class Touch:
     link: str
     object: str
-    begin: float
-    """In frames of the scene."""
-    end: float
+    begin: Instant
+    end: Instant
     is_known: bool
     """False: nothing is claimed in this time."""
     begins_inside: bool
@@ -47,6 +58,7 @@ class Following:
         if still is not None:
             self.world.ask_still(PROPS, False)
         self.follower = ft.Follower(self.world, 0)
+        self.steps = _Steps(ft, avatar, still, tolerance) if still is not None else None
         self.frames, self.pushed = frames, 0
         self.touches, self.live = [], {}
 
@@ -55,6 +67,8 @@ class Following:
         self.world.push(self.body, self.pushed * FRAME_US, pose)
         for prop, place in zip(self.props, places):
             self.world.push(prop, self.pushed * FRAME_US, place)
+        if self.steps is not None:
+            self.steps.poses[self.pushed] = pose
         self.pushed += 1
 
     def follow(self):
@@ -63,11 +77,12 @@ class Following:
         for event in self.follower.follow(until).events:
             self._take(event)
         self.world.forget_before(until)
+        if self.steps is not None:
+            self.steps.forget_before(self.pushed - 1)
 
     def finish(self):
-        last = float(self.frames.last)
         for touch in self.live.values():
-            touch.end, touch.is_open = last, True
+            touch.end, touch.is_open = Instant(self.frames.last - 1, 1.0), True
         self.live.clear()
         self.touches.sort(key=lambda touch: (touch.begin, touch.link, touch.object))
         return self.touches
@@ -82,18 +97,30 @@ class Following:
         mine, other = self._sides(event)
         sign = 1.0 if mine is event.a else -1.0
         seconds = self.frames.seconds_per_frame * 1e6 / FRAME_US  # of a second of the world
-        begin = self._frame(event.time_us, event.fraction)
+        begin = self._instant(event.time_us, event.fraction)
         touch = Touch(mine.link, self._object(other), begin, begin, event.kind != "unresolved_from",
                       event.kind == "starts_inside", False, np.array(other.point),
                       sign * np.array(event.normal), event.separation, event.penetration,
                       event.approach_speed / seconds)
+        if event.kind == "enter" and other.body is None:
+            self._begin_as_its_step(touch)
         self.live[self._key(event)] = touch
         self.touches.append(touch)
+
+    def _begin_as_its_step(self, touch):
+        """A step's own answer may find the same contact at another instant, within the tolerance of it,
+        and proven as well. As in `foretouch replay` the first touch of a pair in a step begins there."""
+        step = touch.begin.whole - self.frames.first
+        contact = self.steps.take(step, touch.link, touch.object)
+        if contact is not None:
+            touch.begin = Instant(touch.begin.whole, contact.toi)
+            touch.point, touch.normal = contact.point, contact.normal
+            touch.separation = contact.separation
 
     def _end(self, event):
         touch = self.live.pop(self._key(event), None)
         if touch is not None:
-            touch.end = self._frame(event.time_us, event.fraction)
+            touch.end = self._instant(event.time_us, event.fraction)
 
     def _key(self, event):
         mine, other = self._sides(event)
@@ -107,6 +134,30 @@ class Following:
             return self.names.get(side.body) or side.object or "anything"
         return "anything"
 
-    def _frame(self, time_us, fraction):
+    def _instant(self, time_us, fraction):
         step = min(time_us // FRAME_US, self.frames.last - self.frames.first - 1)
-        return self.frames.first + step + ((time_us - step * FRAME_US) + fraction) / FRAME_US
+        return Instant(self.frames.first + step, ((time_us - step * FRAME_US) + fraction) / FRAME_US)
+
+
+class _Steps:
+    """The first contact of each link with each still object in a step, asked where it is needed."""
+
+    def __init__(self, ft, avatar, still, tolerance):
+        self.ft, self.avatar = ft, avatar
+        self.query = ft.Query(avatar, still, tolerance=tolerance, scope="objects")
+        self.poses, self.answers = {}, {}
+
+    def take(self, step, link, thing):
+        """Once; None if it is taken, or touched already where the step begins."""
+        if step not in self.answers:
+            motion = self.ft.Motion(self.avatar, self.poses[step], self.poses[step + 1])
+            self.answers[step] = {
+                (contact.link, contact.object): contact
+                for contact in self.query.first_contacts(motion).objects
+                if contact.verdict == self.ft.Verdict.CONTACT}
+        return self.answers[step].pop((link, thing), None)
+
+    def forget_before(self, step):
+        for kept in (self.poses, self.answers):
+            for old in [k for k in kept if k < step]:
+                del kept[old]

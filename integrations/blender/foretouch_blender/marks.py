@@ -47,7 +47,7 @@ def _mark_timeline(scene, touches):
     """One marker per frame: that at which, or before which, the touch begins."""
     by_frame = {}
     for touch in touches:
-        by_frame.setdefault(int(touch.begin // 1), []).append(touch)
+        by_frame.setdefault(touch.begin.whole, []).append(touch)
     for frame, those in by_frame.items():
         others = f" +{len(those) - 1}" if len(those) > 1 else ""
         marker = scene.timeline_markers.new(f"{those[0].link}: {those[0].object}{others}", frame=frame)
@@ -58,7 +58,7 @@ def _empty(scene, touch, axes):
     """Its Z axis is the normal, from the object to the body."""
     empty = bpy.data.objects.new(f"{touch.link}: {touch.object}", None)
     empty[MARK] = TOUCH
-    empty["frame"], empty["link"], empty["object"] = touch.begin, touch.link, touch.object
+    empty["frame"], empty["link"], empty["object"] = touch.begin.frame, touch.link, touch.object
     empty.empty_display_type = "SINGLE_ARROW"
     empty.empty_display_size = 0.1 / axes.unit
     empty.location = axes.points_back(touch.point)

@@ -12,6 +12,9 @@ from .told import Told
 
 AROUND_TOUCH = 5
 """Frames before and after a touch that its sweep shows."""
+AGAIN_M = 1e-5
+"""The tolerance, in metres, with which a solid action is checked again. The solid body comes nearer to
+surfaces than the usual tolerance; Blender's single precision is a hundredth of this."""
 
 
 def following(sampled, tolerance):
@@ -49,8 +52,9 @@ def _keep(scene, touches, sampled):
     scene.foretouch.notes = "\n".join(sampled.notes)
     for touch, empty in zip(touches, marks.show(scene, touches, sampled.axes)):
         kept = scene.foretouch.touches.add()
-        for name in ("link", "object", "begin", "end", "is_known", "begins_inside", "is_open", "approach"):
+        for name in ("link", "object", "is_known", "begins_inside", "is_open", "approach"):
             setattr(kept, name, getattr(touch, name))
+        kept.begin, kept.end = touch.begin.frame, touch.end.frame
         kept.empty = empty
     scene.foretouch["active"] = -1  # without a jump
 
@@ -81,9 +85,9 @@ class FORETOUCH_OT_make_solid(Job, bpy.types.Operator):
         return _told_of(action, left, unproven)
 
     def _check_again(self, context):
-        """The touches of the action as Blender plays it."""
+        """What the action as Blender plays it really touches, not what comes near."""
         sampled = yield from scaled(sampling(context), 0.0, 0.9)
-        return (yield from scaled(following(sampled, context.scene.foretouch.tolerance), 0.9, 1.0))
+        return (yield from scaled(following(sampled, AGAIN_M), 0.9, 1.0))
 
 
 def _told_of(action, left, unproven):
