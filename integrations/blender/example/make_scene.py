@@ -77,13 +77,17 @@ def _weight(thing, points):
                 group.add([number], weight, "REPLACE")
 
 
-def swing(rig, name="Swing", frames=24):
-    """The arm turns about the vertical by 100 degrees and comes back; keys at three frames."""
+FRAMES = 23
+
+
+def swing(rig, name="Swing"):
+    """The arm turns about the vertical by 100 degrees and comes back; keys at three frames. It is
+    straight between two frames, so that no frame has it in the board."""
     for bone in rig.pose.bones:
         bone.rotation_mode = "QUATERNION"
     rig.animation_data_create().action = bpy.data.actions.new(name)
     bone = rig.pose.bones["Shoulder"]
-    for frame, degrees in ((1, -50), (frames // 2, 50), (frames, -50)):
+    for frame, degrees in ((1, -50), ((1 + FRAMES) // 2, 50), (FRAMES, -50)):
         half = math.radians(degrees) / 2
         bone.rotation_quaternion = (math.cos(half), 0.0, 0.0, math.sin(half))
         bone.keyframe_insert("rotation_quaternion", frame=frame)
@@ -101,7 +105,7 @@ def make(scene=None):
     scene.collection.children.link(room)
     box("Board", (0.30, 0.004, 0.60), (0.66, 0.0, 1.0), room)
     box("Floor", (4.0, 4.0, 0.1), (0.0, 0.0, -0.05), room)
-    scene.frame_start, scene.frame_end = 1, 24
+    scene.frame_start, scene.frame_end = 1, FRAMES
     if hasattr(scene, "foretouch"):
         scene.foretouch.body, scene.foretouch.against = rig, room
     return rig

@@ -118,20 +118,26 @@ def _from_meshes(rig, links, most_lss):
         done = subprocess.run(words, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise Told(f"No body can be made of '{rig.name}': {done.stderr.strip()}")
-        avatar = ft.Avatar.load(made)
-    number = {name: k for k, name in enumerate(links.names)}
-    kept = [number[name] for name in avatar.names]
-    return Body(avatar, np.array([links.bones[k] for k in kept]), links.rest[kept], links.notes)
+        fitted = ft.Avatar.load(made)
+    # What the reader puts above several roots is no link of ours.
+    lss = {int(name): lss for name, lss in zip(fitted.names, fitted.lss) if name.isdigit()}
+    order = [k for k in _parents_first(links.parents)[0] if k in lss]
+    place = {k: number for number, k in enumerate(order)}
+    parents = [place.get(links.parents[k], -1) for k in order]
+    rotations, offsets = _relative(links.rest[order], parents)
+    avatar = ft.Avatar.from_arrays([links.names[k] for k in order], parents, offsets, rotations,
+                                   [lss[k] for k in order])
+    return Body(avatar, np.array([links.bones[k] for k in order]), links.rest[order], links.notes)
 
 
 def _glb(links):
-    """The links as nodes, each with its triangles. (Blender's own exporter changes what is selected,
+    """The links as nodes, called by their numbers, each with its triangles. (Blender's own exporter changes what is selected,
     and leaves out bones and weights by its own rules.)"""
     nodes, meshes, accessors, views, data = [], [], [], [], b""
     rotations, offsets = _relative(links.rest, links.parents)
-    for link, name in enumerate(links.names):
+    for link in range(len(links.names)):
         w, x, y, z = rotations[link]
-        nodes.append({"name": name, "rotation": [x, y, z, w], "translation": list(offsets[link])})
+        nodes.append({"name": str(link), "rotation": [x, y, z, w], "translation": list(offsets[link])})
         below = [k for k, parent in enumerate(links.parents) if parent == link]
         if below:
             nodes[-1]["children"] = below

@@ -64,8 +64,7 @@ class Sampler:
         number = {bone.name: k for k, bone in enumerate(self.rig.data.bones)}
         self.order = np.array([number[bone.name] for bone in bones])
         self.flat = np.empty(16 * len(bones), dtype=np.float32)
-        self.shapes = {thing.name: corners_of(thing.evaluated_get(self.layer.depsgraph))
-                       for thing in self.things if may_reshape(thing)}
+        self.shapes = {}
         return self
 
     def __exit__(self, *_):
@@ -86,11 +85,13 @@ class Sampler:
         return bones, np.array(rig.matrix_world), things
 
     def _refuse_reshaped(self, graph, frame):
-        for thing, corners in self.shapes.items():
-            now = corners_of(self.user_scene.objects[thing].evaluated_get(graph))
-            if now.shape != corners.shape or not np.array_equal(now, corners):
-                raise Told(f"'{thing}' changes its shape at frame {frame}: only what keeps its shape can "
-                           "be checked against. Take it out of the chosen objects, or apply its modifiers")
+        """Against the first frame that was asked."""
+        for thing in filter(may_reshape, self.things):
+            now = corners_of(thing.evaluated_get(graph))
+            before = self.shapes.setdefault(thing, now)
+            if now.shape != before.shape or not np.array_equal(now, before, equal_nan=True):
+                raise Told(f"'{thing.name}' changes its shape at frame {frame}: only what keeps its shape "
+                           "can be checked against. Take it out of the chosen objects, or apply its modifiers")
 
 
 class BodyMotion:

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .rig import meshes_of, triangles_of
+from .rig import finite, meshes_of, near, triangles_of
 from .told import Told
 
 SOLID_TYPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
@@ -44,7 +44,7 @@ def still_scene(ft, obstacles, axes):
     """A foretouch.Scene of them; None if there are none."""
     if not obstacles:
         return None
-    corners = np.concatenate([axes.points(obstacle.triangles) for obstacle in obstacles])
+    corners = np.concatenate([near(axes.points(obstacle.triangles), obstacle.name) for obstacle in obstacles])
     counts = [len(obstacle.triangles) for obstacle in obstacles]
     return ft.Scene.from_arrays(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3),
                                 np.repeat(np.arange(len(counts), dtype=np.int32), counts),
@@ -99,6 +99,7 @@ def _read_one(thing, graph, notes):
             if each.is_instance and each.parent.original == thing and each.object.type in SOLID_TYPES:
                 found.append((f"{thing.name}: {each.object.name}", corners_of(each.object),
                               np.array(each.matrix_world)))
+    found = [(name, finite(corners, name, notes), world) for name, corners, world in found]
     notes += [f"'{name}' has no faces: nothing can touch it" for name, corners, _ in found
               if len(corners) == 0]
     own = np.array(thing.evaluated_get(graph).matrix_world)

@@ -90,6 +90,8 @@ def _with_meshes(links, rig, scene, axes, stretch):
     pieces = [[] for _ in links.names]
     for mesh in meshes:
         corners, owner = _owned_triangles(mesh, rig, links)
+        owner = owner[np.isfinite(corners).all(axis=(1, 2))]
+        corners = finite(corners, mesh.name, links.notes)
         if len(corners) == 0:
             links.notes.append(f"'{mesh.name}' has no faces: it touches nothing")
             continue
@@ -100,11 +102,30 @@ def _with_meshes(links, rig, scene, axes, stretch):
         for link in np.unique(owner):
             placed = corners[owner == link] @ stretch.T
             inverse = np.linalg.inv(links.rest[link])
-            pieces[link].append(axes.points(placed) @ inverse[:3, :3].T + inverse[:3, 3])
+            pieces[link].append(near(axes.points(placed), mesh.name) @ inverse[:3, :3].T + inverse[:3, 3])
     triangles = [np.concatenate(piece) if piece else None for piece in pieces]
     if not any(piece is not None for piece in triangles):
         raise Told(f"The meshes of '{rig.name}' have no faces: there is nothing that could touch")
     return links._replace(triangles=triangles)
+
+
+MOST_M = 1e7
+"""Metres: no coordinate of Foretouch's is larger."""
+
+
+def near(points, name):
+    """Metres; Told where they are too far away."""
+    if len(points) and np.abs(points).max() > MOST_M:
+        raise Told(f"'{name}' has a vertex farther than 10,000 km away: remove it, or mind the unit scale")
+    return points
+
+
+def finite(corners, name, notes):
+    """Without triangles that have a corner which is no number."""
+    good = np.isfinite(corners).all(axis=(1, 2))
+    if not good.all():
+        notes.append(f"{np.sum(~good)} faces of '{name}' have vertices that are no numbers: left out")
+    return corners[good]
 
 
 def _with_whole(links, mesh):

@@ -4,9 +4,14 @@ import math
 import unittest
 
 import bpy
-from blend import example, finished, fresh, touches
+import numpy as np
+from blend import drained, example, finished, fresh, touches
+from mathutils.bvhtree import BVHTree
 
 import make_scene
+from foretouch_blender.axes import Axes, frames_of
+from foretouch_blender.rig import triangles_of
+from foretouch_blender.sampled import sampling
 
 RADIUS, SPEED, HALF = 0.1, 0.05, 0.01  # Blender units, and per frame
 TOLERANCE = 1e-3
@@ -169,23 +174,68 @@ class BallThroughBoard(unittest.TestCase):
         self.assertEqual(touches(scene), [])
 
 
+def tree_of(name):
+    graph = bpy.context.evaluated_depsgraph_get()
+    evaluated = bpy.data.objects[name].evaluated_get(graph)
+    mesh = evaluated.to_mesh()
+    points = [evaluated.matrix_world @ vertex.co for vertex in mesh.vertices]
+    faces = [tuple(face.vertices) for face in mesh.polygons]
+    evaluated.to_mesh_clear()
+    return BVHTree.FromPolygons(points, faces)
+
+
+def distance(point, a, b):
+    """Of a point to a segment."""
+    along = np.clip(np.dot(point - a, b - a) / max(np.dot(b - a, b - a), 1e-300), 0.0, 1.0)
+    return np.linalg.norm(point - a - along * (b - a))
+
+
 class SkinnedArm(unittest.TestCase):
-    def test_poses_of_frames_alone_see_nothing_of_what_is_found(self):
-        """The example's board is so thin that the arm is in it at no frame."""
-        scene, rig = example()
+    def test_a_look_at_each_frame_sees_nothing_of_what_is_found(self):
+        scene, _ = example()
         finished(bpy.ops.foretouch.check)
         self.assertEqual([t[:2] for t in touches(scene)], 2 * [("Fore", "Board"), ("Hand", "Board")])
-        mesh = bpy.data.objects["Arm"]
-        for frame in range(1, 25):
+        for frame in range(1, make_scene.FRAMES + 1):
             scene.frame_set(frame)
-            evaluated = mesh.evaluated_get(bpy.context.evaluated_depsgraph_get())
-            ys = [(evaluated.matrix_world @ vertex.co).y for vertex in evaluated.data.vertices
-                  if vertex.co.x > 0.5]
-            print(frame, min(ys), max(ys)) if ys else None
+            self.assertEqual(tree_of("Arm").overlap(tree_of("Board")), [], f"at frame {frame}")
 
-    def test_every_face_is_in_a_capsule_of_its_bone(self):
-        """Judged by distances of points, beside the bones as Blender moves them."""
+    def test_every_face_at_rest_is_in_a_capsule(self):
+        scene, rig = example()
+        body = drained(sampling(bpy.context)).body
+        capsules = [(frame[:3, :3] @ each.a + frame[:3, 3], frame[:3, :3] @ each.b + frame[:3, 3], each.radius)
+                    for frame, link in zip(body.rest, body.avatar.lss) for each in link]
+        self.assertEqual(body.avatar.names, list(make_scene.ARM))
+        corners = triangles_of(bpy.data.objects["Arm"].data)[0]
+        for triangle in Axes(1.0).points(corners):
+            outside = min(max(distance(corner, a, b) - radius for corner in triangle)
+                          for a, b, radius in capsules)
+            self.assertLessEqual(outside, 1e-6)
 
 
-if __name__ == "__main__":
-    unittest.main()
+class HeldThing(unittest.TestCase):
+    def test_on_a_bone_is_part_of_the_body(self):
+        """A stick in the hand meets the board, which the hand itself goes past."""
+        scene, rig = example()
+        bpy.data.objects["Board"].location.x = 0.98
+        finished(bpy.ops.foretouch.check)
+        self.assertEqual(touches(scene), [])
+        stick = make_scene.box("Stick", (0.02, 0.3, 0.02), (0.0, 0.15, 0.0), scene.collection)
+        stick.parent, stick.parent_type, stick.parent_bone = rig, "BONE", "Hand"
+        finished(bpy.ops.foretouch.check)
+        self.assertEqual({t[:2] for t in touches(scene)}, {("Hand", "Board")})
+        bpy.context.view_layer.update()
+        # Where Blender has the stick: from the hand's tail on, along +X at rest.
+        scene.frame_set(4)
+        self.assertTrue(all(self.is_in_a_capsule(stick, scene)))
+
+    def is_in_a_capsule(self, stick, scene):
+        sampled = drained(sampling(bpy.context))
+        frames = frames_of(*sampled.pose(scene.frame_current - sampled.frames.first), sampled.body.avatar.parents)
+        hand = sampled.body.avatar.link("Hand")
+        graph = bpy.context.evaluated_depsgraph_get()
+        world = stick.evaluated_get(graph).matrix_world
+        for vertex in stick.data.vertices:
+            point = Axes(1.0).points(world @ vertex.co)
+            yield min(distance(point, frames[hand][:3, :3] @ each.a + frames[hand][:3, 3],
+                               frames[hand][:3, :3] @ each.b + frames[hand][:3, 3]) - each.radius
+                      for each in sampled.body.avatar.lss[hand]) < 1e-5
