@@ -47,8 +47,8 @@ class Touch:
 class Following:
     """One body among what stands still and what moves."""
 
-    def __init__(self, ft, avatar, still, props, tolerance, frames):
-        """`props`: names and scenes; `frames`: a motion.Range."""
+    def __init__(self, ft, avatar, still, props, tolerance, frames, whole_frames=True):
+        """`props`: names and scenes; `frames`: a motion.Range. `whole_frames`: no other pose is pushed."""
         self.world = ft.World(still, tolerance=tolerance)
         self.body = self.world.add(avatar)
         self.props = [self.world.add(scene, group=PROPS) for _, scene in props]
@@ -58,27 +58,26 @@ class Following:
         if still is not None:
             self.world.ask_still(PROPS, False)
         self.follower = ft.Follower(self.world, 0)
-        self.steps = _Steps(ft, avatar, still, tolerance) if still is not None else None
-        self.frames, self.pushed = frames, 0
+        self.steps = _Steps(ft, avatar, still, tolerance) if still and whole_frames else None
+        self.frames, self.now = frames, 0
         self.touches, self.live = [], {}
 
-    def push(self, pose, places):
-        """The pose of the next frame, and where each prop is then."""
-        self.world.push(self.body, self.pushed * FRAME_US, pose)
+    def push(self, instant, pose, places):
+        """The next pose, at a frame of the scene, and where each prop is then."""
+        self.now = round((instant - self.frames.first) * FRAME_US)
+        self.world.push(self.body, self.now, pose)
         for prop, place in zip(self.props, places):
-            self.world.push(prop, self.pushed * FRAME_US, place)
+            self.world.push(prop, self.now, place)
         if self.steps is not None:
-            self.steps.poses[self.pushed] = pose
-        self.pushed += 1
+            self.steps.poses[int(instant) - self.frames.first] = pose
 
     def follow(self):
         """Everything that was pushed."""
-        until = (self.pushed - 1) * FRAME_US
-        for event in self.follower.follow(until).events:
+        for event in self.follower.follow(self.now).events:
             self._take(event)
-        self.world.forget_before(until)
+        self.world.forget_before(self.now)
         if self.steps is not None:
-            self.steps.forget_before(self.pushed - 1)
+            self.steps.forget_before(self.now // FRAME_US)
 
     def finish(self):
         for touch in self.live.values():
@@ -102,7 +101,7 @@ class Following:
                       event.kind == "starts_inside", False, np.array(other.point),
                       sign * np.array(event.normal), event.separation, event.penetration,
                       event.approach_speed / seconds)
-        if event.kind == "enter" and other.body is None:
+        if event.kind == "enter" and other.body is None and self.steps is not None:
             self._begin_as_its_step(touch)
         self.live[self._key(event)] = touch
         self.touches.append(touch)

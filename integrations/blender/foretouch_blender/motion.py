@@ -1,5 +1,6 @@
 """Where bones and objects are at every frame, as Blender evaluates them."""
 
+import math
 from dataclasses import dataclass, replace
 
 import bpy
@@ -23,6 +24,10 @@ class Range:
 
     def __len__(self):
         return self.last - self.first + 1
+
+    @property
+    def instants(self):
+        return np.arange(self.first, self.last + 1)
 
     def cut(self, first, last):
         return replace(self, first=max(self.first, first), last=min(self.last, last))
@@ -72,9 +77,9 @@ class Sampler:
         self.scene = None
 
     def at(self, frame):
-        """Of a whole frame: bones in the armature's space (b, 4, 4), the armature's own matrix, and
+        """Of a frame, whole or not: bones in the armature's space (b, 4, 4), the armature's own matrix, and
         those of the things."""
-        self.scene.frame_set(frame)
+        self.scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
         graph = self.layer.depsgraph
         rig = self.rig.evaluated_get(graph)
         rig.pose.bones.foreach_get("matrix", self.flat)
@@ -90,7 +95,7 @@ class Sampler:
             now = corners_of(thing.evaluated_get(graph))
             before = self.shapes.setdefault(thing, now)
             if now.shape != before.shape or not np.array_equal(now, before, equal_nan=True):
-                raise Told(f"'{thing.name}' changes its shape at frame {frame}: only what keeps its shape "
+                raise Told(f"'{thing.name}' changes its shape at frame {frame:g}: only what keeps its shape "
                            "can be checked against. Take it out of the chosen objects, or apply its modifiers")
 
 
@@ -104,18 +109,19 @@ class BodyMotion:
         self.unstretch = np.eye(4)
         self.unstretch[:3, :3] = np.linalg.inv(stretch)
 
-    def frames(self, bones, worlds, first):
-        """World frames (k, n, 4, 4) of the links, and how far each is from rigid (k, n)."""
+    def frames(self, bones, worlds, instants):
+        """World frames (k, n, 4, 4) of the links, and how far each is from rigid (k, n). `instants`: at
+        which frames of the scene."""
         moves = worlds[:, None] @ np.concatenate(
             [bones @ self.rest_inverse, np.broadcast_to(np.eye(4), (len(bones), 1, 4, 4))], axis=1)
         moves = self.axes.moves(moves[:, self.body.bones] @ self.unstretch)
         strains = strain(moves)
-        self._refuse_wild(moves, strains, first)
+        self._refuse_wild(moves, strains, instants)
         placed = moves @ self.body.rest
         placed[..., :3, :3] = nearest_rotations(moves[..., :3, :3]) @ self.body.rest[:, :3, :3]
         return placed, strains
 
-    def _refuse_wild(self, moves, strains, first):
+    def _refuse_wild(self, moves, strains, instants):
         has_lss = np.array([bool(lss) for lss in self.body.avatar.lss])
         wild = ~np.isfinite(strains) | (strains > MOST_STRAIN) | (np.linalg.det(moves[..., :3, :3]) < 0)
         wild &= has_lss | np.isnan(strains)
@@ -126,7 +132,7 @@ class BodyMotion:
         scales = ", ".join(f"{scale:.3g}" for scale in np.linalg.norm(linear, axis=0))
         mirrored = " and mirrored" if np.linalg.det(linear) < 0 else ""
         raise Told(f"Bone '{self.body.avatar.names[link]}' is scaled by {scales}{mirrored} at frame "
-                   f"{first + frame}: a body of rigid parts cannot follow it. Clear its scale (Alt S)")
+                   f"{instants[frame]:g}: a body of rigid parts cannot follow it. Clear its scale (Alt S)")
 
 
 def growth_of(strains, reaches):

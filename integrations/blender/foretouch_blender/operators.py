@@ -20,12 +20,14 @@ surfaces than the usual tolerance; Blender's single precision is a hundredth of 
 def following(sampled, tolerance):
     """Yields the share that is done, and returns the touches."""
     ft = library.package()
-    found = Following(ft, sampled.body.avatar, sampled.still, sampled.props, tolerance, sampled.frames)
-    for k in range(len(sampled.frames)):
-        found.push(sampled.pose(k), sampled.places_at(k))
+    instants = sampled.instants
+    found = Following(ft, sampled.body.avatar, sampled.still, sampled.props, tolerance, sampled.frames,
+                      whole_frames=len(instants) == len(sampled.frames))
+    for k, instant in enumerate(instants):
+        found.push(instant, sampled.pose(k), sampled.places_at(k))
         if k % CHUNK == CHUNK - 1:
             found.follow()
-            yield k / len(sampled.frames)
+            yield k / len(instants)
     found.follow()
     return found.finish()
 
@@ -76,7 +78,7 @@ class FORETOUCH_OT_make_solid(Job, bpy.types.Operator):
         before = rig.animation_data.action
         rig.animation_data.action = action
         try:
-            left = yield from scaled(self._check_again(context), 0.8, 1.0)
+            left = yield from scaled(self._check_again(context, [at for at, _ in shown]), 0.8, 1.0)
         except BaseException:  # a cancel, too
             rig.animation_data.action = before
             bpy.data.actions.remove(action)
@@ -84,9 +86,9 @@ class FORETOUCH_OT_make_solid(Job, bpy.types.Operator):
         before.use_fake_user = True  # nothing else may hold it now
         return _told_of(action, left, unproven)
 
-    def _check_again(self, context):
-        """What the action as Blender plays it really touches, not what comes near."""
-        sampled = yield from scaled(sampling(context), 0.0, 0.9)
+    def _check_again(self, context, instants):
+        """What the action as Blender plays it really touches, not what comes near, from key to key."""
+        sampled = yield from scaled(sampling(context, more_instants=instants), 0.0, 0.9)
         return (yield from scaled(following(sampled, AGAIN_M), 0.9, 1.0))
 
 

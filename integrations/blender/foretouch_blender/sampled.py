@@ -21,6 +21,9 @@ class Sampled(NamedTuple):
     body: object
     axes: Axes
     frames: Range
+    instants: np.ndarray
+    """(k,), frames at which the poses are: whole ones, unless others were asked for."""
+    motion: BodyMotion
     poses: tuple
     """Rotations (k, n, 4) and translations (k, n, 3)."""
     still: object
@@ -38,8 +41,9 @@ class Sampled(NamedTuple):
         return [(rotations[k], translations[k]) for rotations, translations in self.places]
 
 
-def sampling(context, with_obstacles=True, between=None):
-    """Yields the share that is done, and returns a Sampled. `between`: frames to cut the range to."""
+def sampling(context, with_obstacles=True, between=None, more_instants=()):
+    """Yields the share that is done, and returns a Sampled. `between`: frames to cut the range to.
+    `more_instants`: frames that are not whole, to look at as well."""
     ft = library.package()
     scene = context.scene
     rig = armature_of(scene)
@@ -58,7 +62,9 @@ def sampling(context, with_obstacles=True, between=None):
         if with_obstacles:
             obstacles = read([(thing, sampler.layer.depsgraph if thing in watched else graph)
                               for thing in things], notes)
-        poses, worlds, most = yield from _all_frames(sampler, frames, BodyMotion(rig, body, axes, stretch))
+        motion = BodyMotion(rig, body, axes, stretch)
+        instants = np.union1d(frames.instants, more_instants)
+        poses, worlds, most = yield from _all_frames(sampler, instants, motion)
     more = growth_of(most, reaches(body))
     notes += [f"Bone '{body.avatar.names[link]}' stretches by up to {100 * most[link]:.1f} %: its capsules "
               f"are {1000 * more[link]:.1f} mm thicker. Apply the armature's scale (Ctrl A), or clear the "
@@ -66,26 +72,27 @@ def sampling(context, with_obstacles=True, between=None):
     moving = _moving(watched, worlds)
     props = [each for each in obstacles if each.thing in moving]
     return Sampled(
-        rig, grown(body, more), axes, frames, poses,
+        rig, grown(body, more), axes, frames, instants, motion, poses,
         still_scene(ft, [each for each in obstacles if each.thing not in moving], axes),
         [(each.name, still_scene(ft, [each], axes)) for each in props],
-        [_places(each, moving[each.thing], axes, frames) for each in props], notes)
+        [_places(each, moving[each.thing], axes, instants) for each in props], notes)
 
 
-def _all_frames(sampler, frames, motion):
+def _all_frames(sampler, instants, motion):
     """Poses of the body, matrices of the watched things (k, things, 4, 4), and the most that each link
     is strained."""
     rotations, translations, worlds, most = [], [], [], 0.0
-    for first in range(frames.first, frames.last + 1, CHUNK):
-        found = [sampler.at(frame) for frame in range(first, min(first + CHUNK, frames.last + 1))]
+    for first in range(0, len(instants), CHUNK):
+        chunk = instants[first:first + CHUNK]
+        found = [sampler.at(float(instant)) for instant in chunk]
         bones, rigs, things = (np.array(part) for part in zip(*found))
-        placed, strains = motion.frames(bones, rigs, first)
+        placed, strains = motion.frames(bones, rigs, chunk)
         turned, moved = poses_of(placed, motion.body.avatar.parents)
         rotations.append(turned)
         translations.append(moved)
         worlds.append(things.reshape(len(found), -1, 4, 4))
         most = np.maximum(most, strains.max(axis=0))
-        yield 0.9 * (first - frames.first) / len(frames)
+        yield 0.9 * first / len(instants)
     return (np.concatenate(rotations), np.concatenate(translations)), np.concatenate(worlds), most
 
 
@@ -95,13 +102,13 @@ def _moving(things, worlds):
             if np.any(worlds[:, k] != worlds[0, k])}
 
 
-def _places(obstacle, worlds, axes, frames):
+def _places(obstacle, worlds, axes, instants):
     """Where the obstacle is, seen from where it was read. Told where it changes its size."""
     moves = axes.moves(worlds @ np.linalg.inv(obstacle.world))
     strains = strain(moves)
     if not np.all(strains <= MOST_PROP_STRAIN):  # not a number: neither
-        frame = frames.first + int(np.argmin(strains <= MOST_PROP_STRAIN))
-        raise Told(f"'{obstacle.name}' changes its size at frame {frame}: what moves must stay rigid. "
+        frame = instants[int(np.argmin(strains <= MOST_PROP_STRAIN))]
+        raise Told(f"'{obstacle.name}' changes its size at frame {frame:g}: what moves must stay rigid. "
                    "Take it out of the chosen objects, or clear its scale")
     return quaternions(nearest_rotations(moves[:, :3, :3])), moves[:, :3, 3]
 

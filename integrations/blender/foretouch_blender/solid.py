@@ -36,19 +36,36 @@ def refuse_what_a_bake_cannot_hold(rig):
 
 
 def showing(sampled, asked):
-    """Yields the share that is done, and returns the frames (k, n, 4, 4) of the shown links, and the
-    numbers of those frames whose way is not proven free."""
+    """Yields the share that is done, and returns the shown links as (instant, world frames), and the
+    numbers of those frames to which no way is proven free."""
     follow = _follower(sampled, asked)
     parents = sampled.body.avatar.parents
     shown, unproven = [], []
-    for k in range(len(sampled.frames)):
+    for k, frame in enumerate(sampled.instants):
         tick = follow(k)
-        shown.append(frames_of(*tick.shown, parents))
         if not tick.is_certified:
-            unproven.append(sampled.frames.first + k)
+            unproven.append(int(frame))
+        for share, pose in _pieces(tick):
+            shown.append((float(np.float32(frame - 1 + share)) if share < 1.0 else float(frame),
+                          frames_of(*pose, parents)))
         if k % 16 == 0:
-            yield k / len(sampled.frames)
-    return np.array(shown), unproven
+            yield k / len(sampled.instants)
+    return shown, unproven
+
+
+def _pieces(tick):
+    """The ends of the tick's way, that is straight in between, with their shares of the frame. Blender
+    takes keys that are nearer to each other than LEAST_APART for one."""
+    before, pieces = 0.0, []
+    for share, pose in list(zip(tick.times, tick.way))[:-1]:
+        if share - before >= LEAST_APART and 1.0 - share >= LEAST_APART:
+            pieces.append((share, pose))
+            before = share
+    return [*pieces, (1.0, tick.shown)]
+
+
+LEAST_APART = 0.02
+"""Frames; twice what Blender's own search for keys tells apart."""
 
 
 def _follower(sampled, asked):
@@ -64,12 +81,16 @@ def _follower(sampled, asked):
     body = solids.add(sampled.body.avatar, **options)
     props = [solids.world.add(scene) for _, scene in sampled.props]
 
-    def follow(k):
-        now = round(1e6 * seconds * k)
+    def push(now, k):
         for prop, place in zip(props, sampled.places_at(k)):
             solids.world.push(prop, now, place)
+
+    def follow(k):
+        now = round(1e6 * seconds * (k + 1))  # its first tick comes after its begin
+        push(now, k)
         return solids.tick(now, {body: sampled.pose(k)})[body].tick
 
+    push(0, 0)
     return follow
 
 
@@ -80,17 +101,17 @@ FAR = [[1e6, 1e6, 1e6], [1e6 + 1, 1e6, 1e6], [1e6, 1e6 + 1, 1e6]]
 def baking(sampled, shown, scene):
     """Yields the share that is done, and returns the new action. Nothing is assigned yet."""
     rig, body = sampled.rig, sampled.body
-    tracked = frames_of(*sampled.poses, body.avatar.parents)
-    moves = sampled.axes.moves_back(shown @ inverted(tracked))
     link_of = {int(bone): link for link, bone in enumerate(body.bones) if bone >= 0}
     channels = _Channels(rig, link_of)
     with Sampler(rig, scene) as sampler:
-        for k in range(len(sampled.frames)):
-            bones, world, _ = sampler.at(sampled.frames.first + k)
-            channels.add(bones, np.linalg.inv(world) @ moves[k] @ world)
+        for k, (instant, frames) in enumerate(shown):
+            bones, world, _ = sampler.at(instant)
+            tracked, _ = sampled.motion.frames(bones[None], world[None], [instant])
+            moves = sampled.axes.moves_back(frames @ inverted(tracked[0]))
+            channels.add(bones, np.linalg.inv(world) @ moves @ world)
             if k % 16 == 0:
-                yield k / len(sampled.frames)
-    return channels.write(rig.animation_data.action, sampled.frames)
+                yield k / len(shown)
+    return channels.write(rig.animation_data.action, [instant for instant, _ in shown])
 
 
 class _Channels:
@@ -128,7 +149,7 @@ class _Channels:
         before = self.values[k][-1] if self.values[k] else None
         return location, _as_mode(rotation, self.pose[k].rotation_mode, before and before[1])
 
-    def write(self, action, frames):
+    def write(self, action, instants):
         solid = action.copy()
         solid.name = f"{action.name} solid"
         paths = {f'{bone.path_from_id()}.{kind}' for k, bone in enumerate(self.pose) if k in self.values
@@ -139,9 +160,9 @@ class _Channels:
         for k, values in self.values.items():
             bone = self.pose[k]
             kind = _rotation_path(bone.rotation_mode)
-            _write(curves, f"{bone.path_from_id()}.{kind}", [list(v[1]) for v in values], frames, bone.name)
+            _write(curves, f"{bone.path_from_id()}.{kind}", [list(v[1]) for v in values], instants, bone.name)
             if not (self.bones[k].use_connect and self.parents[k] >= 0):
-                _write(curves, f"{bone.path_from_id()}.location", [v[0][:] for v in values], frames,
+                _write(curves, f"{bone.path_from_id()}.location", [v[0][:] for v in values], instants,
                        bone.name)
         return solid
 
@@ -170,9 +191,9 @@ def _curve_list(action):
     return action.layers[0].strips[0].channelbags[0].fcurves
 
 
-def _write(curves, path, values, frames, group):
+def _write(curves, path, values, instants, group):
     columns = np.array(values, dtype=np.float32).T
-    numbers = np.arange(frames.first, frames.last + 1, dtype=np.float32)
+    numbers = np.array(instants, dtype=np.float32)
     for index, column in enumerate(columns):
         options = {"action_group": group} if hasattr(bpy.types.Action, "fcurves") else {}
         curve = curves.new(path, index=index, **options)

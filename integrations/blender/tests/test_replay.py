@@ -69,7 +69,7 @@ class SamePoses(unittest.TestCase):
         frames = Range(0, len(poses) - 1, cls.header["frame_time"])
         following = Following(cls.ft, avatar, room, [], cls.header["tolerance"], frames)
         for k, pose in enumerate(poses):
-            following.push(pose, [])
+            following.push(k, pose, [])
             if k % 7 == 6:
                 following.follow()
         following.follow()
