@@ -61,6 +61,7 @@ def _empty(scene, touch, axes):
     empty["frame"], empty["link"], empty["object"] = touch.begin.frame, touch.link, touch.object
     empty.empty_display_type = "SINGLE_ARROW"
     empty.empty_display_size = 0.1 / axes.unit
+    empty.show_in_front = True
     empty.location = axes.points_back(touch.point)
     normal = Vector(axes.directions_back(touch.normal))
     if normal.length > 0.0:

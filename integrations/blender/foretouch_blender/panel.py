@@ -11,11 +11,12 @@ class FORETOUCH_UL_touches(bpy.types.UIList):
     """One line per touch."""
 
     def draw_item(self, _context, layout, _data, touch, _icon, _active, _property, _index):
-        row = layout.row(align=True)
-        row.label(text=f"{touch.begin:.2f}", icon="QUESTION" if not touch.is_known else
+        split = layout.split(factor=0.38, align=True)
+        split.label(text=f"{touch.begin:.2f}", icon="QUESTION" if not touch.is_known else
                   "IMPORT" if touch.begins_inside else "DOT")
-        row.label(text=touch.link)
-        row.label(text=touch.object)
+        names = split.row(align=True)
+        names.label(text=touch.link)
+        names.label(text=touch.object)
 
 
 class FORETOUCH_PT_panel(bpy.types.Panel):
@@ -41,7 +42,10 @@ class FORETOUCH_PT_panel(bpy.types.Panel):
         _draw_settings(layout, asked)
         layout.operator("foretouch.check", icon="VIEWZOOM")
         _draw_touches(layout, context.scene)
-        layout.operator("foretouch.make_solid", icon="PHYSICS")
+        column = layout.column()
+        column.operator("foretouch.make_solid", icon="PHYSICS")
+        column.prop(asked, "skin")
+        column.prop(asked, "floor")
         if asked.touches or any("foretouch" in child for child in context.scene.collection.children):
             layout.operator("foretouch.clear", icon="TRASH")
         for line in asked.notes.splitlines():
@@ -59,8 +63,6 @@ def _draw_settings(layout, asked):
     column.prop(asked, "against")
     column.prop(asked, "frames")
     column.prop(asked, "tolerance")
-    column.prop(asked, "skin")
-    column.prop(asked, "floor")
 
 
 def _draw_touches(layout, scene):
@@ -72,12 +74,12 @@ def _draw_touches(layout, scene):
         claim = f"{touch.approach:.2f} m/s" if touch.is_known else "nothing is claimed"
         layout.label(text=f"Frames {touch.begin:.2f} {ends}, {claim}")
         layout.operator("foretouch.jump", icon="TIME").index = -1
-    layout.prop(asked, "sweep_error")
-    row = layout.row(align=True)
-    one = row.row(align=True)
+    column = layout.column(align=True)
+    one = column.row(align=True)
     one.enabled = touch is not None
-    one.operator("foretouch.sweep", text="Sweep of Touch").of_bone = False
-    row.operator("foretouch.sweep", text="Of Active Bone").of_bone = True
+    one.operator("foretouch.sweep", text="Sweep of Touch", icon="MOD_ARRAY").of_bone = False
+    column.operator("foretouch.sweep", text="Sweep of Active Bone", icon="BONE_DATA").of_bone = True
+    column.prop(asked, "sweep_error")
 
 
 def _draw_missing(layout):

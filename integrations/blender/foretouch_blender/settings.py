@@ -43,21 +43,21 @@ class ForetouchSettings(bpy.types.PropertyGroup):
         ("ENVELOPES", "Bone Envelopes", "Each deforming bone as thick as its envelope"),
         ("FILE", "Avatar File", "An avatar of Foretouch, whose links have the names of bones")])
     avatar_file: StringProperty(name="File", subtype="FILE_PATH", description="The avatar file")
-    most_lss: IntProperty(name="Capsules per Bone", default=4, min=1, max=16,
-                          description="At most; fewer where more would not fit better")
+    most_lss: IntProperty(name="Capsules", default=4, min=1, max=16,
+                          description="At most so many per bone; fewer where more would not fit better")
     frames: EnumProperty(name="Frames", default="ACTION", items=[
         ("ACTION", "Of the Action", "From the first to the last frame of the active action"),
         ("SCENE", "Of the Scene", "From Start to End, with NLA strips and whatever moves the armature")])
-    tolerance: FloatProperty(name="Tolerance (m)", default=0.001, min=1e-5, max=0.1, precision=4,
-                             description="A touch may be reported this near before it happens, never after")
-    skin: FloatProperty(name="Gap (m)", default=0.002, min=1e-5, max=0.1, precision=4,
-                        description="What the solid body keeps to surfaces where it can")
+    tolerance: FloatProperty(name="Tolerance", default=0.001, min=1e-5, max=0.1, precision=4,
+                             description="A touch may be reported so many metres before it happens, never after")
+    skin: FloatProperty(name="Gap", default=0.002, min=1e-5, max=0.1, precision=4,
+                        description="Metres that the solid body keeps to surfaces where it can")
     floor: EnumProperty(name="Feet", default="LIFT", items=[
         ("LIFT", "Lift the Body", "Where feet are below the floor the whole body is lifted"),
         ("HOLD", "Hold the Feet", "The floor is a surface like all others")])
-    sweep_error: FloatProperty(name="Sweep Error (m)", default=0.005, min=1e-5, max=1.0, precision=4,
+    sweep_error: FloatProperty(name="Error", default=0.005, min=1e-5, max=1.0, precision=4,
                                description="The sweep holds all that the bone's capsules sweep, and "
-                                           "nothing farther away than this")
+                                           "nothing farther away than so many metres")
     touches: CollectionProperty(type=ForetouchTouch)
     active: IntProperty(default=-1, update=_jump)
     notes: StringProperty()

@@ -51,6 +51,15 @@ def imported_dancer(scene):
     return bpy.context.object
 
 
+def imported_room(scene):
+    finished(bpy.ops.wm.obj_import, filepath=str(ROOM), forward_axis="NEGATIVE_Z", up_axis="Y")
+    room = bpy.data.collections.new("Room")
+    scene.collection.children.link(room)
+    for thing in bpy.context.selected_objects:
+        room.objects.link(thing)
+    return room
+
+
 def named(touch):
     return touch["link"], touch["object"], touch["begin"], touch["end"]
 
@@ -103,13 +112,8 @@ class Imported(unittest.TestCase):
     def setUpClass(cls):
         cls.scene = fresh()
         cls.rig = imported_dancer(cls.scene)
-        finished(bpy.ops.wm.obj_import, filepath=str(ROOM), forward_axis="NEGATIVE_Z", up_axis="Y")
-        room = bpy.data.collections.new("Room")
-        cls.scene.collection.children.link(room)
-        for thing in bpy.context.selected_objects:
-            room.objects.link(thing)
         asked = cls.scene.foretouch
-        asked.body, asked.against = cls.rig, room
+        asked.body, asked.against = cls.rig, imported_room(cls.scene)
         asked.body_from, asked.avatar_file = "FILE", str(AVATAR)
         finished(bpy.ops.foretouch.check)
 
