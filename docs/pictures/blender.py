@@ -19,7 +19,7 @@ def main(folder):
         return
     subprocess.run(["xvfb-run", "-a", "-s", f"-screen 0 {WIDTH}x{HEIGHT}x24", "blender", "--factory-startup",
                     "--enable-event-simulate", "--python", str(SCRIPT), "--", "blender.png"], check=True,
-                   stdout=subprocess.DEVNULL)
+                   stdout=subprocess.DEVNULL, timeout=120)
     shrink("blender.png", MOST_BYTES, f"{folder}/blender.png", PART)
 
 

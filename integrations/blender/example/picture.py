@@ -6,6 +6,7 @@ hand sweeps.
 
 import os
 import sys
+import traceback
 
 import bpy
 
@@ -82,6 +83,8 @@ def run():
         return next(RUNNING)
     except StopIteration:
         pass
+    except Exception:
+        traceback.print_exc()
     bpy.ops.wm.quit_blender()
 
 

@@ -20,7 +20,7 @@ blender -b --factory-startup --python-exit-code 1 --python-expr \
 case $suite in
   window)
     command -v xvfb-run >/dev/null || skip "there is no xvfb-run (Debian: apt install xvfb xauth libgl1-mesa-dri)"
-    xvfb-run -a -s "-screen 0 1280x800x24" blender --factory-startup --enable-event-simulate \
+    xvfb-run -a -s "-screen 0 1280x800x24" timeout 250 blender --factory-startup --enable-event-simulate \
       --python "$here/window.py" 2>&1 | tee /dev/stderr | grep -q "^WINDOW passed"
     ;;
   measure)
