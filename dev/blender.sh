@@ -11,10 +11,16 @@ mkdir -p build/blender
 python3 - <<'PACK'
 import pathlib, zipfile
 folder = pathlib.Path("integrations/blender/foretouch_blender")
-with zipfile.ZipFile("build/blender/foretouch_blender.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+
+
+def add(archive, name, file):  # without its date: the same sources are the same bytes
+    archive.writestr(zipfile.ZipInfo(f"{folder.name}/{name}"), file.read_bytes(), zipfile.ZIP_DEFLATED)
+
+
+with zipfile.ZipFile("build/blender/foretouch_blender.zip", "w") as archive:
     for file in sorted(folder.glob("*.py")):
-        archive.writestr(zipfile.ZipInfo(f"{folder.name}/{file.name}"), file.read_bytes())
-    archive.writestr(zipfile.ZipInfo(f"{folder.name}/LICENSE"), pathlib.Path("LICENSE").read_bytes())
+        add(archive, file.name, file)
+    add(archive, "LICENSE", pathlib.Path("LICENSE"))
 PACK
 echo "blender: build/blender/foretouch_blender.zip"
 tests=integrations/blender/tests

@@ -54,17 +54,28 @@ class Axes:
         return back
 
 
-def strain(moves):
-    """(...,): no length grows or shrinks by a larger share; 0 of what is rigid.
-
-    |s - 1| <= |s^2 - 1| of each singular value s >= 0, and no eigenvalue exceeds the Frobenius norm.
-    """
-    linear = moves[..., :3, :3]
-    return np.linalg.norm(np.swapaxes(linear, -1, -2) @ linear - np.eye(3), axis=(-1, -2))
-
-
 NEARLY_RIGID = 1e-4
 """Strain below which one step of Newton's iteration finds the nearest rotation to 1e-8."""
+
+
+def strain(moves):
+    """(...,): no length grows or shrinks by a larger share; about 0 of what is rigid.
+
+    |s - 1| <= |s^2 - 1| of each singular value s >= 0, and no eigenvalue exceeds the Frobenius norm;
+    where that is not small, the singular values themselves.
+    """
+    linear = np.asarray(moves)[..., :3, :3]
+    most = np.linalg.norm(np.swapaxes(linear, -1, -2) @ linear - np.eye(3), axis=(-1, -2))
+    bent = np.isfinite(most) & (most > NEARLY_RIGID)
+    if np.any(bent):
+        values = np.linalg.svd(linear[bent], compute_uv=False)
+        most = np.array(most)
+        most[bent] = np.abs(values - 1.0).max(axis=-1) + SVD_ROUNDING
+    return most
+
+
+SVD_ROUNDING = 1e-12
+"""More than numpy's singular values of a matrix of some units are off."""
 
 
 def nearest_rotations(linear):

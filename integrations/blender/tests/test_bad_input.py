@@ -1,6 +1,7 @@
 """What cannot be answered is told in Blender's words, and changes nothing."""
 
 import os
+import sys
 import tempfile
 import unittest
 
@@ -8,6 +9,7 @@ import bpy
 from blend import contents, example, finished, fresh
 
 import make_scene
+from foretouch_blender import library
 
 
 class BadInput(unittest.TestCase):
@@ -195,6 +197,23 @@ class BadInput(unittest.TestCase):
     def test_an_action_that_is_mixed_cannot_be_made_solid(self):
         self.rig.animation_data.action_influence = 0.5
         self.told("mixed with NLA", operator=bpy.ops.foretouch.make_solid)
+
+
+class MissingPackage(unittest.TestCase):
+    def test_is_told_with_the_line_that_installs_it(self):
+        scene, _ = example()
+        package, folders = sys.modules.pop("foretouch"), library._folders
+        sys.modules["foretouch"], library._folders = None, lambda: []
+        try:
+            before = contents(scene)
+            with self.assertRaises(RuntimeError) as caught:
+                bpy.ops.foretouch.check()
+            self.assertIn("pip install", str(caught.exception))
+            self.assertIn(f"Python {sys.version_info.major}.{sys.version_info.minor}", str(caught.exception))
+            self.assertNotIn("Traceback", str(caught.exception))
+            self.assertEqual(contents(scene), before)
+        finally:
+            sys.modules["foretouch"], library._folders = package, folders
 
 
 class LinkedRig(unittest.TestCase):

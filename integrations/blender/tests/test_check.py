@@ -212,6 +212,52 @@ class SkinnedArm(unittest.TestCase):
             self.assertLessEqual(outside, 1e-6)
 
 
+class Stretched(unittest.TestCase):
+    """Whatever scale a rig has: where one bone alone moves vertices, Blender has them in its capsules."""
+
+    def outermost(self, scene):
+        """How far the farthest such vertex is outside, over all frames."""
+        sampled = drained(sampling(bpy.context))
+        avatar, mesh = sampled.body.avatar, bpy.data.objects["Arm"]
+        hand = avatar.link("Hand")
+        worst = -1.0
+        for k, frame in enumerate(sampled.frames.instants):
+            scene.frame_set(int(frame))
+            evaluated = mesh.evaluated_get(bpy.context.evaluated_depsgraph_get())
+            place = frames_of(*sampled.pose(k), avatar.parents)[hand]
+            ends = [(place[:3, :3] @ each.a + place[:3, 3], place[:3, :3] @ each.b + place[:3, 3], each.radius)
+                    for each in avatar.lss[hand]]
+            for vertex in evaluated.data.vertices:
+                if mesh.data.vertices[vertex.index].co.x > 0.7:
+                    point = sampled.axes.points(evaluated.matrix_world @ vertex.co)
+                    worst = max(worst, min(distance(point, a, b) - radius for a, b, radius in ends))
+        return worst
+
+    def test_evenly(self):
+        scene, rig = example()
+        rig.scale = (2.0, 2.0, 2.0)
+        self.assertLess(abs(self.outermost(scene)), 2e-6)
+
+    def test_unevenly(self):
+        for scale in ((1.0, 1.1, 1.0), (0.8, 1.0, 1.2)):
+            scene, rig = example()
+            rig.scale = scale
+            self.assertLess(self.outermost(scene), 2e-6)
+
+    def test_by_a_bone(self):
+        for scale in ((1.0, 1.2, 1.0), (1.3, 1.0, 1.0), (0.7, 0.7, 0.7)):
+            scene, rig = example()
+            rig.pose.bones["Hand"].scale = scale
+            self.assertLess(self.outermost(scene), 2e-6)
+
+    def test_while_the_rig_lies_somewhere_else(self):
+        scene, rig = example()
+        rig.location, rig.rotation_euler = (3.0, -1.0, 2.0), (0.3, 0.5, -1.0)
+        rig.scale = (1.0, 1.1, 1.0)
+        scene.unit_settings.system, scene.unit_settings.scale_length = "METRIC", 0.1
+        self.assertLess(self.outermost(scene), 2e-6)
+
+
 class HeldThing(unittest.TestCase):
     def test_on_a_bone_is_part_of_the_body(self):
         """A stick in the hand meets the board, which the hand itself goes past."""
