@@ -133,6 +133,7 @@ class BallThroughBoard(unittest.TestCase):
         self.assertLessEqual(found.begin, self.ENTER + 1e-4)
         self.assertGreaterEqual(found.begin, self.ENTER - (TOLERANCE + 1e-4) / SPEED)
         self.assertAlmostEqual(found.empty.location.x, RADIUS, delta=2e-3)
+        self.assertAlmostEqual(found.empty.rotation_euler.to_matrix().col[2].x, -1.0, delta=1e-4)
 
     def test_against_a_collection_instance(self):
         scene, rig, thing = self.scene()

@@ -137,6 +137,9 @@ class Sweep(unittest.TestCase):
 
     def test_holds_every_vertex_of_the_hand_at_every_frame(self):
         scene, rig = example()
+        for frame, z in ((1, 0.0), (make_scene.FRAMES, 2.0)):  # it comes to no place twice
+            rig.location.z = z
+            rig.keyframe_insert("location", frame=frame)
         rig.data.bones.active = rig.data.bones["Hand"]
         finished(bpy.ops.foretouch.sweep, of_bone=True)
         (sweep,) = [thing for thing in bpy.data.objects if thing.get("foretouch") == "sweep"]
