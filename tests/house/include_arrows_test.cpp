@@ -22,6 +22,7 @@ using foretouch::house::contentOf;
 const std::map<std::string, std::set<std::string>> kArrows = {
     {"judge", {}},
     {"verify", {}},
+    {"integrations", {}},
     {"lss", {}},
     {"articulated", {"lss"}},
     {"tessellation", {"articulated", "lss"}},
