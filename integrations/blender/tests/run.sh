@@ -13,7 +13,7 @@ skip() {
 }
 
 command -v blender >/dev/null || skip "there is no blender (Debian: apt install blender)"
-[ -d "$FORETOUCH_BUILD/lib/python3/dist-packages/foretouch" ] || skip "the Python package is not built"
+ls "$FORETOUCH_BUILD"/lib/python3/dist-packages/foretouch/_foretouch*.so >/dev/null 2>&1 || skip "the Python package is not built"
 blender -b --factory-startup --python-exit-code 1 --python-expr \
   'import sys; sys.exit(sys.version_info[:2] != (3, 11))' >/dev/null 2>&1 ||
   skip "Blender's Python is not the 3.11 that the package is built for"
