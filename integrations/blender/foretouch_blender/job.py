@@ -35,7 +35,11 @@ class Job:
         if event.type == "TIMER":
             until = time.monotonic() + SLICE_S
             while time.monotonic() < until:
-                share = next(self.work, None)
+                try:
+                    share = next(self.work, None)
+                except BaseException:  # a mistake of ours: the window must not keep waiting
+                    self.end(context, {"CANCELLED"})
+                    raise
                 if share is None:
                     return self.end(context, self.outcome)
             self.tell(context, share)

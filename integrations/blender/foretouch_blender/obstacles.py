@@ -19,13 +19,16 @@ class Obstacle(NamedTuple):
     """(4, 4), of the object then."""
 
 
-def chosen(scene, context):
-    """The objects to check against, without the body's own; Told if there are none."""
+def chosen(scene, context, notes):
+    """The shown objects to check against, without the body's own; Told if there are none. Blender does
+    not keep hidden ones up to date."""
     rig, collection = scene.foretouch.body, scene.foretouch.against
     own = {rig, *meshes_of(rig, scene)}
     things = collection.all_objects if collection else context.selected_objects
-    found = [thing for thing in things if thing not in own and not thing.hide_viewport
-             and "foretouch" not in thing and (thing.type in SOLID_TYPES or _instances(thing))]
+    named = [thing for thing in things if thing not in own and "foretouch" not in thing
+             and (thing.type in SOLID_TYPES or _instances(thing))]
+    found = [thing for thing in named if thing.visible_get()]
+    notes += [f"'{thing.name}' is hidden: it is left out" for thing in named if thing not in found]
     if not found:
         raise Told(f"The collection '{collection.name}' has no shown objects with faces" if collection
                    else "Choose what to check against: a collection, or select objects")

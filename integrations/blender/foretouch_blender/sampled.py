@@ -51,13 +51,14 @@ def sampling(context, with_obstacles=True, between=None, more_instants=()):
     if between is not None:
         frames = frames.cut(*between)
     axes = Axes.of(scene)
-    things = chosen(scene, context) if with_obstacles else []
+    notes = []
+    things = chosen(scene, context, notes) if with_obstacles else []
     watched = [thing for thing in things if may_move(thing) or may_reshape(thing)]
     graph = context.evaluated_depsgraph_get()
     with Sampler(rig, scene, watched) as sampler:
         stretch = rest_stretch(sampler.at(frames.first)[1])
         body = body_of(rig, scene, axes, stretch)
-        notes = list(body.notes)
+        notes += body.notes
         obstacles = []
         if with_obstacles:
             obstacles = read([(thing, sampler.layer.depsgraph if thing in watched else graph)
@@ -66,9 +67,9 @@ def sampling(context, with_obstacles=True, between=None, more_instants=()):
         instants = np.union1d(frames.instants, more_instants)
         poses, worlds, most = yield from _all_frames(sampler, instants, motion)
     more = growth_of(most, reaches(body))
-    notes += [f"Bone '{body.avatar.names[link]}' stretches by up to {100 * most[link]:.1f} %: its capsules "
-              f"are {1000 * more[link]:.1f} mm thicker. Apply the armature's scale (Ctrl A), or clear the "
-              "bone's (Alt S)" for link in np.flatnonzero(more > 0.0)]
+    notes += [f"Bone '{body.avatar.names[link]}' stretches by up to {100 * most[link]:.2g} %: its capsules "
+              f"are {1000 * more[link]:.2g} mm thicker. Apply the armature's scale (Ctrl A), or clear the "
+              "bone's (Alt S)" for link in np.flatnonzero(more > NOTED_M)]
     moving = _moving(watched, worlds)
     props = [each for each in obstacles if each.thing in moving]
     return Sampled(
@@ -76,6 +77,10 @@ def sampling(context, with_obstacles=True, between=None, more_instants=()):
         still_scene(ft, [each for each in obstacles if each.thing not in moving], axes),
         [(each.name, still_scene(ft, [each], axes)) for each in props],
         [_places(each, moving[each.thing], axes, instants) for each in props], notes)
+
+
+NOTED_M = 1e-4
+"""Metres by which capsules may be thicker without a word: a tenth of the usual tolerance."""
 
 
 def _all_frames(sampler, instants, motion):

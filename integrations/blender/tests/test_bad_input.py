@@ -104,6 +104,16 @@ class BadInput(unittest.TestCase):
         self.told_and_checked("'Floor' has no faces")
         self.assertEqual(len(self.asked.touches), 4)
 
+    def test_hidden_objects_are_left_out(self):
+        bpy.data.objects["Floor"].hide_set(True)
+        self.told_and_checked("'Floor' is hidden")
+        bpy.data.objects["Board"].hide_viewport = True
+        self.told("The collection 'Room' has no shown objects")
+
+    def test_a_hidden_mesh_is_no_body(self):
+        bpy.data.objects["Arm"].hide_set(True)
+        self.told("No shown mesh moves with 'Rig'")
+
     def test_vertices_that_are_no_numbers(self):
         bpy.data.objects["Arm"].data.vertices[7].co.x = float("nan")
         self.told_and_checked("faces of 'Arm' have vertices that are no numbers")
