@@ -1,10 +1,14 @@
 """How long a check of 10,000 frames takes: run.sh BUILD measure. Not a test: machines differ."""
 
+import os
+import sys
 import time
 
 import bpy
-from blend import example, finished, fresh
-from test_replay import AVATAR, imported_room, imported_dancer
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from blend import example, finished, fresh  # noqa: E402
+from test_replay import AVATAR, imported_dancer, imported_room  # noqa: E402
 
 FRAMES = 10_000
 
