@@ -18,4 +18,6 @@ inputs=(--scene "$example/room.obj" --avatar "$example/dancer.avatar.json" --mot
 "$program" view "${inputs[@]}" --scene-scale 0.01 --output wrong.html >/dev/null
 PYTHONDONTWRITEBYTECODE=1 python3 "$pictures/report_pictures.py" demo.html look.html wrong.html "$pictures"
 PYTHONDONTWRITEBYTECODE=1 python3 "$pictures/page_moves.py" demo.html "$pictures"
+FORETOUCH_PACKAGES="$(realpath "$(dirname "$program")/../lib/python3/dist-packages")" PYTHONDONTWRITEBYTECODE=1 \
+  /usr/bin/python3 "$pictures/blender.py" "$pictures"
 ls -l "$pictures"/*.png

@@ -43,8 +43,12 @@ class FeetLabels(NamedTuple):
 def _program() -> str:
     """$FORETOUCH_PROGRAM, or the program of this package's installation or build tree, or of the
     PATH."""
-    # This file is PREFIX/lib/python3/dist-packages/foretouch/_feet.py.
-    beside = (Path(__file__).resolve().parent / "../../../../bin/foretouch").resolve()
+    package = Path(__file__).resolve().parent
+    # A wheel has an installation inside; else this file is
+    # PREFIX/lib/python3/dist-packages/foretouch/_feet.py.
+    inside = package / "_installed"
+    prefix = inside if inside.is_dir() else (package / "../../../..").resolve()
+    beside = prefix / "bin" / "foretouch"
     named = os.environ.get("FORETOUCH_PROGRAM")
     found = named or (str(beside) if beside.is_file() else shutil.which("foretouch"))
     if found is None:
