@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "lss/lss.h"
 
@@ -37,6 +38,9 @@ struct SceneAudit {
   Eigen::Vector3d boxMax = Eigen::Vector3d::Zero();
   double shortestEdge = 0.0, longestEdge = 0.0;  ///< Metres; the shortest that is not zero.
 };
+
+/// Of the finite triangles; empty if there are none. O(n), and much cheaper than an audit.
+[[nodiscard]] Eigen::AlignedBox3d boundsOf(const RawScene& raw);
 
 /// Counts and measures what build() would keep; also for scenes that build() refuses.
 [[nodiscard]] SceneAudit auditScene(const RawScene& raw);

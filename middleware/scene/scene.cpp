@@ -10,6 +10,7 @@
 #include "lss/assert.h"
 #include "lss/index.h"
 #include "middleware/scene/scene_parts.h"
+#include "middleware/scene/sort_by_hash.h"
 
 namespace foretouch {
 namespace {
@@ -68,12 +69,12 @@ std::uint64_t hashOf(const Triangle& triangle) {
 /// steps of queries, must not depend on the triangles' order of arrival.
 std::vector<TriangleId> inOrderOfGeometry(const std::vector<Triangle>& triangles,
                                           const std::vector<TriangleId>& ids) {
-  std::vector<std::pair<std::uint64_t, TriangleId>> keyed;
+  std::vector<internal::HashedTriangle> keyed;
   keyed.reserve(ids.size());
   for (const TriangleId id : ids) {
     keyed.emplace_back(hashOf(triangles[slotOf(id)]), id);
   }
-  std::sort(keyed.begin(), keyed.end(), [&](const auto& x, const auto& y) {
+  internal::sortByHash(keyed, [&](const auto& x, const auto& y) {
     if (x.first != y.first) return x.first < y.first;
     const auto &v = triangles[slotOf(x.second)].vertices, &w = triangles[slotOf(y.second)].vertices;
     if (v != w) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "lss/index.h"
 #include "lss/rounding.h"
 #include "middleware/scene/raw_scene.h"
+#include "middleware/scene/sort_by_hash.h"
 
 namespace foretouch {
 namespace {
@@ -66,9 +68,8 @@ void addProduct(ExactSum& sum, double x, double y, Wide sign) {
   sum.add(sign * lowerX * lowerY);
 }
 
-/// Do three points of the plane lie on a line? Exact: a filter, then the determinant ab + bc + ca
-/// without rounding.
-bool onLine(double ax, double ay, double bx, double by, double cx, double cy) {
+/// True: three points of the plane do not lie on a line. A filter: false says nothing.
+bool isOffLine(double ax, double ay, double bx, double by, double cx, double cy) {
   const double left = (ax - cx) * (by - cy);
   const double right = (ay - cy) * (bx - cx);
   // With u = 2^-53, each product is off by 3u + O(u^2) of itself (two differences, one product); 4u
@@ -76,7 +77,11 @@ bool onLine(double ax, double ay, double bx, double by, double cx, double cy) {
   // is NaN here or fails the comparison, and goes the exact way too.
   constexpr double kRounding = 4.0 * kUnitRoundoff;
   const double magnitude = std::abs(left) + std::abs(right);
-  if (magnitude > 1e-280 && std::abs(left - right) > kRounding * magnitude) return false;
+  return magnitude > 1e-280 && std::abs(left - right) > kRounding * magnitude;
+}
+
+/// Do three points of the plane lie on a line? The determinant ab + bc + ca, without rounding.
+bool onLine(double ax, double ay, double bx, double by, double cx, double cy) {
   const internal::ExtendedPrecision digits;
   ExactSum determinant;
   addProduct(determinant, ax, by, 1);
@@ -91,7 +96,10 @@ bool onLine(double ax, double ay, double bx, double by, double cx, double cy) {
 /// Three points in space lie on a line exactly if they do in all three coordinate planes.
 bool hasNoArea(const Triangle& triangle) {
   const auto& [a, b, c] = triangle.vertices;
-  return onLine(a.x(), a.y(), b.x(), b.y(), c.x(), c.y()) &&
+  const bool hasArea = isOffLine(a.x(), a.y(), b.x(), b.y(), c.x(), c.y()) ||
+                       isOffLine(a.y(), a.z(), b.y(), b.z(), c.y(), c.z()) ||
+                       isOffLine(a.z(), a.x(), b.z(), b.x(), c.z(), c.x());
+  return !hasArea && onLine(a.x(), a.y(), b.x(), b.y(), c.x(), c.y()) &&
          onLine(a.y(), a.z(), b.y(), b.z(), c.y(), c.z()) &&
          onLine(a.z(), a.x(), b.z(), b.x(), c.z(), c.x());
 }
@@ -131,13 +139,13 @@ std::size_t duplicatesIn(std::vector<PointSet>& sameHash) {
 
 /// Sorts 16 bytes per triangle, and the points themselves only where hashes are equal.
 std::size_t countDuplicates(const std::vector<Triangle>& triangles) {
-  std::vector<std::pair<std::uint64_t, TriangleId>> hashes;
+  std::vector<internal::HashedTriangle> hashes;
   hashes.reserve(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (!isFinite(triangles[i])) continue;
     hashes.emplace_back(hashOfPoints(pointsOf(triangles[i])), static_cast<TriangleId>(i));
   }
-  std::sort(hashes.begin(), hashes.end());
+  internal::sortByHash(hashes, std::less<>());
   std::size_t duplicates = 0;
   std::vector<PointSet> sameHash;
   for (std::size_t first = 0; first < hashes.size();) {
@@ -152,13 +160,18 @@ std::size_t countDuplicates(const std::vector<Triangle>& triangles) {
   return duplicates;
 }
 
-/// Boxes and edge lengths, triangle by triangle.
+/// Edge lengths, triangle by triangle.
 void measure(const Triangle& triangle, SceneAudit& audit) {
+  // Squares of ordinary lengths say at once that an edge is neither the longest nor the shortest.
+  constexpr double kLeast = 1e-100, kMost = 1e100, kRounding = 1e-12;
+  const double shortest = audit.shortestEdge * (1.0 + kRounding);
+  const double longest = audit.longestEdge * (1.0 - kRounding);
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3d& vertex = triangle.vertices[k];
     const Vector3d edge = triangle.vertices[(k + 1) % 3] - vertex;
-    audit.boxMin = audit.boxMin.cwiseMin(vertex);
-    audit.boxMax = audit.boxMax.cwiseMax(vertex);
+    const double square = edge.squaredNorm();
+    const bool isOrdinary = square > kLeast && square < kMost;
+    if (isOrdinary && square > shortest * shortest && square < longest * longest) continue;
     // hypot: squares of tiny and of huge coordinates leave the range of doubles, lengths do not. Of
     // two: not every standard library's of three keeps that.
     const double length = std::hypot(std::hypot(edge.x(), edge.y()), edge.z());
@@ -169,12 +182,18 @@ void measure(const Triangle& triangle, SceneAudit& audit) {
 
 }  // namespace
 
+Eigen::AlignedBox3d boundsOf(const RawScene& raw) {
+  Eigen::AlignedBox3d box;
+  for (const Triangle& triangle : raw.triangles) {
+    if (!isFinite(triangle)) continue;
+    for (const Vector3d& vertex : triangle.vertices) box.extend(vertex);
+  }
+  return box;
+}
+
 SceneAudit auditScene(const RawScene& raw) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   SceneAudit audit;
-  audit.boxMin.setConstant(kInfinity);
-  audit.boxMax.setConstant(-kInfinity);
-  audit.shortestEdge = kInfinity;
+  audit.shortestEdge = std::numeric_limits<double>::infinity();
   for (const Triangle& triangle : raw.triangles) {
     if (!isFinite(triangle)) {
       ++audit.droppedNonFinite;
@@ -184,9 +203,10 @@ SceneAudit auditScene(const RawScene& raw) {
     audit.zeroArea += hasNoArea(triangle);
     measure(triangle, audit);
   }
-  if (audit.triangles == 0) {
-    audit.boxMin.setZero();
-    audit.boxMax.setZero();
+  if (audit.triangles > 0) {
+    const Eigen::AlignedBox3d box = boundsOf(raw);
+    audit.boxMin = box.min();
+    audit.boxMax = box.max();
   }
   if (audit.longestEdge == 0.0) audit.shortestEdge = 0.0;
   audit.duplicates = countDuplicates(raw.triangles);

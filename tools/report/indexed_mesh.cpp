@@ -114,11 +114,24 @@ ViewMesh indexed(Corners corners) {
   return mesh;
 }
 
-Simplifier::Simplifier(const Corners& corners) : mesh_(indexed(corners)) {
-  if (mesh_.triangles() == 0) return;
+Simplifier::Simplifier(const Corners& corners, std::size_t most) : mesh_(indexed(corners)) {
+  trianglesGiven_ = mesh_.triangles();
+  if (trianglesGiven_ == 0) return;
   scaleM_ = static_cast<double>(
       meshopt_simplifyScale(mesh_.positions.data(), mesh_.vertices(), kVertexBytes));
+  if (trianglesGiven_ > most) mergeTo(most);
   if (hasEdges()) orient(mesh_.indices);
+}
+
+void Simplifier::mergeTo(std::size_t target) {
+  constexpr float kAnyError = 1.0f;
+  float error = 0.0f;
+  Indices kept(mesh_.indices.size());
+  kept.resize(meshopt_simplifySloppy(kept.data(), mesh_.indices.data(), mesh_.indices.size(),
+                                     mesh_.positions.data(), mesh_.vertices(), kVertexBytes,
+                                     3 * target, kAnyError, &error));
+  mesh_.indices = std::move(kept);
+  mergedM_ = scaleM_ * static_cast<double>(error);
 }
 
 bool Simplifier::hasEdges() const {
@@ -126,14 +139,14 @@ bool Simplifier::hasEdges() const {
 }
 
 Simplified Simplifier::within(double errorM) const {
-  if (!hasEdges() || !(scaleM_ > 0.0)) return {mesh_.indices, 0.0};
-  return collapsed(0, static_cast<float>(errorM / scaleM_));
+  if (!hasEdges() || !(scaleM_ > 0.0) || errorM <= mergedM_) return {mesh_.indices, mergedM_};
+  return collapsed(0, static_cast<float>((errorM - mergedM_) / scaleM_));
 }
 
 Simplified Simplifier::downTo(std::size_t target) const {
   // An error of 1 is the size of the mesh: the target alone decides.
   constexpr float kAnyError = 1.0f;
-  Simplified made = hasEdges() ? collapsed(target, kAnyError) : Simplified{mesh_.indices, 0.0};
+  Simplified made = hasEdges() ? collapsed(target, kAnyError) : Simplified{mesh_.indices, mergedM_};
   // Edges collapse in bunches: a little more than the target is good enough.
   if (made.triangles() <= target + target / 20) return made;
   float error = 0.0f;
@@ -152,7 +165,7 @@ Simplified Simplifier::collapsed(std::size_t target, float error) const {
                                  mesh_.positions.data(), mesh_.vertices(), kVertexBytes, 3 * target,
                                  error, 0, &found));
   }
-  return {std::move(kept), scaleM_ * static_cast<double>(found)};
+  return {std::move(kept), mergedM_ + scaleM_ * static_cast<double>(found)};
 }
 
 void Simplifier::append(const Simplified& made, Corners& corners) const {

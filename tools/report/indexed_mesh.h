@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "tools/report/view_document.h"
@@ -29,7 +30,10 @@ struct Simplified {
 /// meshoptimizer. Time and memory: O(n log n), O(n).
 class Simplifier {
  public:
-  explicit Simplifier(const Corners& corners);
+  /// Of a mesh of more than `most` triangles, vertices in one cell of a grid are merged first,
+  /// which is O(n): their error is that of all that follows.
+  explicit Simplifier(const Corners& corners,
+                      std::size_t most = std::numeric_limits<std::size_t>::max());
 
   /// As few triangles as an error of `errorM` allows.
   [[nodiscard]] Simplified within(double errorM) const;
@@ -37,14 +41,18 @@ class Simplifier {
   [[nodiscard]] Simplified downTo(std::size_t target) const;
 
   void append(const Simplified& made, Corners& corners) const;
-  [[nodiscard]] std::size_t triangles() const { return mesh_.triangles(); }
+  /// Of the mesh as it was given.
+  [[nodiscard]] std::size_t triangles() const { return trianglesGiven_; }
 
  private:
+  void mergeTo(std::size_t target);
   [[nodiscard]] bool hasEdges() const;
   [[nodiscard]] Simplified collapsed(std::size_t target, float error) const;
 
   ViewMesh mesh_;
-  double scaleM_ = 0.0;  ///< Of an error of 1.
+  double scaleM_ = 0.0;   ///< Of an error of 1.
+  double mergedM_ = 0.0;  ///< The error of the merged vertices.
+  std::size_t trianglesGiven_ = 0;
 };
 
 }  // namespace foretouch::tools

@@ -179,12 +179,20 @@ class Gathering {
   Corners corners_;
 };
 
-Simplifier simplifierOf(const Scene& scene, const Part& part, const Vector3d& origin) {
+/// A mesh of more triangles than this, and of more than so many times what may be shown, has
+/// vertices merged first: to collapse edges of all would take seconds.
+constexpr double kQuicklyDone = 2e5, kMostTimesShown = 4.0;
+
+/// `share`: of the triangles that may be shown in those that there are.
+Simplifier simplifierOf(const Scene& scene, const Part& part, const Vector3d& origin,
+                        double share) {
   Corners corners;
   for (const TriangleId id : part.ids) {
     if (!contains(part.fixed, id)) append(scene, id, origin, corners);
   }
-  return Simplifier(corners);
+  const double most =
+      std::max(kQuicklyDone, kMostTimesShown * share * static_cast<double>(part.ids.size()));
+  return Simplifier(corners, static_cast<std::size_t>(std::ceil(most)));
 }
 
 /// All objects with the same error, the least that leaves at most `most` triangles; if none does,
@@ -220,11 +228,16 @@ std::vector<Simplified> simplifiedTo(const std::vector<Simplifier>& simplifiers,
 /// Adds all parts in at most about `most` triangles; returns the size of hidden details (m).
 double addSimplified(const Scene& scene, const std::vector<Part>& parts, std::size_t most,
                      const Vector3d& origin, Gathering& gathering) {
-  std::size_t spared = 0;
-  std::vector<Simplifier> simplifiers;
+  std::size_t spared = 0, given = 0;
   for (const Part& part : parts) {
     spared += isSmall(part) ? part.ids.size() : part.fixed.size();
-    if (!isSmall(part)) simplifiers.push_back(simplifierOf(scene, part, origin));
+    given += isSmall(part) ? 0 : part.ids.size();
+  }
+  const double share =
+      static_cast<double>(most) / static_cast<double>(std::max<std::size_t>(1, given));
+  std::vector<Simplifier> simplifiers;
+  for (const Part& part : parts) {
+    if (!isSmall(part)) simplifiers.push_back(simplifierOf(scene, part, origin, share));
   }
   const double sizeM = (scene.audit().boxMax - scene.audit().boxMin).norm();
   const auto made = simplifiedTo(simplifiers, most > spared ? most - spared : 0, sizeM);

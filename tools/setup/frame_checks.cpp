@@ -48,9 +48,9 @@ std::vector<PlacementCheck> sceneFrameChecks(const RawScene& raw, const FileFram
   } else if (!up.isSure && !isSaid) {
     axis.state = CheckState::Doubt;
   }
-  const SceneAudit audit = auditScene(raw);
+  const Eigen::AlignedBox3d box = boundsOf(raw);
   return {unitCheck("scene's unit", "--scene-scale", sceneUnitOf(raw), frame,
-                    (audit.boxMax - audit.boxMin).maxCoeff()),
+                    box.isEmpty() ? 0.0 : box.sizes().maxCoeff()),
           axis};
 }
 

@@ -30,8 +30,8 @@ constexpr double kTooHigh = 200.0;
 constexpr double kEnoughRoom = 0.05;
 
 Vector3d sizeOf(const RawScene& raw) {
-  const SceneAudit audit = auditScene(raw);
-  return audit.boxMax - audit.boxMin;
+  const Eigen::AlignedBox3d box = boundsOf(raw);
+  return box.isEmpty() ? Vector3d::Zero() : Vector3d(box.sizes());
 }
 
 /// Of the area that is level when `axis` is up, the share that faces up.
