@@ -1,0 +1,164 @@
+#include "middleware/ask/instant_bodies.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "lss/index.h"
+
+namespace foretouch::internal {
+namespace {
+
+bool areAlike(const std::vector<AskInstant>& x, const std::vector<AskInstant>& y) {
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                    [](const AskInstant& one, const AskInstant& other) {
+                      return one.body == other.body && one.time == other.time;
+                    });
+}
+
+bool isThere(PlaceKnown known) {
+  return known == PlaceKnown::Known || known == PlaceKnown::Assumed;
+}
+
+}  // namespace
+
+bool InstantBodies::isBrought(const WorldParts& world, const WorldQuestion& question) const {
+  return identity_ == world.identity && changes_ == world.changes && time_ == question.time &&
+         areAlike(instants_, question.instants);
+}
+
+void InstantBodies::bring(const WorldParts& world, const WorldQuestion& question) {
+  world_ = &world;
+  if (isBrought(world, question)) return;
+  if (identity_ != world.identity) {
+    kept_.clear();
+    tables_.clear();
+  }
+  identity_ = 0;  // until all is there
+  time_ = question.time;
+  instants_ = question.instants;
+  for (std::size_t kind = tables_.size(); kind < world.kinds.size(); ++kind) {
+    tables_.emplace_back().assign(world.kinds[kind].volumes);
+  }
+  kept_.resize(world.bodies.size());
+  state_.assign(world.bodies.size(), {});
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lower_[axis].resize(world.bodies.size());
+    upper_[axis].resize(world.bodies.size());
+  }
+  others_.clear();
+  extent_ = 0.0;
+  for (BodyId body = 0; slotOf(body) < world.bodies.size(); ++body) bringBody(body);
+  identity_ = world.identity;
+  changes_ = world.changes;
+}
+
+void InstantBodies::bringBody(BodyId body) {
+  State& state = state_[slotOf(body)];
+  const BodyPiece known = bodyPieceAt(world_->body(body), timeOf(body));
+  Aabb box;
+  state.known = known.how;
+  if (isThere(known.how)) {
+    if (known.episode->carrier) {
+      box = boxOfPlaces(body);
+    } else {
+      state.piece = pieceOf(body, known);
+      box = kept_[slotOf(body)].pieces[slotOf(state.piece)].box;
+    }
+  }
+  if (state.known != PlaceKnown::Known) others_.push_back(body);
+  for (int axis = 0; axis < 3; ++axis) {
+    lower_[slotOf(axis)][slotOf(body)] = box.min[axis];
+    upper_[slotOf(axis)][slotOf(body)] = box.max[axis];
+  }
+  if (box.min.x() > box.max.x()) return;
+  extent_ = std::max({extent_, box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()});
+}
+
+const WorldTime& InstantBodies::timeOf(BodyId body) const {
+  const auto own = std::find_if(instants_.begin(), instants_.end(),
+                                [&](const AskInstant& instant) { return instant.body == body; });
+  return own == instants_.end() ? time_ : own->time;
+}
+
+/// The piece that holds the instant, kept or made.
+int InstantBodies::pieceOf(BodyId body, const BodyPiece& known) {
+  Kept& kept = kept_[slotOf(body)];
+  const auto isIt = [&](const PieceBoxes& piece) {
+    return piece.beginUs == known.piece.beginUs && piece.endUs == known.piece.endUs &&
+           piece.isHeld == known.piece.isHeld && piece.episodeUs == known.episode->beginUs;
+  };
+  const auto found = std::find_if(kept.pieces.begin(), kept.pieces.end(), isIt);
+  if (found != kept.pieces.end()) return static_cast<int>(found - kept.pieces.begin());
+  std::size_t place = kept.pieces.size();
+  if (place < kPiecesKept) {
+    kept.pieces.emplace_back();
+  } else {
+    place = std::exchange(kept.oldest, (kept.oldest + 1) % kPiecesKept);
+  }
+  fill(body, known, kept.pieces[place]);
+  return static_cast<int>(place);
+}
+
+void InstantBodies::fill(BodyId body, const BodyPiece& known, PieceBoxes& piece) {
+  piece.endUs = piece.beginUs - 1;  // no piece, until it is filled
+  motion_.assign(known.episode->track.skeleton(), *known.piece.from, *known.piece.to);
+  piece.origin = known.piece.from->translations[0];
+  nodes_.evaluate(motion_, 0.0, 1.0, piece.origin);
+  sweptBoxes(tables_[slotOf(world_->body(body).kind)], motion_, nodes_, 0.0, swept_);
+  piece.box = Aabb();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto count = static_cast<std::ptrdiff_t>(swept_.count);
+    std::vector<float>&lower = piece.lower[slotOf(axis)], &upper = piece.upper[slotOf(axis)];
+    lower.assign(swept_.lower[axis], swept_.lower[axis] + count);
+    upper.assign(swept_.upper[axis], swept_.upper[axis] + count);
+    if (count == 0) continue;
+    const double least = *std::min_element(lower.begin(), lower.end());
+    const double most = *std::max_element(upper.begin(), upper.end());
+    piece.box.min[axis] = piece.origin[axis] + least;
+    piece.box.max[axis] = piece.origin[axis] + most;
+  }
+  piece.episodeUs = known.episode->beginUs;
+  piece.beginUs = known.piece.beginUs;
+  piece.endUs = known.piece.endUs;
+  piece.isHeld = known.piece.isHeld;
+}
+
+/// Of a body that somebody carries: by its places, as poses of two tell where it is.
+Aabb InstantBodies::boxOfPlaces(BodyId body) {
+  State& state = state_[slotOf(body)];
+  std::vector<LinkPlace>& places = kept_[slotOf(body)].places;
+  state.known = bodyPlaces_.at(*world_, body, timeOf(body), places);
+  state.isPosed = isThere(state.known);
+  Aabb box;
+  if (!state.isPosed) return box;
+  const auto& volumes = world_->kindOf(body).volumes;
+  for (std::size_t link = 0; link < volumes.size(); ++link) {
+    for (const Lss& lss : volumes[link]) {
+      double rounding = 0.0;
+      const Lss lss_W = placed(lss, places[link], rounding);
+      Aabb one;
+      one.add(lss_W.a);
+      one.add(lss_W.b);
+      one.grow(lss.radius + rounding);
+      box.add(one);
+    }
+  }
+  return box;
+}
+
+const PieceBoxes* InstantBodies::pieces(BodyId body) const {
+  const int piece = state_[slotOf(body)].piece;
+  return piece < 0 ? nullptr : &kept_[slotOf(body)].pieces[slotOf(piece)];
+}
+
+const std::vector<LinkPlace>& InstantBodies::places(BodyId body) {
+  State& state = state_[slotOf(body)];
+  std::vector<LinkPlace>& places = kept_[slotOf(body)].places;
+  if (!state.isPosed) {
+    state.isPosed = isThere(bodyPlaces_.at(*world_, body, timeOf(body), places));
+    FORETOUCH_ASSERT(state.isPosed);
+  }
+  return places;
+}
+
+}  // namespace foretouch::internal
