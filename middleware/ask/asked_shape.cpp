@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "lss/clearance.h"
+#include "lss/index.h"
 #include "lss/rounding.h"
 #include "middleware/ask/ask.h"
 
@@ -29,8 +31,36 @@ double roundingOfWay(const AskedShape& shape, double along) {
   return kSeparationRounding * (from + shape.moved + along) + kInflation * shape.ofWay * along;
 }
 
+/// Tries planes along each edge of both, where rounding has tilted the one between their closest
+/// points: of two that are nanometres apart, by more than they are.
+void straighten(const Hull& one, const Hull& other, Separation& apart) {
+  const Vector3d direction = apart.difference;
+  const auto tryAlong = [&](const Vector3d& edge) {
+    const double square = edge.squaredNorm();
+    if (!(square > 0.0)) return;
+    const Vector3d across = direction - direction.dot(edge) / square * edge;
+    const double length = across.norm();
+    if (!(length > 0.0)) return;
+    const Vector3d nhat = (kUnitShrink / length) * across;
+    const double gap = gapAlong(one, other, nhat);
+    if (!(gap > apart.lower())) return;
+    apart.nhat = nhat;
+    apart.clearance.fill(gap);
+  };
+  tryAlong(one.points[1] - one.points[0]);
+  for (std::size_t i = 0; i < countOf(other.count); ++i) {
+    tryAlong(other.points[(i + 1) % countOf(other.count)] - other.points[i]);
+  }
+}
+
+Separation apartOf(const Hull& one, const Hull& other) {
+  Separation apart = separation(one, other);
+  if (apart.upper - apart.lower() > 0.5 * kAskTolerance) straighten(one, other, apart);
+  return apart;
+}
+
 bool isNear(const AskedShape& shape, const Hull& piece, double sum, Meeting& meeting) {
-  meeting.apart = separation(Hull::segment(shape.lss.a, shape.lss.b), piece);
+  meeting.apart = apartOf(Hull::segment(shape.lss.a, shape.lss.b), piece);
   meeting.distance = std::max(0.0, (meeting.apart.lower() - sum) / kInflation);
   return meeting.distance <= shape.reach;
 }
@@ -41,7 +71,7 @@ bool touches(const AskedShape& shape, const Hull& piece, double sum, Meeting& me
   double along = 0.0;
   for (int step = 0; step < kMostSteps; ++step) {
     meeting.distance = along;
-    meeting.apart = separation(hullAt(shape, along), piece);
+    meeting.apart = apartOf(hullAt(shape, along), piece);
     const double more = sum + roundingOfWay(shape, along);
     const double free = meeting.apart.lower() - more;
     if (free <= 0.0 || meeting.apart.upper <= more + kAskTolerance) return true;

@@ -13,6 +13,20 @@ bool comesBefore(const WorldHit& x, const WorldHit& y) {
   return key(x) < key(y);
 }
 
+/// A link's triangle may hang under several LSS (LinkSurface): the nearest hit of it stays.
+void HitList::dropTwins() {
+  std::vector<WorldHit>& hits = answer_.hits;
+  const auto key = [](const WorldHit& hit) {
+    const ContactSide& what = hit.what;
+    return std::make_tuple(what.body, what.link, what.triangle, what.triangle < 0 ? what.lss : -1);
+  };
+  std::sort(hits.begin(), hits.end(), [&](const WorldHit& x, const WorldHit& y) {
+    return key(x) != key(y) ? key(x) < key(y) : comesBefore(x, y);
+  });
+  const auto isTwin = [&](const WorldHit& x, const WorldHit& y) { return key(x) == key(y); };
+  hits.erase(std::unique(hits.begin(), hits.end(), isTwin), hits.end());
+}
+
 void HitList::add(const WorldHit& hit) {
   std::vector<WorldHit>& hits = answer_.hits;
   if (which_ == AskWhich::Closest && !hits.empty()) {
@@ -25,6 +39,7 @@ void HitList::add(const WorldHit& hit) {
 }
 
 void HitList::finish() {
+  if (which_ == AskWhich::All) dropTwins();
   std::sort(answer_.hits.begin(), answer_.hits.end(), comesBefore);
 }
 

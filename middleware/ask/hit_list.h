@@ -23,6 +23,8 @@ class HitList {
   void finish();
 
  private:
+  void dropTwins();
+
   WorldAnswer& answer_;
   AskWhich which_;
   double limit_;

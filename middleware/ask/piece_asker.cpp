@@ -1,7 +1,6 @@
 #include "middleware/ask/piece_asker.h"
 
 #include <cmath>
-#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -32,34 +31,32 @@ Vector3d normalOf(const AskedShape& shape, const Hull& piece, const Separation& 
   return normal.dot(shape.way) > 0.0 ? Vector3d(-normal) : normal;
 }
 
-/// Shares of p in the corners: not below 0, together 1.
+/// Shares of p in the corners: not below 0, together 1. By its places along the longest edge and
+/// across it, so that of a sliver, too, the sum is at p.
 std::array<double, 3> weightsOf(const Hull& triangle, const Vector3d& p) {
   const auto& v = triangle.points;
-  const Vector3d normal = faceOf(triangle);
-  const double square = normal.squaredNorm();
-  std::array<double, 3> weights{};
-  if (square > 0.0) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vector3d &from = v[(i + 1) % 3], &to = v[(i + 2) % 3];
-      weights[i] = std::max(0.0, (to - from).cross(p - from).dot(normal) / square);
-    }
-  } else {
-    // A segment or a point: along its longest edge.
-    std::size_t longest = 0;
-    for (std::size_t i = 1; i < 3; ++i) {
-      const auto length = [&](std::size_t k) { return (v[(k + 1) % 3] - v[k]).squaredNorm(); };
-      if (length(i) > length(longest)) longest = i;
-    }
-    const std::size_t to = (longest + 1) % 3;
-    const Vector3d edge = v[to] - v[longest];
-    const double length = edge.squaredNorm();
-    const double share = length > 0.0 ? (p - v[longest]).dot(edge) / length : 0.0;
-    weights[to] = std::min(1.0, std::max(0.0, share));
-    weights[longest] = 1.0 - weights[to];
+  const auto squareOf = [&](std::size_t k) { return (v[(k + 1) % 3] - v[k]).squaredNorm(); };
+  std::size_t from = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (squareOf(k) > squareOf(from)) from = k;
   }
-  const double sum = weights[0] + weights[1] + weights[2];
-  if (!(sum > 0.0)) return {1.0, 0.0, 0.0};
-  for (double& weight : weights) weight /= sum;
+  const std::size_t to = (from + 1) % 3, top = (from + 2) % 3;
+  std::array<double, 3> weights{};
+  weights[from] = 1.0;
+  const Vector3d edge = v[to] - v[from], side = v[top] - v[from], way = p - v[from];
+  const double square = edge.squaredNorm();
+  if (!(square > 0.0)) return weights;  // a point
+  const double x = std::clamp(way.dot(edge) / square, 0.0, 1.0);
+  const double xOfTop = std::clamp(side.dot(edge) / square, 0.0, 1.0);
+  const Vector3d height = side - xOfTop * edge;
+  const double high = height.squaredNorm();
+  // Of a sliver the share of the top is noise: no more than leaves the two others theirs.
+  const double most = std::min(
+      {1.0, xOfTop > 0.0 ? x / xOfTop : 1.0, xOfTop < 1.0 ? (1.0 - x) / (1.0 - xOfTop) : 1.0});
+  const double share = high > 0.0 ? std::clamp(way.dot(height) / high, 0.0, most) : 0.0;
+  weights[top] = share;
+  weights[to] = std::max(0.0, x - share * xOfTop);
+  weights[from] = std::max(0.0, 1.0 - share - weights[to]);
   return weights;
 }
 
@@ -68,6 +65,7 @@ std::array<double, 3> weightsOf(const Hull& triangle, const Vector3d& p) {
 void PieceAsker::askLss(const Lss& lss, const ContactSide& side) {
   if (!filter_.takes(side.body, side.link, kEveryObject)) return;
   shape_.reach = limit();
+  if (shape_.reach < 0.0) return;
   Meeting meeting;
   const Hull piece = Hull::segment(lss.a, lss.b);
   if (!meets(shape_, piece, lss.radius, meeting)) return;
@@ -81,6 +79,7 @@ void PieceAsker::askTriangle(const Triangle& triangle, const ContactSide& side, 
   }
   if (!filter_.takes(side.body, side.link, object)) return;
   shape_.reach = limit();
+  if (shape_.reach < 0.0) return;
   Meeting meeting;
   const Hull piece = Hull::of(triangle);
   if (!meets(shape_, piece, 0.0, meeting)) return;
