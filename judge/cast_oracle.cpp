@@ -8,8 +8,9 @@
 namespace foretouch::oracle {
 namespace {
 
-/// The golden section leaves 0.618^160 = 4e-34 of a way.
-constexpr int kSections = 160;
+/// The golden section leaves 0.618^110 = 1e-23 of a way; halves as many.
+constexpr int kSections = 110;
+constexpr int kHalvings = 80;
 
 Vec3r unitOf(const Vec3d& direction) {
   const Real size = static_cast<Real>(extent(direction));
@@ -42,6 +43,10 @@ Real gapOfBalls(const CastShape& shape, const Vec3r& way, Real until, const Orac
          static_cast<Real>(part.radius);
 }
 
+struct Least {
+  Real gap, along;
+};
+
 }  // namespace
 
 Real gapAfter(const CastShape& shape, Real along, const OraclePart& part) {
@@ -50,32 +55,58 @@ Real gapAfter(const CastShape& shape, Real along, const OraclePart& part) {
          static_cast<Real>(shape.radius) - static_cast<Real>(part.radius);
 }
 
-Real leastGap(const CastShape& shape, Real until, const OraclePart& part, Real beyond) {
-  if (gapOfBalls(shape, unitOf(shape.direction), until, part) > beyond + 1e-6L) {
-    return beyond + 1e-6L;
-  }
+namespace {
+
+Least leastOf(const CastShape& shape, Real until, const OraclePart& part) {
   const Real golden = (std::sqrt(Real(5)) - 1) / 2;
+  Least least{gapAfter(shape, 0, part), 0};
+  const auto look = [&](Real along) {
+    const Real gap = gapAfter(shape, along, part);
+    if (gap < least.gap) least = {gap, along};
+    return gap;
+  };
+  look(until);
   Real low = 0, high = until;
   Real left = high - golden * (high - low), right = low + golden * (high - low);
-  Real atLeft = gapAfter(shape, left, part), atRight = gapAfter(shape, right, part);
-  Real least = std::min(gapAfter(shape, 0, part), gapAfter(shape, until, part));
+  Real atLeft = look(left), atRight = look(right);
   for (int i = 0; i < kSections && low < high; ++i) {
-    least = std::min({least, atLeft, atRight});
     if (atLeft < atRight) {
       high = right;
       right = left;
       atRight = atLeft;
       left = high - golden * (high - low);
-      atLeft = gapAfter(shape, left, part);
+      atLeft = look(left);
     } else {
       low = left;
       left = right;
       atLeft = atRight;
       right = low + golden * (high - low);
-      atRight = gapAfter(shape, right, part);
+      atRight = look(right);
     }
   }
   return least;
+}
+
+}  // namespace
+
+Real leastGap(const CastShape& shape, Real until, const OraclePart& part, Real beyond) {
+  if (gapOfBalls(shape, unitOf(shape.direction), until, part) > beyond + 1e-6L) {
+    return beyond + 1e-6L;
+  }
+  return leastOf(shape, until, part).gap;
+}
+
+Real firstTouch(const CastShape& shape, Real until, const OraclePart& part) {
+  if (gapOfBalls(shape, unitOf(shape.direction), until, part) > 0) return -1;
+  const Least least = leastOf(shape, until, part);
+  if (least.gap > 0) return -1;
+  Real free = 0, touching = least.along;
+  if (gapAfter(shape, free, part) <= 0) return 0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const Real middle = (free + touching) / 2;
+    (gapAfter(shape, middle, part) > 0 ? free : touching) = middle;
+  }
+  return touching;
 }
 
 Real heightOver(const Vec3d& p, const OraclePart& part) {

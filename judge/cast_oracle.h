@@ -20,6 +20,8 @@ struct CastShape {
 /// The least of them up to `until`; of parts that are proven farther than `beyond`, at least that.
 [[nodiscard]] Real leastGap(const CastShape& shape, Real until, const OraclePart& part,
                             Real beyond);
+/// How far it has moved when it first touches the part; -1 if it does not up to `until`.
+[[nodiscard]] Real firstTouch(const CastShape& shape, Real until, const OraclePart& part);
 /// Of a point and the part's surface or, with its sign, of one in a capsule.
 [[nodiscard]] Real heightOver(const Vec3d& p, const OraclePart& part);
 
