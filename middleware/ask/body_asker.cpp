@@ -48,12 +48,20 @@ void BodyAsker::askBodies() {
 }
 
 void BodyAsker::askBody(const AskMemory::NearBody& near) {
+  const PieceBoxes* const pieces = memory_.bodies.pieces(near.body);
+  double bound = near.bound;
+  if (pieces != nullptr) {
+    // Its box was a rough one when it was looked at first.
+    const WayBoxes boxes(shape_, Eigen::Vector3d::Zero(), memory_.bodies.extent());
+    bound = boxes.nearest(pieces->box);
+    if (bound > hits_.limit()) return;
+  }
   // From where it comes to the body on: near it, doubles resolve more.
-  const AskedShape shape = shape_.moves() ? shape_.movedBy(near.bound, hits_.limit()) : shape_;
+  const AskedShape shape = shape_.moves() ? shape_.movedBy(bound, hits_.limit()) : shape_;
   if (world_.kindOf(near.body).mesh) {
     askMesh(near.body, shape);
   } else {
-    askLinks(near.body, shape);
+    askLinks(near.body, pieces, shape);
   }
 }
 
@@ -65,10 +73,9 @@ void BodyAsker::askMesh(BodyId body, const AskedShape& shape) {
   askScene(world_.kindOf(body).mesh->parts(), side, asker);
 }
 
-void BodyAsker::askLinks(BodyId body, const AskedShape& shape) {
+void BodyAsker::askLinks(BodyId body, const PieceBoxes* pieces, const AskedShape& shape) {
   const BodyKind& kind = world_.kindOf(body);
   const std::size_t count = kind.linkOf.size();
-  const PieceBoxes* const pieces = memory_.bodies.pieces(body);
   memory_.bounds.assign(count, 0.0);
   if (pieces != nullptr && count > 0) {
     const float* lower[3];

@@ -42,7 +42,7 @@ class BodyAsker {
  private:
   void askBody(const AskMemory::NearBody& near);
   void askMesh(BodyId body, const AskedShape& shape);
-  void askLinks(BodyId body, const AskedShape& shape);
+  void askLinks(BodyId body, const PieceBoxes* pieces, const AskedShape& shape);
   void askLink(const ContactSide& side, const LinkPlace& place, const AskedShape& shape);
   [[nodiscard]] bool isAssumed(BodyId body) const {
     return memory_.bodies.known(body) == PlaceKnown::Assumed;

@@ -39,6 +39,10 @@ void InstantBodies::bring(const WorldParts& world, const WorldQuestion& question
   for (std::size_t kind = tables_.size(); kind < world.kinds.size(); ++kind) {
     tables_.emplace_back().assign(world.kinds[kind].volumes);
   }
+  times_.assign(world.bodies.size(), time_);
+  for (auto own = instants_.rbegin(); own != instants_.rend(); ++own) {
+    times_[slotOf(own->body)] = own->time;
+  }
   kept_.resize(world.bodies.size());
   state_.assign(world.bodies.size(), {});
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -53,19 +57,32 @@ void InstantBodies::bring(const WorldParts& world, const WorldQuestion& question
 }
 
 void InstantBodies::bringBody(BodyId body) {
+  setBox(body, roughBox(body));
+  if (state_[slotOf(body)].known != PlaceKnown::Known) others_.push_back(body);
+}
+
+/// Says, too, what is known of it.
+Aabb InstantBodies::roughBox(BodyId body) {
   State& state = state_[slotOf(body)];
-  const BodyPiece known = bodyPieceAt(world_->body(body), timeOf(body));
-  Aabb box;
-  state.known = known.how;
-  if (isThere(known.how)) {
-    if (known.episode->carrier) {
-      box = boxOfPlaces(body);
-    } else {
-      state.piece = pieceOf(body, known);
-      box = kept_[slotOf(body)].pieces[slotOf(state.piece)].box;
-    }
+  const WorldBody& asked = world_->body(body);
+  const WorldTime& time = times_[slotOf(body)];
+  if (const Aabb* box = kept_[slotOf(body)].rough.at(asked, world_->kindOf(body), time.us)) {
+    state.known = PlaceKnown::Known;
+    return *box;
   }
-  if (state.known != PlaceKnown::Known) others_.push_back(body);
+  const BodyPiece known = bodyPieceAt(asked, time);
+  state.known = known.how;
+  if (!isThere(known.how)) return {};
+  state.isCarried = known.episode->carrier.has_value();
+  if (state.isCarried) return boxOfPlaces(body);
+  const BodyKind& kind = world_->kindOf(body);
+  reach_.clear();
+  reach_.add(kind.skeleton, *known.piece.from);
+  reach_.add(kind.skeleton, *known.piece.to);
+  return reach_.box(kind);
+}
+
+void InstantBodies::setBox(BodyId body, const Aabb& box) {
   for (int axis = 0; axis < 3; ++axis) {
     lower_[slotOf(axis)][slotOf(body)] = box.min[axis];
     upper_[slotOf(axis)][slotOf(body)] = box.max[axis];
@@ -74,28 +91,24 @@ void InstantBodies::bringBody(BodyId body) {
   extent_ = std::max({extent_, box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()});
 }
 
-const WorldTime& InstantBodies::timeOf(BodyId body) const {
-  const auto own = std::find_if(instants_.begin(), instants_.end(),
-                                [&](const AskInstant& instant) { return instant.body == body; });
-  return own == instants_.end() ? time_ : own->time;
-}
-
 /// The piece that holds the instant, kept or made.
 int InstantBodies::pieceOf(BodyId body, const BodyPiece& known) {
   Kept& kept = kept_[slotOf(body)];
-  const auto isIt = [&](const PieceBoxes& piece) {
-    return piece.beginUs == known.piece.beginUs && piece.endUs == known.piece.endUs &&
-           piece.isHeld == known.piece.isHeld && piece.episodeUs == known.episode->beginUs;
-  };
-  const auto found = std::find_if(kept.pieces.begin(), kept.pieces.end(), isIt);
-  if (found != kept.pieces.end()) return static_cast<int>(found - kept.pieces.begin());
-  std::size_t place = kept.pieces.size();
-  if (place < kPiecesKept) {
+  const auto found = std::find(kept.begins.begin(), kept.begins.end(), known.piece.beginUs);
+  auto place = static_cast<std::size_t>(found - kept.begins.begin());
+  if (found == kept.begins.end() && place < kPiecesKept) {
+    kept.begins.push_back(0);
     kept.pieces.emplace_back();
-  } else {
+  } else if (found == kept.begins.end()) {
     place = std::exchange(kept.oldest, (kept.oldest + 1) % kPiecesKept);
   }
-  fill(body, known, kept.pieces[place]);
+  PieceBoxes& piece = kept.pieces[place];
+  const bool isIt = found != kept.begins.end() && piece.endUs == known.piece.endUs &&
+                    piece.isHeld == known.piece.isHeld && piece.episodeUs == known.episode->beginUs;
+  if (!isIt) {
+    fill(body, known, piece);
+    kept.begins[place] = piece.beginUs;
+  }
   return static_cast<int>(place);
 }
 
@@ -127,7 +140,7 @@ void InstantBodies::fill(BodyId body, const BodyPiece& known, PieceBoxes& piece)
 Aabb InstantBodies::boxOfPlaces(BodyId body) {
   State& state = state_[slotOf(body)];
   std::vector<LinkPlace>& places = kept_[slotOf(body)].places;
-  state.known = bodyPlaces_.at(*world_, body, timeOf(body), places);
+  state.known = bodyPlaces_.at(*world_, body, times_[slotOf(body)], places);
   state.isPosed = isThere(state.known);
   Aabb box;
   if (!state.isPosed) return box;
@@ -146,16 +159,21 @@ Aabb InstantBodies::boxOfPlaces(BodyId body) {
   return box;
 }
 
-const PieceBoxes* InstantBodies::pieces(BodyId body) const {
-  const int piece = state_[slotOf(body)].piece;
-  return piece < 0 ? nullptr : &kept_[slotOf(body)].pieces[slotOf(piece)];
+const PieceBoxes* InstantBodies::pieces(BodyId body) {
+  State& state = state_[slotOf(body)];
+  if (state.isCarried) return nullptr;
+  if (state.piece < 0) {
+    state.piece = pieceOf(body, bodyPieceAt(world_->body(body), times_[slotOf(body)]));
+    setBox(body, kept_[slotOf(body)].pieces[slotOf(state.piece)].box);
+  }
+  return &kept_[slotOf(body)].pieces[slotOf(state.piece)];
 }
 
 const std::vector<LinkPlace>& InstantBodies::places(BodyId body) {
   State& state = state_[slotOf(body)];
   std::vector<LinkPlace>& places = kept_[slotOf(body)].places;
   if (!state.isPosed) {
-    state.isPosed = isThere(bodyPlaces_.at(*world_, body, timeOf(body), places));
+    state.isPosed = isThere(bodyPlaces_.at(*world_, body, times_[slotOf(body)], places));
     FORETOUCH_ASSERT(state.isPosed);
   }
   return places;

@@ -11,6 +11,7 @@
 #include "articulated/chain_nodes.h"
 #include "articulated/motion.h"
 #include "middleware/ask/ask.h"
+#include "middleware/ask/rough_boxes.h"
 #include "middleware/depth/body_places.h"
 #include "middleware/world/world_parts.h"
 #include "tessellation/aabb.h"
@@ -28,9 +29,9 @@ struct PieceBoxes {
   Aabb box;                                        // around all of them, in W
 };
 
-/// So many pieces are kept of each body; questions about the past that go back further find the
-/// boxes of a piece again. At 22 LSS a piece takes some 700 bytes.
-inline constexpr std::size_t kPiecesKept = 16;
+/// So many pieces are kept of each body, of those that questions came near; a second at 60 Hz. With
+/// more in use, their boxes are found anew. At 22 LSS a piece takes some 800 bytes.
+inline constexpr std::size_t kPiecesKept = 64;
 
 /// For one thread; keeps its memory.
 class InstantBodies {
@@ -47,8 +48,9 @@ class InstantBodies {
   [[nodiscard]] double extent() const { return extent_; }
 
   [[nodiscard]] PlaceKnown known(BodyId body) const { return state_[slotOf(body)].known; }
-  /// The boxes of its LSS; null for a body that somebody carries.
-  [[nodiscard]] const PieceBoxes* pieces(BodyId body) const;
+  /// The boxes of its LSS, which from now on are its box here as well; null for a body that
+  /// somebody carries. Precondition: it is known. O(joints) for a piece of its motion that is new.
+  [[nodiscard]] const PieceBoxes* pieces(BodyId body);
   /// Of its links, which are posed when they are first asked for.
   [[nodiscard]] const std::vector<LinkPlace>& places(BodyId body);
   /// Those that are not Known, by number.
@@ -57,10 +59,12 @@ class InstantBodies {
  private:
   struct State {
     PlaceKnown known = PlaceKnown::NotThere;
-    int piece = -1;  ///< Place in its body's pieces.
-    bool isPosed = false;
+    int piece = -1;  ///< Place in its body's pieces; below 0: not looked for.
+    bool isPosed = false, isCarried = false;
   };
   struct Kept {
+    RoughBoxes rough;
+    std::vector<std::int64_t> begins;  // of the pieces
     std::vector<PieceBoxes> pieces;
     std::size_t oldest = 0;
     std::vector<LinkPlace> places;
@@ -68,15 +72,17 @@ class InstantBodies {
 
   [[nodiscard]] bool isBrought(const WorldParts& world, const WorldQuestion& question) const;
   void bringBody(BodyId body);
+  [[nodiscard]] Aabb roughBox(BodyId body);
+  void setBox(BodyId body, const Aabb& box);
   [[nodiscard]] int pieceOf(BodyId body, const BodyPiece& known);
   void fill(BodyId body, const BodyPiece& known, PieceBoxes& piece);
   [[nodiscard]] Aabb boxOfPlaces(BodyId body);
-  [[nodiscard]] const WorldTime& timeOf(BodyId body) const;
 
   const WorldParts* world_ = nullptr;
   std::uint64_t identity_ = 0, changes_ = 0;  // of the world that was brought; 0: none
   WorldTime time_;
   std::vector<AskInstant> instants_;
+  std::vector<WorldTime> times_;  // per body
   std::vector<State> state_;
   std::vector<Kept> kept_;
   std::vector<BodyId> others_;
@@ -87,6 +93,7 @@ class InstantBodies {
   ChainMotion motion_;
   ChainNodes nodes_;
   SweptBoxes swept_;
+  PosesReach reach_;
   BodyPlaces bodyPlaces_;
 };
 
