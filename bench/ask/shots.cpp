@@ -27,22 +27,27 @@ constexpr int kShotsPerPerson = 25;
 /// A ray that passes so near to a surface (m) is not judged: who is right is rounding.
 constexpr Real kGrazing = 1e-8L;
 
-/// Link that a ray hits first; -1: none.
-using Struck = int;
+/// The link that a ray hits first, and those that it hits there as well: LSS of neighbours have a
+/// ball at their joint in common. Empty: none.
+using Struck = std::vector<int>;
 
 /// Of parts in W, by the judge.
 Struck struckOf(const std::vector<OraclePart>& parts, const oracle::CastShape& ray,
                 bool* isGrazing = nullptr) {
-  Struck struck = -1;
+  std::vector<Real> touches;
   Real first = kReachM;
   for (const OraclePart& part : parts) {
     if (isGrazing != nullptr && std::abs(oracle::leastGap(ray, kReachM, part, 0)) < kGrazing) {
       *isGrazing = true;
     }
     const Real touch = oracle::firstTouch(ray, kReachM, part);
-    if (touch < 0 || touch >= first) continue;
-    first = touch;
-    struck = part.link;
+    touches.push_back(touch);
+    if (touch >= 0) first = std::min(first, touch);
+  }
+  Struck struck;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (touches[i] < 0 || touches[i] > first + kGrazing) continue;
+    struck.insert(touches[i] == first ? struck.begin() : struck.end(), parts[i].link);
   }
   return struck;
 }
@@ -109,7 +114,7 @@ Shot shotAt(const Runner& runner, PortableRandom& random) {
 }
 
 /// Where the others take him to be.
-enum class RewindWay { NotRewound, LastTick, OriginOnly, Between, Count };
+enum class RewindWay { NotRewound, LastTick, OriginOnly, Between };
 
 std::vector<OraclePart> seenBy(RewindWay way, const Runner& runner, Real seenUs, Real nowUs,
                                Real tickUs) {
@@ -141,90 +146,110 @@ std::vector<OraclePart> seenBy(RewindWay way, const Runner& runner, Real seenUs,
 struct ShotTally {
   std::uint64_t missed = 0, invented = 0, elsewhere = 0;
 
-  void add(Struck truth, Struck seen) {
-    missed += truth >= 0 && seen < 0;
-    invented += truth < 0 && seen >= 0;
-    elsewhere += truth >= 0 && seen >= 0 && truth != seen;
+  void add(const Struck& truth, const Struck& seen) {
+    missed += !truth.empty() && seen.empty();
+    invented += truth.empty() && !seen.empty();
+    if (truth.empty() || seen.empty()) return;
+    elsewhere += std::find(truth.begin(), truth.end(), seen.front()) == truth.end();
   }
 };
 
-struct ShotRow {
-  ShotTally ofWay[static_cast<std::size_t>(RewindWay::Count)], ofWorld;
-  std::uint64_t shots = 0, hits = 0;
+/// A way, and its latency; 0: it does not depend on that.
+struct RewindRow {
+  RewindWay way;
+  const char* name;
+  int latencyMs;
+  ShotTally tally = {};
 };
 
-void shoot(const Runner& runner, const Shot& shot, Real tickUs, Real latencyUs, Scratch& scratch,
-           ShotRow& row) {
+/// Of one tick rate.
+struct TickRows {
+  std::vector<RewindRow> rows;
+  ShotTally ofWorld;
+  std::uint64_t shots = 0, hits = 0;
+
+  TickRows() {
+    rows = {{RewindWay::LastTick, "the last tick", 0}, {RewindWay::Between, "between ticks", 0}};
+    for (const int latencyMs : kLatenciesMs) {
+      rows.push_back({RewindWay::OriginOnly, "between ticks, the origin alone", latencyMs});
+    }
+    for (const int latencyMs : kLatenciesMs) {
+      rows.push_back({RewindWay::NotRewound, "not rewound", latencyMs});
+    }
+  }
+};
+
+void shoot(const Runner& runner, const Shot& shot, Real tickUs, Scratch& scratch, TickRows& ticks) {
   const Vector3d way = shot.aim - shot.from;
   const oracle::CastShape ray{plain(shot.from), plain(shot.from), 0.0, plain(way)};
   const Real seenUs = static_cast<Real>(shot.seen.us) + static_cast<Real>(shot.seen.fraction);
   bool isGrazing = false;
   const Struck truth = struckOf(runner.partsAt(seenUs), ray, &isGrazing);
   if (isGrazing) return;
-  ++row.shots;
-  row.hits += truth >= 0;
-  // It arrives when what he saw was two ticks old, and his way to the server is behind it.
-  const Real nowUs = seenUs + 2 * tickUs + latencyUs;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(RewindWay::Count); ++i) {
-    const auto parts = seenBy(static_cast<RewindWay>(i), runner, seenUs, nowUs, tickUs);
-    row.ofWay[i].add(truth, struckOf(parts, ray));
+  ++ticks.shots;
+  ticks.hits += !truth.empty();
+  for (RewindRow& row : ticks.rows) {
+    // It arrives when what he saw was two ticks old, and his way to the server is behind it.
+    const Real nowUs = seenUs + 2 * tickUs + static_cast<Real>(row.latencyMs * kMsUs);
+    row.tally.add(truth, struckOf(seenBy(row.way, runner, seenUs, nowUs, tickUs), ray));
   }
   WorldAnswer answer;
   static_cast<void>(askWorld(runner.world(), WorldQuestion::ray(shot.from, way, kReachM, shot.seen),
                              scratch, answer));
-  row.ofWorld.add(truth, answer.hits.empty() ? -1 : answer.hits.front().what.link);
+  ticks.ofWorld.add(truth, answer.hits.empty() ? Struck{} : Struck{answer.hits.front().what.link});
 }
 
-void appendTally(const ShotTally& tally, std::uint64_t shots, std::vector<BenchCell>& row) {
-  for (const std::uint64_t count : {tally.missed, tally.invented, tally.elsewhere}) {
-    row.emplace_back(percent(count, shots));
-  }
+std::vector<BenchCell> shotCells(int hz, const char* name, int latencyMs, const TickRows& ticks,
+                                 const ShotTally& tally) {
+  const std::string latency = latencyMs > 0 ? std::to_string(latencyMs) : "any";
+  return {std::int64_t{hz},
+          std::string(name),
+          latency,
+          cell(ticks.shots),
+          percent(ticks.hits, ticks.shots),
+          percent(tally.missed, ticks.shots),
+          percent(tally.invented, ticks.shots),
+          percent(tally.elsewhere, ticks.shots)};
 }
 
-std::vector<BenchColumn> shotColumns() {
-  std::vector<BenchColumn> columns{{"ticks_hz", "ticks", 0},
-                                   {"latency_ms", "latency ms", 0},
-                                   {"shots", "shots", 0},
-                                   {"hits_percent", "that hit %", 1}};
-  const std::pair<const char*, const char*> ways[] = {{"not_rewound", "not rewound"},
-                                                      {"last_tick", "last tick"},
-                                                      {"origin_only", "origin only"},
-                                                      {"between", "between ticks"},
-                                                      {"world", "World"}};
-  for (const auto& [key, title] : ways) {
-    columns.push_back({std::string(key) + "_missed_percent", std::string(title) + ": missed %", 1});
-    columns.push_back({std::string(key) + "_invented_percent", "invented %", 1});
-    columns.push_back({std::string(key) + "_elsewhere_percent", "another link %", 1});
+TickRows shootAll(const std::vector<ClipPoses>& clips, int hz, int shots, std::uint64_t seed) {
+  TickRows ticks;
+  PortableRandom random(seed);
+  Scratch scratch;
+  const Real tickUs = static_cast<Real>(1e6) / hz;
+  for (int n = 0; n * kShotsPerPerson < shots; ++n) {
+    const Runner runner(clips[static_cast<std::size_t>(n) % clips.size()], n);
+    const int last = std::min(shots - n * kShotsPerPerson, kShotsPerPerson);
+    for (int i = 0; i < last; ++i) {
+      shoot(runner, shotAt(runner, random), tickUs, scratch, ticks);
+    }
   }
-  return columns;
+  return ticks;
 }
 
 }  // namespace
 
 ShotsTable shotsTable(const WorldCast& cast, int shots, std::uint64_t seed) {
   ShotsTable result;
-  result.table = {"shots", "Shots at a person who is seen late", shotColumns(), {}};
+  result.table = {"shots",
+                  "Shots at a person who is seen late, by where a server takes him to be",
+                  {{"ticks_hz", "ticks per second", 0},
+                   {"way", "taken to be"},
+                   {"latency_ms", "latency ms"},
+                   {"shots", "shots", 0},
+                   {"hits_percent", "that hit %", 1},
+                   {"missed_percent", "missed %", 1},
+                   {"invented_percent", "invented %", 1},
+                   {"elsewhere_percent", "another link %", 1}},
+                  {}};
   const auto clips = clipPosesOf(cast, kShotRateHz);
-  Scratch scratch;
-  for (const int ticks : kTicks) {
-    for (const int latencyMs : kLatenciesMs) {
-      ShotRow row;
-      PortableRandom random(seed);
-      for (int n = 0; n * kShotsPerPerson < shots; ++n) {
-        const Runner runner(clips[static_cast<std::size_t>(n) % clips.size()], n);
-        const int last = std::min(shots - n * kShotsPerPerson, kShotsPerPerson);
-        for (int i = 0; i < last; ++i) {
-          shoot(runner, shotAt(runner, random), static_cast<Real>(kSecondUs) / ticks,
-                static_cast<Real>(latencyMs * kMsUs), scratch, row);
-        }
-      }
-      const ShotTally& world = row.ofWorld;
-      result.violations += world.missed + world.invented + world.elsewhere;
-      std::vector<BenchCell> cells{std::int64_t{ticks}, std::int64_t{latencyMs}, cell(row.shots),
-                                   percent(row.hits, row.shots)};
-      for (const ShotTally& way : row.ofWay) appendTally(way, row.shots, cells);
-      appendTally(world, row.shots, cells);
-      result.table.rows.push_back(std::move(cells));
+  for (const int hz : kTicks) {
+    const TickRows ticks = shootAll(clips, hz, shots, seed);
+    const ShotTally& world = ticks.ofWorld;
+    result.violations += world.missed + world.invented + world.elsewhere;
+    result.table.rows.push_back(shotCells(hz, "where the motion has him (World)", 0, ticks, world));
+    for (const RewindRow& row : ticks.rows) {
+      result.table.rows.push_back(shotCells(hz, row.name, row.latencyMs, ticks, row.tally));
     }
   }
   return result;

@@ -1,101 +1,8 @@
 #include "middleware/ask/ask.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string>
-
-#include "articulated/skeleton.h"
-#include "articulated/track.h"
-#include "articulated/try.h"
-#include "lss/index.h"
-#include "middleware/ask/body_asker.h"
 
 namespace foretouch {
-namespace {
-
-using internal::AskFilter;
-using internal::AskMemory;
-using internal::WorldParts;
-
-constexpr const char* kShape = "shape";
-
-Error shapeError(ErrorCode code, const char* message) {
-  return Error::in(kShape, code, message);
-}
-
-Result<Done> checkedShape(const Lss& shape) {
-  if (!shape.a.allFinite() || !shape.b.allFinite() || !std::isfinite(shape.radius)) {
-    return shapeError(ErrorCode::NonFinite, "expected finite coordinates and a finite radius");
-  }
-  const double most = std::max(shape.a.cwiseAbs().maxCoeff(), shape.b.cwiseAbs().maxCoeff());
-  if (most > kMaxCoordinate) {
-    return shapeError(ErrorCode::OutOfRange, "expected coordinates within 1e7 m");
-  }
-  if (shape.radius >= 0.0 && shape.radius <= kMaxCoordinate) return Done{};
-  return shapeError(ErrorCode::OutOfRange, "expected a radius from 0 to 1e7 m");
-}
-
-Result<Done> checkedWay(const WorldQuestion& question) {
-  if (!question.direction.allFinite()) {
-    return Error::in("direction", ErrorCode::NonFinite, "expected finite numbers");
-  }
-  if (question.what == AskWhat::Cast && question.direction.isZero(0.0)) {
-    return Error::in("direction", ErrorCode::OutOfRange,
-                     "expected a direction to cast along, found zero");
-  }
-  if (question.what == AskWhat::Overlap) return Done{};
-  if (!std::isfinite(question.reach)) {
-    return Error::in("reach", ErrorCode::NonFinite, "expected a finite reach, up to 1e8 m");
-  }
-  const bool isLong = question.what == AskWhat::Cast ? question.reach > 0.0 : question.reach >= 0.0;
-  if (isLong && question.reach <= kMostAskReach) return Done{};
-  return Error::in("reach", ErrorCode::OutOfRange,
-                   question.what == AskWhat::Cast ? "expected a reach above 0, up to 1e8 m"
-                                                  : "expected a reach from 0 to 1e8 m");
-}
-
-Result<Done> checkedTime(const WorldParts& world, const WorldTime& time, const char* where) {
-  if (!(time.fraction >= 0.0 && time.fraction < 1.0)) {
-    return Error::in(where, ErrorCode::OutOfRange,
-                     "expected a fraction of a microsecond in [0, 1)");
-  }
-  if (time.us < -kMostUtimeUs || time.us > kMostUtimeUs) {
-    return Error::in(where, ErrorCode::OutOfRange, "expected an instant within 2^53 us of zero");
-  }
-  if (time.us >= world.forgottenUs) return Done{};
-  return Error::in(where, ErrorCode::OutOfRange,
-                   "all before " + std::to_string(world.forgottenUs) +
-                       " us is forgotten; expected a later instant, found " +
-                       std::to_string(time.us) + " us");
-}
-
-Result<Done> checked(const WorldParts& world, const WorldQuestion& question) {
-  FORETOUCH_CHECK(checkedShape(question.shape));
-  FORETOUCH_CHECK(checkedWay(question));
-  FORETOUCH_CHECK(checkedTime(world, question.time, "time"));
-  for (const AskInstant& instant : question.instants) {
-    FORETOUCH_CHECK(checkedTime(world, instant.time, "instants"));
-  }
-  return checkedParts(world, question);
-}
-
-internal::AskedShape shapeOf(const WorldQuestion& question) {
-  internal::AskedShape shape;
-  shape.lss = question.shape;
-  if (question.what != AskWhat::Overlap) shape.reach = question.reach;
-  if (question.what != AskWhat::Cast) return shape;
-  // By its largest part first, so that no square leaves the range of doubles.
-  shape.way = question.direction / question.direction.cwiseAbs().maxCoeff();
-  shape.way.normalize();
-  return shape;
-}
-
-AskUnknown unknownOf(internal::PlaceKnown known) {
-  if (known == internal::PlaceKnown::Assumed) return AskUnknown::Assumed;
-  return known == internal::PlaceKnown::Silent ? AskUnknown::Silent : AskUnknown::NotThere;
-}
-
-}  // namespace
 
 WorldQuestion WorldQuestion::ray(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
                                  double reach, const WorldTime& time) {
@@ -138,28 +45,6 @@ bool WorldAnswer::isComplete() const {
 AskVerdict WorldAnswer::verdict() const {
   if (!hits.empty()) return AskVerdict::Hit;
   return isComplete() ? AskVerdict::Clear : AskVerdict::Unknown;
-}
-
-Result<Done> askWorld(const World& world, const WorldQuestion& question, Scratch& scratch,
-                      WorldAnswer& answer) {
-  const WorldParts& parts = world.parts();
-  answer.hits.clear();
-  answer.unknown.clear();
-  FORETOUCH_CHECK(checked(parts, question));
-  AskMemory& memory = scratch.of<AskMemory>();
-  const AskFilter filter(question);
-  const internal::AskedShape shape = shapeOf(question);
-  internal::HitList hits(shape.reach, question.which, answer);
-  internal::BodyAsker asker(parts, filter, shape, memory, hits);
-  if (parts.still && filter.mayTake(parts, kStillScene)) asker.askStill(*parts.still);
-  memory.bodies.bring(parts, question);
-  asker.askBodies();
-  hits.finish();
-  for (const BodyId body : memory.bodies.others()) {
-    if (!filter.mayTake(parts, body)) continue;
-    answer.unknown.push_back({body, unknownOf(memory.bodies.known(body))});
-  }
-  return Done{};
 }
 
 }  // namespace foretouch
