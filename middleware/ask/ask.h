@@ -48,8 +48,16 @@ struct AskInstant {
   WorldTime time;
 };
 
+/// Whom a question is about: everybody, unless it says less.
+struct AskWhom {
+  std::uint32_t groups = ~std::uint32_t{0};  ///< Bit g: bodies of group g are asked about.
+  bool asksStill = true;                     ///< So is the static scene, if there is one.
+  std::vector<AskPart> only;                 ///< Not empty: nothing but these.
+  std::vector<AskPart> without;              ///< Not these.
+};
+
 /// One question. Fill it by ray(), cast(), overlap() or nearest(), and set what else matters.
-struct WorldQuestion {
+struct WorldQuestion : AskWhom {
   AskWhat what = AskWhat::Cast;
   AskWhich which = AskWhich::Closest;
   /// Where it begins; solid. Both ends alike: a sphere. No radius either: a point, whose cast is a
@@ -61,10 +69,6 @@ struct WorldQuestion {
   WorldTime time;
   /// These bodies at these instants, all others at `time`: what a player saw, who sees others late.
   std::vector<AskInstant> instants;
-  std::uint32_t groups = ~std::uint32_t{0};  ///< Bit g: bodies of group g are asked about.
-  bool asksStill = true;                     ///< So is the static scene, if there is one.
-  std::vector<AskPart> only;                 ///< Not empty: nothing but these.
-  std::vector<AskPart> without;              ///< Not these.
 
   [[nodiscard]] static WorldQuestion ray(const Eigen::Vector3d& from,
                                          const Eigen::Vector3d& direction, double reach,
@@ -101,9 +105,10 @@ struct WorldHit {
 
 /// Why a body is not known at the instant.
 enum class AskUnknown : std::uint8_t {
-  Assumed,   ///< Silent, and taken to hold still: hits of it are assumed.
-  Silent,    ///< Nothing is known after its last pose; it was left out.
-  NotThere,  ///< Before its first pose; it was left out.
+  Assumed,     ///< Silent, and taken to hold still: hits of it are assumed.
+  Silent,      ///< Nothing is known after its last pose; it was left out.
+  NotThere,    ///< Before its first pose; it was left out.
+  Unresolved,  ///< Of a flight: more triangles, or steps, than are followed in motion.
 };
 
 struct UnknownBody {

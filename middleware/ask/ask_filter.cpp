@@ -14,15 +14,6 @@ bool isOf(const AskPart& part, BodyId body, LinkId link, ObjectId object) {
          (part.object == kEveryObject || part.object == object);
 }
 
-Result<Done> checkedBody(const WorldParts& world, BodyId body, const char* where) {
-  if (body >= 0 && slotOf(body) < world.bodies.size()) return Done{};
-  Error error = Error::at(body, ErrorCode::UnknownName,
-                          "body " + std::to_string(body) + " is unknown; expected one of the " +
-                              std::to_string(world.bodies.size()) + " that were added");
-  error.file = where;
-  return error;
-}
-
 Result<Done> checkedPart(const WorldParts& world, const AskPart& part, const char* where) {
   if (part.body == kStillScene) return Done{};
   FORETOUCH_CHECK(checkedBody(world, part.body, where));
@@ -37,37 +28,39 @@ Result<Done> checkedPart(const WorldParts& world, const AskPart& part, const cha
 
 }  // namespace
 
+Result<Done> checkedBody(const WorldParts& world, BodyId body, const char* where) {
+  if (body >= 0 && slotOf(body) < world.bodies.size()) return Done{};
+  Error error = Error::at(body, ErrorCode::UnknownName,
+                          "body " + std::to_string(body) + " is unknown; expected one of the " +
+                              std::to_string(world.bodies.size()) + " that were added");
+  error.file = where;
+  return error;
+}
+
 bool AskFilter::mayTake(const WorldParts& world, BodyId body) const {
   if (body == kStillScene) {
-    if (!question_.asksStill) return false;
+    if (!whom_.asksStill) return false;
   } else {
     const auto group = static_cast<unsigned>(world.body(body).options.group);
-    if ((question_.groups >> group & 1U) == 0) return false;
+    if ((whom_.groups >> group & 1U) == 0) return false;
   }
   const auto isWhole = [&](const AskPart& part) {
     return part.body == body && part.link == kEveryLink && part.object == kEveryObject;
   };
-  if (std::any_of(question_.without.begin(), question_.without.end(), isWhole)) return false;
-  return question_.only.empty() ||
-         std::any_of(question_.only.begin(), question_.only.end(),
-                     [&](const AskPart& part) { return part.body == body; });
+  if (std::any_of(whom_.without.begin(), whom_.without.end(), isWhole)) return false;
+  return whom_.only.empty() || std::any_of(whom_.only.begin(), whom_.only.end(),
+                                           [&](const AskPart& part) { return part.body == body; });
 }
 
 bool AskFilter::takes(BodyId body, LinkId link, ObjectId object) const {
   const auto is = [&](const AskPart& part) { return isOf(part, body, link, object); };
-  return (question_.only.empty() ||
-          std::any_of(question_.only.begin(), question_.only.end(), is)) &&
-         std::none_of(question_.without.begin(), question_.without.end(), is);
+  return (whom_.only.empty() || std::any_of(whom_.only.begin(), whom_.only.end(), is)) &&
+         std::none_of(whom_.without.begin(), whom_.without.end(), is);
 }
 
-Result<Done> checkedParts(const WorldParts& world, const WorldQuestion& question) {
-  for (const AskPart& part : question.only) FORETOUCH_CHECK(checkedPart(world, part, "only"));
-  for (const AskPart& part : question.without) {
-    FORETOUCH_CHECK(checkedPart(world, part, "without"));
-  }
-  for (const AskInstant& instant : question.instants) {
-    FORETOUCH_CHECK(checkedBody(world, instant.body, "instants"));
-  }
+Result<Done> checkedParts(const WorldParts& world, const AskWhom& whom) {
+  for (const AskPart& part : whom.only) FORETOUCH_CHECK(checkedPart(world, part, "only"));
+  for (const AskPart& part : whom.without) FORETOUCH_CHECK(checkedPart(world, part, "without"));
   return Done{};
 }
 

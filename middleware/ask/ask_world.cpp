@@ -1,5 +1,3 @@
-#include "middleware/ask/ask.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,6 +6,8 @@
 #include "articulated/track.h"
 #include "articulated/try.h"
 #include "lss/index.h"
+#include "middleware/ask/ask.h"
+#include "middleware/ask/ask_checks.h"
 #include "middleware/ask/body_asker.h"
 
 namespace foretouch {
@@ -16,24 +16,6 @@ namespace {
 using internal::AskFilter;
 using internal::AskMemory;
 using internal::WorldParts;
-
-constexpr const char* kShape = "shape";
-
-Error shapeError(ErrorCode code, const char* message) {
-  return Error::in(kShape, code, message);
-}
-
-Result<Done> checkedShape(const Lss& shape) {
-  if (!shape.a.allFinite() || !shape.b.allFinite() || !std::isfinite(shape.radius)) {
-    return shapeError(ErrorCode::NonFinite, "expected finite coordinates and a finite radius");
-  }
-  const double most = std::max(shape.a.cwiseAbs().maxCoeff(), shape.b.cwiseAbs().maxCoeff());
-  if (most > kMaxCoordinate) {
-    return shapeError(ErrorCode::OutOfRange, "expected coordinates within 1e7 m");
-  }
-  if (shape.radius >= 0.0 && shape.radius <= kMaxCoordinate) return Done{};
-  return shapeError(ErrorCode::OutOfRange, "expected a radius from 0 to 1e7 m");
-}
 
 Result<Done> checkedWay(const WorldQuestion& question) {
   if (!question.direction.allFinite()) {
@@ -54,27 +36,13 @@ Result<Done> checkedWay(const WorldQuestion& question) {
                                                   : "expected a reach from 0 to 1e8 m");
 }
 
-Result<Done> checkedTime(const WorldParts& world, const WorldTime& time, const char* where) {
-  if (!(time.fraction >= 0.0 && time.fraction < 1.0)) {
-    return Error::in(where, ErrorCode::OutOfRange,
-                     "expected a fraction of a microsecond in [0, 1)");
-  }
-  if (time.us < -kMostUtimeUs || time.us > kMostUtimeUs) {
-    return Error::in(where, ErrorCode::OutOfRange, "expected an instant within 2^53 us of zero");
-  }
-  if (time.us >= world.forgottenUs) return Done{};
-  return Error::in(where, ErrorCode::OutOfRange,
-                   "all before " + std::to_string(world.forgottenUs) +
-                       " us is forgotten; expected a later instant, found " +
-                       std::to_string(time.us) + " us");
-}
-
 Result<Done> checked(const WorldParts& world, const WorldQuestion& question) {
-  FORETOUCH_CHECK(checkedShape(question.shape));
+  FORETOUCH_CHECK(internal::checkedShape(question.shape));
   FORETOUCH_CHECK(checkedWay(question));
-  FORETOUCH_CHECK(checkedTime(world, question.time, "time"));
+  FORETOUCH_CHECK(internal::checkedTime(world, question.time, "time"));
   for (const AskInstant& instant : question.instants) {
-    FORETOUCH_CHECK(checkedTime(world, instant.time, "instants"));
+    FORETOUCH_CHECK(internal::checkedTime(world, instant.time, "instants"));
+    FORETOUCH_CHECK(internal::checkedBody(world, instant.body, "instants"));
   }
   return checkedParts(world, question);
 }

@@ -53,12 +53,6 @@ void straighten(const Hull& one, const Hull& other, Separation& apart) {
   }
 }
 
-Separation apartOf(const Hull& one, const Hull& other) {
-  Separation apart = separation(one, other);
-  if (apart.upper - apart.lower() > 0.5 * kAskTolerance) straighten(one, other, apart);
-  return apart;
-}
-
 bool isNear(const AskedShape& shape, const Hull& piece, double sum, Meeting& meeting) {
   meeting.apart = apartOf(Hull::segment(shape.lss.a, shape.lss.b), piece);
   meeting.distance = std::max(0.0, (meeting.apart.lower() - sum) / kInflation);
@@ -102,6 +96,12 @@ AskedShape AskedShape::seenFrom(const LinkPlace& frame) const {
   seen.way = frame.R_WL.transpose() * way;
   seen.ofWay = kInflation * (ofWay + frame.ofTurn + MotionBounds::kPointRounding);
   return seen;
+}
+
+Separation apartOf(const Hull& one, const Hull& other) {
+  Separation apart = separation(one, other);
+  if (apart.upper - apart.lower() > 0.5 * kAskTolerance) straighten(one, other, apart);
+  return apart;
 }
 
 bool meets(const AskedShape& shape, const Hull& piece, double radius, Meeting& meeting) {

@@ -34,6 +34,9 @@ struct Meeting {
   Separation apart;       ///< There: of the shape's axis and the piece.
 };
 
+/// As separation(), with more planes tried where rounding tilts the one between.
+[[nodiscard]] Separation apartOf(const Hull& one, const Hull& other);
+
 /// False: proven to miss it, or to be farther than the reach. `radius`: of the piece.
 [[nodiscard]] bool meets(const AskedShape& shape, const Hull& piece, double radius,
                          Meeting& meeting);

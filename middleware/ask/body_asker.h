@@ -8,6 +8,7 @@
 #include "middleware/ask/asked_shape.h"
 #include "middleware/ask/hit_list.h"
 #include "middleware/ask/instant_bodies.h"
+#include "middleware/ask/moving_body.h"
 #include "middleware/ask/piece_asker.h"
 #include "middleware/scene/scene.h"
 #include "middleware/scratch.h"
@@ -24,6 +25,7 @@ struct AskMemory : ScratchPart {
     BodyId body;
   };
   InstantBodies bodies;
+  MovingBody moving;           // of flights
   std::vector<double> bounds;  // of bodies, and of one's LSS
   std::vector<NearBody> near;
 };

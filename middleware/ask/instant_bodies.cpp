@@ -26,24 +26,30 @@ bool InstantBodies::isBrought(const WorldParts& world, const WorldQuestion& ques
          areAlike(instants_, question.instants);
 }
 
-void InstantBodies::bring(const WorldParts& world, const WorldQuestion& question) {
+void InstantBodies::useWorld(const WorldParts& world) {
   world_ = &world;
-  if (isBrought(world, question)) return;
-  if (identity_ != world.identity) {
+  if (owner_ != world.identity) {
     kept_.clear();
     tables_.clear();
+    identity_ = 0;
   }
-  identity_ = 0;  // until all is there
-  time_ = question.time;
-  instants_ = question.instants;
+  owner_ = world.identity;
   for (std::size_t kind = tables_.size(); kind < world.kinds.size(); ++kind) {
     tables_.emplace_back().assign(world.kinds[kind].volumes);
   }
+  kept_.resize(world.bodies.size());
+}
+
+void InstantBodies::bring(const WorldParts& world, const WorldQuestion& question) {
+  useWorld(world);
+  if (isBrought(world, question)) return;
+  identity_ = 0;  // until all is there
+  time_ = question.time;
+  instants_ = question.instants;
   times_.assign(world.bodies.size(), time_);
   for (auto own = instants_.rbegin(); own != instants_.rend(); ++own) {
     times_[slotOf(own->body)] = own->time;
   }
-  kept_.resize(world.bodies.size());
   state_.assign(world.bodies.size(), {});
   for (std::size_t axis = 0; axis < 3; ++axis) {
     lower_[axis].resize(world.bodies.size());
@@ -167,6 +173,10 @@ const PieceBoxes* InstantBodies::pieces(BodyId body) {
     setBox(body, kept_[slotOf(body)].pieces[slotOf(state.piece)].box);
   }
   return &kept_[slotOf(body)].pieces[slotOf(state.piece)];
+}
+
+const PieceBoxes& InstantBodies::piecesOf(BodyId body, const BodyPiece& known) {
+  return kept_[slotOf(body)].pieces[slotOf(pieceOf(body, known))];
 }
 
 const std::vector<LinkPlace>& InstantBodies::places(BodyId body) {

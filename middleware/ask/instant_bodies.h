@@ -36,6 +36,8 @@ inline constexpr std::size_t kPiecesKept = 64;
 /// For one thread; keeps its memory.
 class InstantBodies {
  public:
+  /// Forgets what is kept of another world.
+  void useWorld(const WorldParts& world);
   /// Brings all bodies to the question's instants. O(bodies); for a piece of a body's motion that
   /// is new, O(joints).
   void bring(const WorldParts& world, const WorldQuestion& question);
@@ -51,6 +53,9 @@ class InstantBodies {
   /// The boxes of its LSS, which from now on are its box here as well; null for a body that
   /// somebody carries. Precondition: it is known. O(joints) for a piece of its motion that is new.
   [[nodiscard]] const PieceBoxes* pieces(BodyId body);
+  /// The same of any piece of a body's motion, which nobody carries. Valid until the next call. The
+  /// world is in use.
+  [[nodiscard]] const PieceBoxes& piecesOf(BodyId body, const BodyPiece& known);
   /// Of its links, which are posed when they are first asked for.
   [[nodiscard]] const std::vector<LinkPlace>& places(BodyId body);
   /// Those that are not Known, by number.
@@ -79,6 +84,7 @@ class InstantBodies {
   [[nodiscard]] Aabb boxOfPlaces(BodyId body);
 
   const WorldParts* world_ = nullptr;
+  std::uint64_t owner_ = 0;                   // identity of the world that things are kept of
   std::uint64_t identity_ = 0, changes_ = 0;  // of the world that was brought; 0: none
   WorldTime time_;
   std::vector<AskInstant> instants_;

@@ -62,6 +62,17 @@ std::array<double, 3> weightsOf(const Hull& triangle, const Vector3d& p) {
 
 }  // namespace
 
+WorldHit hitOf(const AskedShape& shape, const Hull& piece, double radius, const Meeting& meeting) {
+  WorldHit hit;
+  const double whole = shape.moved + meeting.distance;
+  hit.distance = shape.moved > 0.0 ? std::nextafter(whole, 0.0) : whole;
+  const Separation& apart = meeting.apart;
+  hit.nhat_W = normalOf(shape, piece, apart);
+  hit.what.p_W = apart.onOther + std::min(radius, apart.distance) * hit.nhat_W;
+  if (piece.count == 3) hit.weights = weightsOf(piece, hit.what.p_W);
+  return hit;
+}
+
 void PieceAsker::askLss(const Lss& lss, const ContactSide& side) {
   if (!filter_.takes(side.body, side.link, kEveryObject)) return;
   shape_.reach = limit();
@@ -88,18 +99,13 @@ void PieceAsker::askTriangle(const Triangle& triangle, const ContactSide& side, 
 
 void PieceAsker::add(const Meeting& meeting, const Hull& piece, double radius,
                      const ContactSide& side, ObjectId object) {
-  WorldHit hit;
+  WorldHit hit = hitOf(shape_, piece, radius, meeting);
+  const Vector3d p = hit.what.p_W;
   hit.what = side;
+  hit.what.p_W = frame_.at(p);
+  hit.nhat_W = frame_.R_WL * hit.nhat_W;
   hit.object = object;
   hit.isAssumed = isAssumed_;
-  const double whole = shape_.moved + meeting.distance;
-  hit.distance = shape_.moved > 0.0 ? std::nextafter(whole, 0.0) : whole;
-  const Separation& apart = meeting.apart;
-  const Vector3d normal = normalOf(shape_, piece, apart);
-  const Vector3d p = apart.onOther + std::min(radius, apart.distance) * normal;
-  if (piece.count == 3) hit.weights = weightsOf(piece, p);
-  hit.what.p_W = frame_.at(p);
-  hit.nhat_W = frame_.R_WL * normal;
   hits_.add(hit);
 }
 

@@ -12,6 +12,10 @@
 
 namespace foretouch::internal {
 
+/// Where a shape met a piece: all that does not depend on whose it is, in their frame.
+[[nodiscard]] WorldHit hitOf(const AskedShape& shape, const Hull& piece, double radius,
+                             const Meeting& meeting);
+
 /// Refers to all that it is given.
 class PieceAsker {
  public:

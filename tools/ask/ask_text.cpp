@@ -29,6 +29,7 @@ const char* reasonOf(AskUnknown why) {
   switch (why) {
     case AskUnknown::Assumed: return "silent, and taken to hold still";
     case AskUnknown::Silent: return "silent: nothing is known after its last pose";
+    case AskUnknown::Unresolved: return "not resolved";
     case AskUnknown::NotThere: break;
   }
   return "not there yet";

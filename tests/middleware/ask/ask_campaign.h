@@ -10,6 +10,7 @@
 
 #include "judge/cast_oracle.h"
 #include "middleware/ask/ask.h"
+#include "middleware/ask/flight.h"
 #include "tests/middleware/world/both_worlds.h"
 #include "tests/support/random_geometry.h"
 
@@ -40,6 +41,10 @@ struct AskTamper {
 
 /// A random world by its seed, and `count` questions.
 [[nodiscard]] AskTally judgeQuestions(std::uint64_t seed, int count, const AskTamper& tamper = {});
+
+/// The same of flights through a time.
+[[nodiscard]] AskTally judgeFlights(std::uint64_t seed, int count,
+                                    const std::function<void(FlightQuestion&)>& tamper = {});
 
 /// One line per kind.
 [[nodiscard]] std::string summaryOf(const AskTally& tally);

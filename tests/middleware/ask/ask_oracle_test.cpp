@@ -86,5 +86,29 @@ TEST(AskOracle, NamesWhatIsLateEarlyMissedOrOfAnother) {
       5U);
 }
 
+TEST(AskOracle, FlightsHitWhatTheJudgeSeesThemHitFirst) {
+  AskTally tally;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) tally.add(test::judgeFlights(seed, 6));
+  for (const std::string& problem : tally.problems) ADD_FAILURE() << problem;
+  SCOPED_TRACE(summaryOf(tally));
+  EXPECT_GT(tally.hits["flight"], 60);
+  EXPECT_LT(tally.hits["flight"], 220);
+  EXPECT_GT(tally.ofLss, 15);
+  EXPECT_GT(tally.ofTriangles, 15);
+  EXPECT_GT(tally.ofCarried, 0);
+  EXPECT_LT(tally.filtered, 5);  // not resolved
+}
+
+TEST(AskOracle, NamesFlightsAtAnotherTime) {
+  AskTally tally;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    tally.add(test::judgeFlights(seed, 6, [](FlightQuestion& flight) {
+      flight.fromUs += 300;
+      flight.toUs += 300;
+    }));
+  }
+  EXPECT_GT(tally.problems.size(), 5U);
+}
+
 }  // namespace
 }  // namespace foretouch
