@@ -25,9 +25,16 @@ struct AskMemory : ScratchPart {
     BodyId body;
   };
   InstantBodies bodies;
-  MovingBody moving;           // of flights
   std::vector<double> bounds;  // of bodies, and of one's LSS
   std::vector<NearBody> near;
+  // Of flights.
+  struct LaterPart {
+    double us;           // from when on it is to be looked at
+    std::int32_t child;  // a node of a hierarchy, or ~ a triangle
+  };
+  MovingBody moving;
+  WorldAnswer ofStill;
+  std::vector<LaterPart> parts;
 };
 
 /// Of one question. Refers to all that it is given.

@@ -43,6 +43,7 @@ FlightAsker::FlightAsker(const WorldParts& world, const FlightQuestion& question
     : world_(world),
       question_(question),
       filter_(filter),
+      memory_(memory),
       boxes_(memory.bodies),
       moving_(memory.moving),
       answer_(answer),
@@ -75,7 +76,8 @@ void FlightAsker::askStill(const Scene& scene) {
   const double length = question_.way.norm();
   if (length > 0.0) shape.way = question_.way / length;
   shape.reach = length;
-  WorldAnswer answer;
+  WorldAnswer& answer = memory_.ofStill;
+  answer.hits.clear();
   HitList hits(length, AskWhich::Closest, answer);
   const LinkPlace inPlace;
   PieceAsker asker(filter_, shape, inPlace, false, hits);
@@ -189,13 +191,16 @@ bool FlightAsker::askTriangles(const ContactSide& side, const LinkSurface& surfa
   };
   const Scene* const mesh =
       world_.kindOf(side.body).mesh ? &*world_.kindOf(side.body).mesh : nullptr;
-  const auto isLater = [](const Part& x, const Part& y) { return x.us > y.us; };
+  const auto isLater = [](const AskMemory::LaterPart& x, const AskMemory::LaterPart& y) {
+    return x.us > y.us;
+  };
   bool isResolved = true;
-  parts_.assign(1, {0.0, codeOf(hierarchy.root())});
-  while (!parts_.empty()) {
-    std::pop_heap(parts_.begin(), parts_.end(), isLater);
-    const Part part = parts_.back();
-    parts_.pop_back();
+  std::vector<AskMemory::LaterPart>& parts = memory_.parts;
+  parts.assign(1, {0.0, codeOf(hierarchy.root())});
+  while (!parts.empty()) {
+    std::pop_heap(parts.begin(), parts.end(), isLater);
+    const AskMemory::LaterPart part = parts.back();
+    parts.pop_back();
     if (part.us > limitUs()) break;
     if (part.child < 0) {
       ContactSide one = side;
@@ -212,8 +217,8 @@ bool FlightAsker::askTriangles(const ContactSide& side, const LinkSurface& surfa
     const Hull axis = Hull::segment(node.lss.a, node.lss.b);
     if (touches(side.link, axis, node.lss.radius, us, unused) == Outcome::Free) continue;
     for (const HierarchyChild child : node.children) {
-      parts_.push_back({us, codeOf(child)});
-      std::push_heap(parts_.begin(), parts_.end(), isLater);
+      parts.push_back({us, codeOf(child)});
+      std::push_heap(parts.begin(), parts.end(), isLater);
     }
   }
   return isResolved;

@@ -26,12 +26,6 @@ class FlightAsker {
 
  private:
   enum class Outcome : std::uint8_t { Free, Touch, Unresolved };
-  /// A part of a link's surface, and from when on it is to be looked at.
-  struct Part {
-    double us;
-    std::int32_t child;  ///< A node of a hierarchy, or ~ a triangle.
-  };
-
   /// Of the span that `moving_` is at; false: not all of it could be resolved.
   [[nodiscard]] bool askSpan(BodyId body);
   [[nodiscard]] bool askTriangles(const ContactSide& side, const LinkSurface& surface);
@@ -46,6 +40,7 @@ class FlightAsker {
   const WorldParts& world_;
   const FlightQuestion& question_;
   const AskFilter& filter_;
+  AskMemory& memory_;
   InstantBodies& boxes_;
   MovingBody& moving_;
   FlightAnswer& answer_;
@@ -53,7 +48,6 @@ class FlightAsker {
   double bestUs_;                           // after the flight's begin
   double spanFromUs_ = 0.0, spanUs_ = 0.0;  // after the flight's begin; of its length
   bool isAssumed_ = false;
-  std::vector<Part> parts_;
 };
 
 }  // namespace foretouch::internal

@@ -51,7 +51,8 @@ void MovingBody::findSpeeds() {
   Speed carrier;
   for (std::size_t i = chain_.size(); i-- > 0;) {
     const BodyPiece own = bodyPieceAt(world_->body(chain_[i]), {beginUs_, 0.5});
-    const ChainMotion motion(own.episode->track.skeleton(), *own.piece.from, *own.piece.to);
+    above_.assign(own.episode->track.skeleton(), *own.piece.from, *own.piece.to);
+    const ChainMotion& motion = above_;
     const double duration = durationOf(own.piece);
     speeds_.resize(countOf(motion.numLinks()));
     for (LinkId link = 0; link < motion.numLinks(); ++link) {

@@ -52,6 +52,7 @@ class MovingBody {
   std::int64_t beginUs_ = 0, endUs_ = 0;
   std::vector<BodyId> chain_;
   BodyPiece piece_;
+  ChainMotion above_;          // memory: of who carries it
   ChainMotion motion_;         // of the body itself
   double durationUs_ = 1.0;    // of its piece
   std::vector<Speed> speeds_;  // per link, of a body that is carried
