@@ -6,6 +6,7 @@
 
 #include "bench/ask/asked_times.h"
 #include "bench/solid/cells.h"
+#include "bench/surface.h"
 #include "bench/timing.h"
 #include "lss/index.h"
 #include "middleware/ask/ask.h"
@@ -18,15 +19,24 @@ using Eigen::Vector3d;
 
 constexpr double kCrowdPoseHz = 60.0, kApartM = 5.0, kNearestRayM = 5.0, kFarthestRayM = 60.0;
 constexpr std::int64_t kRememberedUs = 1'000'000;
+constexpr std::size_t kSurfaceTriangles = 20'000;
 
 /// A crowd with a second of poses.
 struct RememberedCrowd {
   World world = World::build(std::nullopt).value();
   std::vector<Vector3d> places;  ///< Of their roots, about.
 
-  explicit RememberedCrowd(const std::vector<Person>& people) {
+  std::size_t triangles;  ///< Of each, by which he touches; 0: by LSS.
+
+  RememberedCrowd(const std::vector<Person>& people, std::size_t ofEach) : triangles(ofEach) {
     for (const Person& person : people) {
-      const BodyId body = world.add(person.clip->actor->avatar).value();
+      const Avatar& avatar = person.clip->actor->avatar;
+      BodyOptions options;
+      if (triangles > 0) {
+        options.surface = AvatarSurface::build(avatar, lssSkins(avatar, triangles)).value();
+        options.surface->prepare();
+      }
+      const BodyId body = world.add(avatar, options).value();
       for (std::int64_t k = 0; person.instant(k) <= kRememberedUs + person.clip->periodUs; ++k) {
         static_cast<void>(world.push(body, person.instant(k), person.pose(k)));
       }
@@ -99,7 +109,10 @@ std::vector<BenchCell> crowdRow(const RememberedCrowd& crowd, const AskedKind& k
     hits += i >= kWarm && !answer.hits.empty();
   }
   const Percentiles us = percentilesOf(times.us);
+  const std::string by =
+      crowd.triangles > 0 ? std::to_string(crowd.triangles) + " triangles" : "LSS";
   return {static_cast<std::int64_t>(crowd.places.size()),
+          by,
           std::string(kind.name),
           std::string(whenSaid),
           us.p50,
@@ -116,6 +129,7 @@ BenchTable rayCrowdTable(const WorldCast& cast, const std::vector<int>& avatars,
   BenchTable table{"crowd",
                    "Questions to a crowd with a second of memory",
                    {{"avatars", "avatars", 0},
+                    {"by", "that touch by"},
                     {"kind", "question"},
                     {"when", "asked at"},
                     {"p50_us", "us p50", 2},
@@ -125,14 +139,15 @@ BenchTable rayCrowdTable(const WorldCast& cast, const std::vector<int>& avatars,
                     {"hit_percent", "with a hit %", 1}},
                    {}};
   const auto clips = clipPosesOf(cast, kCrowdPoseHz);
-  for (const int count : avatars) {
-    const RememberedCrowd crowd(crowdOf(clips, count, kApartM));
+  const auto addRows = [&](const RememberedCrowd& crowd) {
     for (const AskedKind& kind : kAskedKinds) {
       for (const auto& [when, said] : kAskedWhens) {
         table.rows.push_back(crowdRow(crowd, kind, when, said, questions, seed));
       }
     }
-  }
+  };
+  addRows(RememberedCrowd(crowdOf(clips, 1, kApartM), kSurfaceTriangles));
+  for (const int count : avatars) addRows(RememberedCrowd(crowdOf(clips, count, kApartM), 0));
   return table;
 }
 

@@ -1,6 +1,5 @@
-// bindings/python/ask.cpp: World.probe(): what a ray, a cast or a shape meets at an instant.
-#include "middleware/ask/ask.h"
-
+// bindings/python/ask.cpp: World.probe(), what a ray, a cast or a shape meets at an instant; and
+// World.fly(), what something that flies hits first.
 #include <array>
 #include <limits>
 #include <memory>
@@ -9,6 +8,7 @@
 #include "bindings/python/bindings.h"
 #include "bindings/python/poses.h"
 #include "bindings/python/world.h"
+#include "middleware/ask/flight.h"
 
 namespace foretouch::python {
 namespace {
@@ -67,27 +67,36 @@ const char* wordOf(AskVerdict verdict) {
 }
 
 const char* wordOf(AskUnknown why) {
-  if (why == AskUnknown::Assumed) return "assumed";
-  return why == AskUnknown::Silent ? "silent" : "not_there";
+  switch (why) {
+    case AskUnknown::Assumed: return "assumed";
+    case AskUnknown::Silent: return "silent";
+    case AskUnknown::Unresolved: return "unresolved";
+    case AskUnknown::NotThere: break;
+  }
+  return "not_there";
+}
+
+py::list toPython(const std::vector<UnknownBody>& bodies) {
+  const py::object type = pythonType("UnknownBody");
+  py::list unknown;
+  for (const UnknownBody& body : bodies) unknown.append(type(body.body, wordOf(body.why)));
+  return unknown;
+}
+
+py::object toPython(World& world, const WorldHit& hit) {
+  const bool hasWeights = hit.what.triangle >= 0;
+  return pythonType("WorldHit")(
+      hit.distance, sideToPython(hit.what, hit.object, world.still().get(), *world.shapes()),
+      Numbers(3, hit.nhat_W.data()),
+      hasWeights ? py::object(Numbers(3, hit.weights.data())) : py::object(py::none()),
+      hit.isAssumed);
 }
 
 py::object toPython(World& world, const WorldAnswer& answer) {
-  const auto shapes = world.shapes();
-  const Scene* const still = world.still().get();
-  const py::object hitType = pythonType("WorldHit"), unknownType = pythonType("UnknownBody");
-  py::list hits, unknown;
-  for (const WorldHit& hit : answer.hits) {
-    const bool hasWeights = hit.what.triangle >= 0;
-    hits.append(
-        hitType(hit.distance, sideToPython(hit.what, hit.object, still, *shapes),
-                Numbers(3, hit.nhat_W.data()),
-                hasWeights ? py::object(Numbers(3, hit.weights.data())) : py::object(py::none()),
-                hit.isAssumed));
-  }
-  for (const UnknownBody& body : answer.unknown) {
-    unknown.append(unknownType(body.body, wordOf(body.why)));
-  }
-  return pythonType("WorldAnswer")(wordOf(answer.verdict()), hits, unknown, answer.isComplete());
+  py::list hits;
+  for (const WorldHit& hit : answer.hits) hits.append(toPython(world, hit));
+  return pythonType("WorldAnswer")(wordOf(answer.verdict()), hits, toPython(answer.unknown),
+                                   answer.isComplete());
 }
 
 /// A point; (centre, radius); (a, b, radius).
@@ -102,6 +111,25 @@ Lss shapeFrom(py::handle given) {
   }
   const Eigen::Vector3d place = point(given, "shape");
   return {place, place, 0.0};
+}
+
+/// Whom a question is about.
+struct Whom {
+  const py::object &only, &without, &groups;
+  const Shown<shown::Truth>& still;
+};
+
+void complete(World& world, const Whom& whom, AskWhom& question) {
+  question.groups = groupsFrom(whom.groups);
+  question.asksStill = whom.still.cast<bool>();
+  appendParts(world, whom.only, "only", question.only);
+  appendParts(world, whom.without, "without", question.without);
+}
+
+/// What a thread's questions keep: of the world that it asked last.
+Scratch& scratchOfThread() {
+  thread_local Scratch scratch;
+  return scratch;
 }
 
 py::object probe(World& world, const py::object& time, const py::object& shape,
@@ -121,21 +149,38 @@ py::object probe(World& world, const py::object& time, const py::object& shape,
   if (!direction.is_none()) question.direction = point(direction, "direction");
   question.reach = within.is_none() ? number(reach, "reach") : number(within, "within");
   question.which = oneOf(which, "which", kWhich);
-  question.groups = groupsFrom(groups);
-  question.asksStill = still.cast<bool>();
-  appendParts(world, only, "only", question.only);
-  appendParts(world, without, "without", question.without);
+  complete(world, {only, without, groups, still}, question);
   if (!instants.is_none()) {
     for (const auto& [body, seen] : mapping(instants, "instants")) {
       question.instants.push_back({smallInteger(body, "instants"), timeFrom(seen, "instants")});
     }
   }
-  // What a thread's questions keep: of the world that it asked last.
-  thread_local Scratch scratch;
   WorldAnswer answer;
+  Scratch& scratch = scratchOfThread();
   world.with("probe",
              [&](foretouch::World& of) { return askWorld(of, question, scratch, answer); });
   return toPython(world, answer);
+}
+
+py::object fly(World& world, const Shown<shown::Integer>& fromUs, const Shown<shown::Integer>& toUs,
+               const py::object& shape, const Shown<shown::Array>& way, const py::object& only,
+               const py::object& without, const py::object& groups,
+               const Shown<shown::Truth>& still) {
+  FlightQuestion question;
+  question.fromUs = instantFrom(fromUs, "from_us");
+  question.toUs = instantFrom(toUs, "to_us");
+  question.shape = shapeFrom(shape);
+  question.way = point(way, "way");
+  complete(world, {only, without, groups, still}, question);
+  FlightAnswer answer;
+  Scratch& scratch = scratchOfThread();
+  world.with("fly", [&](foretouch::World& of) { return askFlight(of, question, scratch, answer); });
+  const py::object none = py::none();
+  const auto& first = answer.first;
+  return pythonType("FlightAnswer")(
+      wordOf(answer.verdict()), first ? toPython(world, first->hit) : none,
+      first ? py::object(py::int_(first->time.us)) : none,
+      first ? py::object(py::float_(first->time.fraction)) : none, toPython(answer.unknown));
 }
 
 }  // namespace
@@ -150,6 +195,12 @@ void bindAsk(py::module_& module) {
       "What a shape meets at an instant: WorldAnswer. With a direction, what it hits on its way;\n"
       "within a distance, what is nearest to it; else what it overlaps. shape: a point,\n"
       "(centre, radius) or (a, b, radius). utime_us: microseconds, or (microseconds, fraction).");
+  module.attr("World").attr("fly") = py::cpp_function(
+      &fly, py::name("fly"), py::is_method(module.attr("World")), py::arg("from_us"),
+      py::arg("to_us"), py::arg("shape"), py::arg("way"), py::kw_only(),
+      py::arg("only") = py::none(), py::arg("without") = py::none(), py::arg("groups") = py::none(),
+      py::arg("still") = true,
+      "What a shape that flies straight by `way` hits first while the bodies move: FlightAnswer.");
 }
 
 }  // namespace foretouch::python

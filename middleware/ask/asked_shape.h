@@ -21,7 +21,7 @@ struct AskedShape {
   double ofWay = 0.0;     ///< Nor is the true unit way from `way`, beside its own rounding.
 
   [[nodiscard]] bool moves() const { return !way.isZero(0.0); }
-  [[nodiscard]] bool isPoint() const { return lss.a == lss.b; }
+  [[nodiscard]] bool isRay() const { return moves() && lss.a == lss.b && lss.radius == 0.0; }
   /// The same after it has moved so far; it may go no farther than `until` then.
   [[nodiscard]] AskedShape movedBy(double along, double until) const;
   /// As somebody sees it who rests in the frame; rounding grows by what that adds.

@@ -84,10 +84,7 @@ void PieceAsker::askLss(const Lss& lss, const ContactSide& side) {
 }
 
 void PieceAsker::askTriangle(const Triangle& triangle, const ContactSide& side, ObjectId object) {
-  if (shape_.moves() && shape_.isPoint() && shape_.lss.radius == 0.0 &&
-      lineMisses(shape_, triangle)) {
-    return;
-  }
+  if (shape_.isRay() && lineMisses(shape_, triangle)) return;
   if (!filter_.takes(side.body, side.link, object)) return;
   shape_.reach = limit();
   if (shape_.reach < 0.0) return;

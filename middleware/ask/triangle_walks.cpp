@@ -48,6 +48,7 @@ class SceneWalk {
       : scene_(scene),
         asker_(asker),
         boxes_(asker.shape(), scene.origin, extentOf(scene)),
+        isRay_(asker.shape().isRay()),
         side_(side) {}
 
   void walk() {
@@ -82,10 +83,17 @@ class SceneWalk {
 
   void askLeaf(const BvhLeaf& leaf) {
     for (int i = 0; i < kBvhWidth && leaf.id[i] >= 0; ++i) {
+      const Triangle& triangle = scene_.triangles[slotOf(leaf.id[i])];
+      if (!isRay_ && boxes_.nearest(boxFromOrigin(triangle)) > asker_.limit()) continue;
       side_.triangle = leaf.id[i];
-      asker_.askTriangle(scene_.triangles[slotOf(leaf.id[i])], side_,
-                         scene_.objectOf[slotOf(leaf.id[i])]);
+      asker_.askTriangle(triangle, side_, scene_.objectOf[slotOf(leaf.id[i])]);
     }
+  }
+
+  [[nodiscard]] Aabb boxFromOrigin(const Triangle& triangle) const {
+    Aabb box;
+    for (const Eigen::Vector3d& v : triangle.vertices) box.add(v - scene_.origin);
+    return box;
   }
 
   static constexpr int kRoom = BvhWalk::kNodeRoom + kBvhWidth;
@@ -93,6 +101,7 @@ class SceneWalk {
   const SceneParts& scene_;
   PieceAsker& asker_;
   const WayBoxes boxes_;
+  const bool isRay_;  ///< Then the asker has a quicker way past triangles.
   ContactSide side_;
   int size_ = 0;
   Waiting<std::uint32_t> waiting_[kRoom];
@@ -117,6 +126,11 @@ void askSurface(const LinkSurface& surface, const ContactSide& side, PieceAsker&
   if (hierarchy.root().isTriangle()) return ask(hierarchy.root().index());
   const WayBoxes boxes(asker.shape(), Eigen::Vector3d::Zero(),
                        2.0 * extent(hierarchy.node(hierarchy.root().index()).lss));
+  const auto boundOf = [&](HierarchyChild child, double ofParent) {
+    if (!child.isTriangle()) return boxes.nearest(boxOf(hierarchy.node(child.index()).lss));
+    // The asker has a quicker way for rays.
+    return asker.shape().isRay() ? ofParent : boxes.nearest(boxOf(surface.triangle(child.index())));
+  };
   // Depth first: one waits per level, beside the two of the last. Triangles are ~index.
   constexpr int kRoom = 66;
   std::array<Waiting<std::int32_t>, kRoom> waiting;
@@ -132,9 +146,7 @@ void askSurface(const LinkSurface& surface, const ContactSide& side, PieceAsker&
     const int first = size;
     FORETOUCH_ASSERT(first + 2 <= kRoom);
     for (const HierarchyChild child : hierarchy.node(next.child).children) {
-      // A triangle has no box of its own here: it is as near as its parent.
-      const double bound =
-          child.isTriangle() ? next.bound : boxes.nearest(boxOf(hierarchy.node(child.index()).lss));
+      const double bound = boundOf(child, next.bound);
       if (bound > asker.limit()) continue;
       waiting[slotOf(size++)] = {bound, child.isTriangle() ? ~child.index() : child.index()};
     }

@@ -16,6 +16,7 @@ from foretouch._types import (
     Depth,
     Doubles,
     Edges,
+    FlightAnswer,
     IgnoredLike,
     JointMatch,
     LeftOutLike,
@@ -590,6 +591,18 @@ class World:
         groups: Optional[Sequence[int]] = None,
         still: bool = True,
     ) -> WorldAnswer: ...
+    def fly(
+        self,
+        from_us: int,
+        to_us: int,
+        shape: Union[npt.ArrayLike, tuple[npt.ArrayLike, float], _LssLike],
+        way: npt.ArrayLike,
+        *,
+        only: Optional[Sequence[Any]] = None,
+        without: Optional[Sequence[Any]] = None,
+        groups: Optional[Sequence[int]] = None,
+        still: bool = True,
+    ) -> FlightAnswer: ...
 
 class SolidWorld:
     def __init__(

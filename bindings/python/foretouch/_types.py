@@ -731,7 +731,7 @@ class UnknownBody(NamedTuple):
 
     body: int
     why: str
-    """'assumed' (taken to hold still), or 'silent' or 'not_there': it was left out."""
+    """'assumed' (taken to hold still), or 'silent', 'not_there' or 'unresolved': it was left out."""
 
 
 class WorldAnswer(NamedTuple):
@@ -744,6 +744,20 @@ class WorldAnswer(NamedTuple):
     unknown: list[UnknownBody]
     is_complete: bool
     """All that was asked about is known."""
+
+
+class FlightAnswer(NamedTuple):
+    """What World.fly() found: the first hit of all."""
+
+    verdict: str
+    """'hit', 'clear' (proven) or 'unknown'."""
+    hit: Optional[WorldHit]
+    time_us: Optional[int]
+    """Never later than it is."""
+    fraction: Optional[float]
+    """Of one microsecond more, in [0, 1)."""
+    unknown: list[UnknownBody]
+    """Bodies that are not known all through."""
 
 
 class Policy(TypedDict, total=False):

@@ -62,6 +62,19 @@ class Ask(unittest.TestCase):
         answer = self.world.probe(0, [0, 0.5, 2], direction=[0, 0, -1], groups=[3])
         self.assertEqual(answer.hits, [])
 
+    def test_a_flight_meets_what_moves_meanwhile(self):
+        # A ball comes down where the tip is halfway through its turn, when it is there.
+        tip = np.sqrt(0.5) * np.array([-0.9, 0.9, 0])
+        hit = self.world.fly(0, 1000, (tip + [0, 0, 1], 0.05), [0, 0, -2])
+        self.assertEqual(hit.verdict, "hit")
+        # At 0.85 m it would meet the rod if that were there already.
+        self.assertTrue(0.85 < hit.hit.distance < 0.95)
+        self.assertAlmostEqual(hit.time_us + hit.fraction, 500 * hit.hit.distance, places=6)
+        late = self.world.fly(0, 1000, (tip + [0, 0, 2], 0.05), [0, 0, -2.2])
+        self.assertEqual((late.verdict, late.hit), ("clear", None))
+        unknown = self.world.fly(500, 3000, (tip + [5, 0, 2], 0.05), [0, 0, -1])
+        self.assertEqual((unknown.verdict, unknown.unknown[0].why), ("unknown", "silent"))
+
     def test_what_is_unknown_is_no_miss(self):
         answer = self.world.probe(2000, [5, 5, 5], direction=[0, 0, 1])
         self.assertEqual(answer.verdict, "unknown")
