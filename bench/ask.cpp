@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "bench/ask/player_shots.h"
 #include "bench/ask/ray_crowd.h"
 #include "bench/ask/ray_scene.h"
 #include "bench/ask/shots.h"
@@ -47,6 +48,11 @@ Result<AskBench> measureAsk(const AskBenchRequest& request) {
   if (isAsked(request, "crowd")) {
     report.tables.push_back(rayCrowdTable(cast, request.avatars, request.questions, request.seed));
   }
+  if (isAsked(request, "players")) {
+    auto players = playersTable(cast, request.questions, request.seed);
+    bench.violations += players.violations;
+    report.tables.push_back(std::move(players.table));
+  }
   if (isAsked(request, "scene")) {
     FORETOUCH_TRY(auto table, raySceneTable(request.triangles, request.questions, request.seed));
     report.tables.push_back(std::move(table));
@@ -62,6 +68,8 @@ Result<AskBench> measureAsk(const AskBenchRequest& request) {
       "to "
       "60 m away. One instant: all questions at the same instant between two poses. Own instants: "
       "each at another one of the second. Own instants of bodies: each body at another one, too.",
+      "players: what the world takes per second of poses, by the heap's own count; the replay is a "
+      "second world of the same poses.",
       "shots: a person goes through a clip and runs 3 m/s, captured 120 times per second; the "
       "truth "
       "is the in-between motion of these poses at the instant that the shooter saw, by the judge. "

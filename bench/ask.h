@@ -11,7 +11,7 @@
 
 namespace foretouch::tools {
 
-inline constexpr const char* kAskParts[] = {"crowd", "scene", "shots"};
+inline constexpr const char* kAskParts[] = {"crowd", "players", "scene", "shots"};
 
 struct AskBenchRequest {
   std::string dataFolder;          ///< With mocap/; without clips in it, the bundled dancer.

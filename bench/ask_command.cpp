@@ -44,9 +44,10 @@ Command askBenchCommand() {
                 "With mocap/; $FORETOUCH_DATA, else ../shared/data, if not given");
   addWords(settings, "--clips", "NAME,...", request.clips, {},
            "Of mocap/, or paths; six if not given, or the bundled dancer where these are absent");
-  addWords(settings, "--parts", "NAME,...", request.parts,
-           {std::begin(kAskParts), std::end(kAskParts)},
-           "crowd, scene (beside Embree), shots (at players who are seen late); all if not given");
+  addWords(
+      settings, "--parts", "NAME,...", request.parts, {std::begin(kAskParts), std::end(kAskParts)},
+      "crowd, players (of a server), scene (beside Embree), shots (at who is seen late); all if "
+      "not given");
   addCounts(settings, "--avatars", "N,...", request.avatars, kMostAvatars, "Of each crowd");
   settings.whole("--questions", "N", request.questions, 1, kMost, "Of each kind");
   settings.whole("--shots", "N", request.shots, 1, kMost, "Per row");

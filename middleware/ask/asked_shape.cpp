@@ -71,8 +71,10 @@ bool touches(const AskedShape& shape, const Hull& piece, double sum, Meeting& me
     if (free <= 0.0 || meeting.apart.upper <= more + kAskTolerance) return true;
     // At most so fast does the free space shrink, per metre of way.
     const double pace = kSeparationRounding + shape.ofWay - meeting.apart.nhat.dot(shape.way);
-    if (pace <= 0.0 || free / pace > kInflation * (shape.reach - along)) return false;
-    const double next = timeAfter(along, free / (kInflation * pace), shape.reach);
+    if (pace <= 0.0) return false;
+    // Steps do not depend on the reach, which what was found before may have shortened.
+    const double next = std::nextafter(along + free / (kInflation * pace), 0.0);
+    if (next > shape.reach) return false;
     if (!(next > along)) return true;  // doubles do not resolve what is left
     along = next;
   }

@@ -49,13 +49,11 @@ void BodyAsker::askBodies() {
 
 void BodyAsker::askBody(const AskMemory::NearBody& near) {
   const PieceBoxes* const pieces = memory_.bodies.pieces(near.body);
-  double bound = near.bound;
-  if (pieces != nullptr) {
-    // Its box was a rough one when it was looked at first.
-    const WayBoxes boxes(shape_, Eigen::Vector3d::Zero(), memory_.bodies.extent());
-    bound = boxes.nearest(pieces->box);
-    if (bound > hits_.limit()) return;
-  }
+  // Its box may have been a rough one so far. From here on nothing depends on earlier questions.
+  const Aabb box = memory_.bodies.box(near.body);
+  const double extent = box.min.lpNorm<1>() + box.max.lpNorm<1>();
+  const double bound = WayBoxes(shape_, Eigen::Vector3d::Zero(), extent).nearest(box);
+  if (bound > hits_.limit()) return;
   // From where it comes to the body on: near it, doubles resolve more.
   const AskedShape shape = shape_.moves() ? shape_.movedBy(bound, hits_.limit()) : shape_;
   if (world_.kindOf(near.body).mesh) {

@@ -165,6 +165,15 @@ Aabb InstantBodies::boxOfPlaces(BodyId body) {
   return box;
 }
 
+Aabb InstantBodies::box(BodyId body) const {
+  Aabb box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min[axis] = lower_[slotOf(axis)][slotOf(body)];
+    box.max[axis] = upper_[slotOf(axis)][slotOf(body)];
+  }
+  return box;
+}
+
 const PieceBoxes* InstantBodies::pieces(BodyId body) {
   State& state = state_[slotOf(body)];
   if (state.isCarried) return nullptr;

@@ -46,6 +46,7 @@ class InstantBodies {
   /// A box around each body, [axis][body]; empty if the body is not known, or has nothing.
   [[nodiscard]] const double* lower(int axis) const { return lower_[slotOf(axis)].data(); }
   [[nodiscard]] const double* upper(int axis) const { return upper_[slotOf(axis)].data(); }
+  [[nodiscard]] Aabb box(BodyId body) const;
   /// None of their coordinates is above it.
   [[nodiscard]] double extent() const { return extent_; }
 

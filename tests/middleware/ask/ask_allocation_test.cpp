@@ -1,5 +1,5 @@
-// Questions allocate nothing once a thread's memory has grown. Of a program that counts the calls of
-// malloc.
+// Questions allocate nothing once a thread's memory has grown. Of a program that counts the calls
+// of malloc.
 #include <vector>
 
 #include <gtest/gtest.h>

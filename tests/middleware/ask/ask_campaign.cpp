@@ -67,6 +67,24 @@ void chooseFilter(const AskedWorld& world, Random& random, WorldQuestion& questi
   }
 }
 
+/// Every so many questions are asked again by a new memory.
+constexpr int kAnewEvery = 8;
+
+/// To the bit; but for any hit, which may be another one.
+bool isSameAnew(const World& world, const WorldQuestion& question, const WorldAnswer& answer) {
+  if (question.which == AskWhich::Any) return true;
+  Scratch scratch;
+  WorldAnswer anew;
+  if (!askWorld(world, question, scratch, anew).ok()) return false;
+  return std::equal(answer.hits.begin(), answer.hits.end(), anew.hits.begin(), anew.hits.end(),
+                    [](const WorldHit& x, const WorldHit& y) {
+                      return x.what.body == y.what.body && x.what.link == y.what.link &&
+                             x.what.lss == y.what.lss && x.what.triangle == y.what.triangle &&
+                             x.distance == y.distance && x.what.p_W == y.what.p_W &&
+                             x.nhat_W == y.nhat_W && x.weights == y.weights;
+                    });
+}
+
 bool areAlike(const std::vector<UnknownBody>& x, const std::vector<UnknownBody>& y) {
   return std::equal(x.begin(), x.end(), y.begin(), y.end(),
                     [](const UnknownBody& one, const UnknownBody& other) {
@@ -112,6 +130,9 @@ AskTally judgeQuestions(std::uint64_t seed, int numQuestions, const AskTamper& t
     if (!done.ok()) {
       tally.problems.push_back(describe(done.error()));
       continue;
+    }
+    if (i % kAnewEvery == 0 && !isSameAnew(world.both().world, asked, answer)) {
+      tally.problems.emplace_back("another answer by a memory that has asked nothing yet");
     }
     if (tamper.answer) tamper.answer(answer);
     const std::size_t before = tally.problems.size();
