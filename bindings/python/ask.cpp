@@ -1,13 +1,12 @@
 // bindings/python/ask.cpp: World.probe(), what a ray, a cast or a shape meets at an instant; and
 // World.fly(), what something that flies hits first.
 #include <array>
-#include <limits>
-#include <memory>
 #include <utility>
 
 #include "bindings/python/bindings.h"
 #include "bindings/python/poses.h"
 #include "bindings/python/world.h"
+#include "lss/index.h"
 #include "middleware/ask/flight.h"
 
 namespace foretouch::python {
@@ -67,13 +66,8 @@ const char* wordOf(AskVerdict verdict) {
 }
 
 const char* wordOf(AskUnknown why) {
-  switch (why) {
-    case AskUnknown::Assumed: return "assumed";
-    case AskUnknown::Silent: return "silent";
-    case AskUnknown::Unresolved: return "unresolved";
-    case AskUnknown::NotThere: break;
-  }
-  return "not_there";
+  constexpr const char* kWords[] = {"assumed", "silent", "not_there", "unresolved"};
+  return kWords[slotOf(why)];
 }
 
 py::list toPython(const std::vector<UnknownBody>& bodies) {

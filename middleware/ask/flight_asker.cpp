@@ -29,6 +29,17 @@ double usUntil(double free, double pace, double acceleration) {
   return (root - pace) / (kInflation * acceleration);
 }
 
+/// At most so fast do a shape of this velocity and the piece come closer along the normal.
+double paceOf(const MovingPiece& piece, const Vector3d& nhat, const Vector3d& velocity) {
+  double pace = nhat.dot(piece.velocities[0] - velocity);
+  double most = velocity.lpNorm<1>() + piece.velocities[0].lpNorm<1>();
+  for (std::size_t i = 1; i < countOf(piece.hull.count); ++i) {
+    pace = std::max(pace, nhat.dot(piece.velocities[i] - velocity));
+    most = std::max(most, velocity.lpNorm<1>() + piece.velocities[i].lpNorm<1>());
+  }
+  return pace + kSeparationRounding * most + kInflation * piece.ofVelocity;
+}
+
 }  // namespace
 
 /// Of a shape on its flight and a piece.
@@ -228,7 +239,6 @@ FlightAsker::Outcome FlightAsker::touches(LinkId link, const Hull& hull_L, doubl
                                           double& us, FlightMeeting& met) {
   const double limit = limitUs();
   const Vector3d velocity = question_.way / durationUs_;
-  const double ofVelocity = kSeparationRounding * velocity.lpNorm<1>();
   for (int step = 0; step < kMostFlightSteps; ++step) {
     if (us > limit) return Outcome::Free;
     met.piece = moving_.at(link, hull_L, us);
@@ -239,13 +249,7 @@ FlightAsker::Outcome FlightAsker::touches(LinkId link, const Hull& hull_L, doubl
         kInflation * (question_.shape.radius + radius + met.shape.rounding + met.piece.rounding);
     const double free = apart.lower() - sum;
     if (free <= 0.0 || apart.upper <= sum + kAskTolerance) return Outcome::Touch;
-    double pace = 0.0;
-    for (std::size_t i = 0; i < countOf(hull_L.count); ++i) {
-      const double one = apart.nhat.dot(met.piece.velocities[i] - velocity);
-      pace = i == 0 ? one : std::max(pace, one);
-    }
-    pace += ofVelocity + kInflation * met.piece.ofVelocity +
-            kSeparationRounding * met.piece.velocities[0].lpNorm<1>();
+    const double pace = paceOf(met.piece, apart.nhat, velocity);
     const double next = std::nextafter(us + usUntil(free, pace, met.piece.acceleration), 0.0);
     if (next > limit) return Outcome::Free;
     if (!(next > us)) return Outcome::Touch;  // doubles do not resolve what is left

@@ -34,7 +34,7 @@ double extentOf(const SceneParts& scene) {
          (scene.audit.boxMin - scene.origin).cwiseAbs().maxCoeff();
 }
 
-Aabb boxOf(const Lss& lss) {
+Aabb boxAround(const Lss& lss) {
   Aabb box;
   box.add(lss.a);
   box.add(lss.b);
@@ -107,6 +107,64 @@ class SceneWalk {
   Waiting<std::uint32_t> waiting_[kRoom];
 };
 
+/// Triangles are ~index.
+class SurfaceWalk {
+ public:
+  SurfaceWalk(const LinkSurface& surface, const ContactSide& side, PieceAsker& asker)
+      : surface_(surface),
+        hierarchy_(surface.hierarchy(side.lss)),
+        asker_(asker),
+        boxes_(asker.shape(), Eigen::Vector3d::Zero(), extentOf(hierarchy_)),
+        side_(side) {}
+
+  void walk() {
+    push(hierarchy_.root(), 0.0);
+    while (size_ > 0) {
+      const Waiting<std::int32_t> next = waiting_[slotOf(--size_)];
+      if (next.bound > asker_.limit()) continue;
+      if (next.child < 0) {
+        side_.triangle = ~next.child;
+        asker_.askTriangle(surface_.triangle(side_.triangle), side_, kEveryObject);
+        continue;
+      }
+      const int first = size_;
+      for (const HierarchyChild child : hierarchy_.node(next.child).children) {
+        push(child, boundOf(child, next.bound));
+      }
+      sortLast(waiting_.data() + first, waiting_.data() + size_);
+    }
+  }
+
+ private:
+  static double extentOf(const LssHierarchy& hierarchy) {
+    if (hierarchy.root().isTriangle()) return 0.0;
+    const Lss& lss = hierarchy.node(hierarchy.root().index()).lss;
+    return 2.0 * (lss.a.lpNorm<1>() + lss.b.lpNorm<1>() + lss.radius);
+  }
+  [[nodiscard]] double boundOf(HierarchyChild child, double ofParent) const {
+    if (!child.isTriangle()) return boxes_.nearest(boxAround(hierarchy_.node(child.index()).lss));
+    // The asker has a quicker way past triangles for rays.
+    if (asker_.shape().isRay()) return ofParent;
+    return boxes_.nearest(boxOf(surface_.triangle(child.index())));
+  }
+  void push(HierarchyChild child, double bound) {
+    if (bound > asker_.limit()) return;
+    FORETOUCH_ASSERT(size_ < kRoom);
+    waiting_[slotOf(size_++)] = {bound, child.isTriangle() ? ~child.index() : child.index()};
+  }
+
+  /// Depth first: one waits per level, beside the two of the last.
+  static constexpr int kRoom = 66;
+
+  const LinkSurface& surface_;
+  const LssHierarchy& hierarchy_;
+  PieceAsker& asker_;
+  const WayBoxes boxes_;
+  ContactSide side_;
+  int size_ = 0;
+  std::array<Waiting<std::int32_t>, kRoom> waiting_;
+};
+
 }  // namespace
 
 void askScene(const SceneParts& scene, const ContactSide& side, PieceAsker& asker) {
@@ -114,44 +172,7 @@ void askScene(const SceneParts& scene, const ContactSide& side, PieceAsker& aske
 }
 
 void askSurface(const LinkSurface& surface, const ContactSide& side, PieceAsker& asker) {
-  const LssHierarchy& hierarchy = surface.hierarchy(side.lss);
-  const auto extent = [&](const Lss& lss) {
-    return lss.a.lpNorm<1>() + lss.b.lpNorm<1>() + lss.radius;
-  };
-  ContactSide part = side;
-  const auto ask = [&](std::int32_t triangle) {
-    part.triangle = triangle;
-    asker.askTriangle(surface.triangle(triangle), part, kEveryObject);
-  };
-  if (hierarchy.root().isTriangle()) return ask(hierarchy.root().index());
-  const WayBoxes boxes(asker.shape(), Eigen::Vector3d::Zero(),
-                       2.0 * extent(hierarchy.node(hierarchy.root().index()).lss));
-  const auto boundOf = [&](HierarchyChild child, double ofParent) {
-    if (!child.isTriangle()) return boxes.nearest(boxOf(hierarchy.node(child.index()).lss));
-    // The asker has a quicker way for rays.
-    return asker.shape().isRay() ? ofParent : boxes.nearest(boxOf(surface.triangle(child.index())));
-  };
-  // Depth first: one waits per level, beside the two of the last. Triangles are ~index.
-  constexpr int kRoom = 66;
-  std::array<Waiting<std::int32_t>, kRoom> waiting;
-  int size = 0;
-  waiting[slotOf(size++)] = {0.0, hierarchy.root().index()};
-  while (size > 0) {
-    const Waiting<std::int32_t> next = waiting[slotOf(--size)];
-    if (next.bound > asker.limit()) continue;
-    if (next.child < 0) {
-      ask(~next.child);
-      continue;
-    }
-    const int first = size;
-    FORETOUCH_ASSERT(first + 2 <= kRoom);
-    for (const HierarchyChild child : hierarchy.node(next.child).children) {
-      const double bound = boundOf(child, next.bound);
-      if (bound > asker.limit()) continue;
-      waiting[slotOf(size++)] = {bound, child.isTriangle() ? ~child.index() : child.index()};
-    }
-    sortLast(waiting.data() + first, waiting.data() + size);
-  }
+  SurfaceWalk(surface, side, asker).walk();
 }
 
 }  // namespace foretouch::internal

@@ -46,7 +46,7 @@ double WayBoxes::nearest(const Aabb& box) const {
 }
 
 double WayBoxes::lengthOf(double square) const {
-  return std::max(0.0, (std::sqrt(square) - radius_) * kShrink);
+  return std::max(0.0, (std::sqrt(square) - radius_) / kInflation);
 }
 
 }  // namespace foretouch::internal

@@ -47,6 +47,7 @@ class WayBoxes {
       nearFrom[axis] = isUp ? high_[axis] : low_[axis];
       farFrom[axis] = isUp ? low_[axis] : high_[axis];
     }
+    const double shrink = 1.0 / kInflation;
     for (int i = 0; i < count; ++i) {
       double first = 0.0, last = reach_;
       for (int axis = 0; axis < 3; ++axis) {
@@ -56,7 +57,7 @@ class WayBoxes {
         first = first > enters ? first : enters;
         last = last < leaves ? last : leaves;
       }
-      bounds[i] = first <= last ? first * kShrink : kBeyondReach;
+      bounds[i] = first <= last ? first * shrink : kBeyondReach;
     }
   }
   template <typename Real>
@@ -76,8 +77,6 @@ class WayBoxes {
     }
   }
   [[nodiscard]] double lengthOf(double square) const;
-
-  static constexpr double kShrink = 1.0 / kInflation;
 
   bool moves_;
   double low_[3], high_[3];  ///< Of the shape's box, grown; a sphere's radius apart, at rest.

@@ -1,9 +1,6 @@
 #include "tools/ask/ask_command.h"
 
-#include <algorithm>
-#include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -177,9 +174,9 @@ Command askCommand() {
       .files("toml")
       .required("a world file");
   settings.seconds("--at", asked->atUs, "Instant of the world (s); not given: the first pose");
+  settings.asJson(asked->asJson);
   addShapeSettings(settings, *asked);
   addFilterSettings(settings, *asked);
-  settings.asJson(asked->asJson);
   Command command{"ask", "What a ray, a moved shape or a shape meets in a world at an instant",
                   "Examples:\n"
                   "  foretouch ask stage.toml --at 1.7 --from 0,1.2,3 --along 0,0,-1\n"
