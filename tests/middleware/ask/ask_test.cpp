@@ -92,6 +92,33 @@ TEST(Ask, NoRayPassesBetweenTwoTrianglesThatShareAnEdge) {
   }
 }
 
+// Far from the origin doubles resolve a tenth of a nanometre: hits are earlier by it, and none is
+// missed.
+TEST(Ask, FarAwayNothingIsMissedEither) {
+  const Vector3d far(1e6, -2e6, 5e5);
+  RawScene raw;
+  raw.objectNames = {"wall"};
+  const Vector3d a = far + Vector3d(-1, -1, 0), b = far + Vector3d(1, -1, 0),
+                 c = far + Vector3d(1, 1, 0), d = far + Vector3d(-1, 1, 0);
+  raw.triangles = {{{a, b, c}}, {{a, c, d}}};
+  raw.objectOf = {0, 0};
+  World world = World::build(Scene::build(std::move(raw)).value()).value();
+  const BodyId body = world.add(rod()).value();
+  ASSERT_TRUE(world.push(body, 0, RigidPose{Quaternion::Identity(), far + Vector3d(3, 0, 0)}).ok());
+  for (int i = 0; i < 500; ++i) {
+    const double s = -0.999 + i * 4e-3;
+    const Vector3d from = far + Vector3d(0.3 * std::sin(i), 0.5, 2.0);
+    const Vector3d onEdge = far + Vector3d(s, s, 0.0), onAxis = far + Vector3d(3, 0.5, 0);
+    const WorldAnswer edge = ask(world, WorldQuestion::ray(from, onEdge - from, 100.0, {}));
+    ASSERT_FALSE(edge.hits.empty()) << i;
+    EXPECT_NEAR(edge.hits.front().distance, (onEdge - from).norm(), 1e-6);
+    const WorldAnswer rod = ask(world, WorldQuestion::ray(from, onAxis - from, 100.0, {}));
+    ASSERT_FALSE(rod.hits.empty()) << i;
+    EXPECT_EQ(rod.hits.front().what.body, body);
+    EXPECT_LT(rod.hits.front().distance, (onAxis - from).norm() - 0.09);
+  }
+}
+
 // Halfway between two poses the rod is where its motion has it, turned by half: neither at one of
 // the poses, nor on the chord between.
 TEST(Ask, BetweenPosesABodyIsWhereItsMotionHasIt) {
