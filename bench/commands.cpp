@@ -8,7 +8,7 @@ void addBenchCommands(CLI::App& program, ExitCode& exit) {
         compareCommand, leafCommand,      peersCommand,       extremesCommand,     streamCommand,
         soakCommand,    viewBenchCommand, deadlineCommand,    cageCommand,         treesCommand,
         trustCommand,   tradeCommand,     solidBenchCommand,  worldBenchCommand,   tuneCommand,
-        bodyCommand}) {
+        bodyCommand,    askBenchCommand}) {
     addCommand(program, command(), exit);
   }
 }

@@ -5,6 +5,7 @@
 
 namespace foretouch::tools {
 
+[[nodiscard]] Command askBenchCommand();
 [[nodiscard]] Command bodyCommand();
 [[nodiscard]] Command cageCommand();
 [[nodiscard]] Command compareCommand();

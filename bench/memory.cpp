@@ -31,16 +31,6 @@ std::optional<double> statusMiB(const std::string& key) {
   return std::nullopt;
 }
 
-double heapMiB() {
-#if defined(__GLIBC__)
-  constexpr double kBytesAMiB = 1024.0 * 1024.0;
-  const struct mallinfo2 info = mallinfo2();
-  return static_cast<double>(info.uordblks + info.hblkhd) / kBytesAMiB;
-#else
-  return 0.0;
-#endif
-}
-
 class Stages {
  public:
   explicit Stages(MemoryBench& bench) : bench_(bench) {}
@@ -73,6 +63,16 @@ void count(const QueryOptions& query, MemoryBench& bench) {
 }
 
 }  // namespace
+
+double heapMiB() {
+#if defined(__GLIBC__)
+  constexpr double kBytesAMiB = 1024.0 * 1024.0;
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd) / kBytesAMiB;
+#else
+  return 0.0;
+#endif
+}
 
 Result<MemoryBench> measureMemory(const MemoryRequest& request) {
   MemoryBench bench;

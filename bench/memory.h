@@ -41,4 +41,7 @@ struct MemoryBench {
 /// One row per stage.
 [[nodiscard]] std::string memoryTable(const MemoryBench& bench);
 
+/// What the program has allocated and not freed (glibc's count; else 0).
+[[nodiscard]] double heapMiB();
+
 }  // namespace foretouch::tools

@@ -11,6 +11,7 @@ declare -rA programs=(
   [solid-oracle]=solid_oracle
   [solid-world-oracle]=solid_world_oracle
   [world-oracle]=world_oracle
+  [ask-oracle]=ask_oracle
   [world-fuzz]=world_fuzz
   [leaf-oracle]=leaf_campaign
   [simulate]=stream_simulator

@@ -22,6 +22,7 @@ enum class ScratchKind : std::uint8_t {
   WorldDepth,
   StepList,
   EdgeList,
+  Ask,
   Count
 };
 

@@ -24,6 +24,7 @@ void bindSolid(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
 void bindSolidWorld(pybind11::module_& module);
 void bindTriggers(pybind11::module_& module);
+void bindAsk(pybind11::module_& module);
 void bindFollower(pybind11::module_& module);
 void bindRobots(pybind11::module_& module);
 

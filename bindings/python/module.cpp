@@ -27,6 +27,7 @@ PYBIND11_MODULE(_foretouch, module) {
   bindWorld(module);
   bindSolidWorld(module);
   bindTriggers(module);
+  bindAsk(module);
   bindFollower(module);
   bindRobots(module);
   py::delattr(module, "__module__");

@@ -57,19 +57,25 @@ PlaceKnown BodyPlaces::at(const WorldParts& world, BodyId body, const WorldTime&
   return how;
 }
 
+BodyPiece bodyPieceAt(const WorldBody& body, const WorldTime& time) {
+  const Episode* const episode = body.episodeAt(time.us);
+  if (episode == nullptr || time.us < episode->track.knownFromUs()) return {};
+  BodyPiece known{PlaceKnown::Known, episode, episode->track.pieceAt(time.us)};
+  // At its last pose it is known; the piece that begins there is a guess.
+  const TrackPiece& piece = known.piece;
+  const bool isAfter = piece.isHeld && (time.us > piece.beginUs || time.fraction > 0.0);
+  if (isAfter && !episode->isHeldFast()) {
+    const bool isTakenToHold = body.options.whenSilent == WhenSilent::HoldStill;
+    known.how = isTakenToHold ? PlaceKnown::Assumed : PlaceKnown::Silent;
+  }
+  return known;
+}
+
 /// Of one body; `places` has those of whoever carries it.
 PlaceKnown BodyPlaces::place(const WorldBody& body, const WorldTime& time,
                              std::vector<LinkPlace>& places) {
-  const Episode* const episode = body.episodeAt(time.us);
-  if (episode == nullptr || time.us < episode->track.knownFromUs()) return PlaceKnown::NotThere;
-  PlaceKnown how = PlaceKnown::Known;
-  const TrackPiece piece = episode->track.pieceAt(time.us);
-  // At its last pose it is known; the piece that begins there is a guess.
-  const bool isAfter = piece.isHeld && (time.us > piece.beginUs || time.fraction > 0.0);
-  if (isAfter && !episode->isHeldFast()) {
-    if (body.options.whenSilent != WhenSilent::HoldStill) return PlaceKnown::Silent;
-    how = PlaceKnown::Assumed;
-  }
+  const auto [how, episode, piece] = bodyPieceAt(body, time);
+  if (how == PlaceKnown::NotThere || how == PlaceKnown::Silent) return how;
   LinkPlace carrier;
   if (episode->carrier) carrier = places[slotOf(episode->carrier->link)];
   motion_.assign(episode->track.skeleton(), *piece.from, *piece.to);

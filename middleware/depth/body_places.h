@@ -33,6 +33,14 @@ enum class PlaceKnown : std::uint8_t {
   NotThere,  ///< Before the first pose, or forgotten.
 };
 
+/// What is known of one body by itself, whoever carries it.
+struct BodyPiece {
+  PlaceKnown how = PlaceKnown::NotThere;
+  const Episode* episode = nullptr;  ///< These two unless it is Silent or NotThere.
+  TrackPiece piece;
+};
+[[nodiscard]] BodyPiece bodyPieceAt(const WorldBody& body, const WorldTime& time);
+
 /// For one thread; keeps its memory.
 class BodyPlaces {
  public:

@@ -41,6 +41,8 @@ class FlatBvh final : public TriangleCuller {
     return static_cast<std::uint32_t>(leaves_.size());
   }
   [[nodiscard]] std::uint32_t numNodes() const { return static_cast<std::uint32_t>(nodes_.size()); }
+  /// The root is 0.
+  [[nodiscard]] const BvhNode& node(std::uint32_t index) const { return nodes_[index]; }
   [[nodiscard]] const BvhLeaf& leaf(std::uint32_t index) const { return leaves_[index]; }
   [[nodiscard]] const BvhLeaf* leaves() const { return leaves_.data(); }
   [[nodiscard]] const Cluster& cluster(std::uint32_t index) const { return clusters_[index]; }

@@ -176,6 +176,7 @@ Result<Done> checkedCarrier(const WorldParts& parts, BodyId id, const Carrier& c
 
 Result<Done> beginEpisode(WorldParts& parts, BodyId id, std::optional<Carrier> carrier,
                           std::int64_t utimeUs, const Pose& pose) {
+  ++parts.changes;
   Episode episode{utimeUs, carrier, Track(parts.kindOf(id).skeleton)};
   FORETOUCH_CHECK(episode.track.push(utimeUs, pose));
   parts.bodies[slotOf(id)].episodes.push_back(std::move(episode));
@@ -203,6 +204,7 @@ Result<World> World::build(std::optional<Scene> still, const WorldOptions& optio
 }
 
 Result<BodyId> World::add(const Avatar& avatar, const BodyOptions& options) {
+  ++parts_->changes;
   FORETOUCH_CHECK(checkedNew(*parts_, options));
   if (options.self && options.self->avatarIdentity() != avatar.identity()) {
     return Error::in("self", ErrorCode::Mismatch, "expected the pair rules of this avatar");
@@ -222,6 +224,7 @@ Result<BodyId> World::add(const Avatar& avatar, const BodyOptions& options) {
 }
 
 Result<BodyId> World::add(const Scene& mesh, const BodyOptions& options) {
+  ++parts_->changes;
   FORETOUCH_CHECK(checkedNew(*parts_, options));
   if (options.self) {
     return Error::in("self", ErrorCode::Mismatch, "expected none: a mesh has no links of its own");
@@ -249,6 +252,7 @@ std::int32_t World::numBodies() const {
 }
 
 Result<Done> World::push(BodyId body, std::int64_t utimeUs, const Pose& pose) {
+  ++parts_->changes;
   FORETOUCH_CHECK(checkedBody(*parts_, body));
   std::vector<Episode>& episodes = parts_->bodies[slotOf(body)].episodes;
   if (episodes.empty()) {
@@ -347,6 +351,7 @@ std::optional<std::int64_t> World::knownUntilUs() const {
 }
 
 void World::forgetBefore(std::int64_t utimeUs) {
+  ++parts_->changes;
   parts_->forgottenUs = std::max(parts_->forgottenUs, utimeUs);
   // The motions that end there, too: of who is put elsewhere there, the last place is told.
   const std::int64_t keptUs = std::max(utimeUs, -kMostUtimeUs) - 1;

@@ -64,6 +64,7 @@ struct WorldBody {
 
 struct WorldParts {
   std::uint64_t identity = 0;  // different for every world of the process
+  std::uint64_t changes = 0;   // so far: what is kept of a world holds until the next one
   std::optional<Scene> still;
   WorldOptions options;
   std::vector<BodyKind> kinds;

@@ -57,6 +57,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"solid", {"query", "near", "pair", "mechanics", "", "scene"}},
       {"world", {"query", "pair", "", "lanes", "scene", "surface"}},
       {"depth", {"world", "", "scene"}},
+      {"ask", {"depth", "world", "", "scene", "surface"}},
       {"triggers", {"events", "depth", "world", "exact", "", "scene", "surface"}},
       {"events", {"world", "query", "pair", "mechanics", "", "lanes", "scene", "surface"}},
       {"bracket", {"events", "pair", "", "scene", "surface"}},
@@ -90,6 +91,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"replay", {"touches", "inputs", "settings", ""}},
       {"solid", {"replay", "touches", "inputs", "settings", ""}},
       {"world", {"person", "audit", "replay", "touches", "inputs", "settings", ""}},
+      {"ask", {"world", "inputs", "settings", ""}},
       {"stream", {"world", "touches", "inputs", "settings", ""}},
       {"glb", {"world", "solid", "replay", "touches", "inputs", "settings", ""}},
       {"sweep", {"glb", "inputs", "settings", ""}},
@@ -104,9 +106,10 @@ const std::map<std::string, Rooms> kRooms = {
       {"repair", {"feet", "floor", "inputs", "settings", ""}},
       {"person", {"inputs", "settings", ""}},
       {"certificate", {"inputs", "settings", ""}},
-      {"commands", {"batch",  "certificate", "feet",    "floor", "repair", "person",   "view",
-                    "report", "log",         "sweep",   "glb",   "world",  "solid",    "stream",
-                    "replay", "setup",       "touches", "audit", "inputs", "settings", ""}}}},
+      {"commands",
+       {"ask",    "batch",   "certificate", "feet",   "floor",    "repair", "person", "view",
+        "report", "log",     "sweep",       "glb",    "world",    "solid",  "stream", "replay",
+        "setup",  "touches", "audit",       "inputs", "settings", ""}}}},
 };
 
 /// Libraries that only these folders may include, by the include's first word.

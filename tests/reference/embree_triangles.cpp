@@ -43,7 +43,7 @@ Result<std::shared_ptr<const EmbreeTriangles>> EmbreeTriangles::build(const Scen
   return std::shared_ptr<const EmbreeTriangles>(built);
 }
 
-bool EmbreeTriangles::rayOccluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+RTCRay EmbreeTriangles::rayOf(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
   const Eigen::Vector3f start = (from - scene_.parts().origin).cast<float>();
   const Eigen::Vector3f along = (to - from).cast<float>();
   RTCRay ray{};
@@ -56,10 +56,25 @@ bool EmbreeTriangles::rayOccluded(const Eigen::Vector3d& from, const Eigen::Vect
   ray.tnear = 0.0f;
   ray.tfar = 1.0f;
   ray.mask = ~0u;
+  return ray;
+}
+
+bool EmbreeTriangles::rayOccluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  RTCRay ray = rayOf(from, to);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded1(embreeScene_.get(), &context, &ray);
   return ray.tfar < 0.0f;  // Embree sets it to -inf on a hit
+}
+
+bool EmbreeTriangles::rayHits(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  RTCRayHit ray{};
+  ray.ray = rayOf(from, to);
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(embreeScene_.get(), &context, &ray);
+  return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
 Result<std::shared_ptr<const EmbreeTriangles>> embreeTrianglesOf(const Scene& scene) {

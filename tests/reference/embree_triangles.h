@@ -24,6 +24,9 @@ class EmbreeTriangles {
   /// an answer.
   [[nodiscard]] bool rayOccluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
+  /// The same, but looks for the first one (rtcIntersect1).
+  [[nodiscard]] bool rayHits(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+
   /// Its vertices are relative to the scene's origin, rounded to nearest.
   [[nodiscard]] RTCScene scene() const { return embreeScene_.get(); }
   /// The largest |coordinate| of any vertex, relative to the origin.
@@ -37,6 +40,7 @@ class EmbreeTriangles {
 
   explicit EmbreeTriangles(const Scene& scene) : scene_(scene) {}
   void fill(float* vertices, unsigned* indices);
+  [[nodiscard]] RTCRay rayOf(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
   Scene scene_;
   EmbreeDevice device_;

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/ask/ask_command.h"
 #include "tools/audit/avatar_command.h"
 #include "tools/audit/scene_command.h"
 #include "tools/batch/batch_command.h"
@@ -52,6 +53,7 @@ std::vector<Command> allCommands() {
   add("Ask", repairCommand());
   add("Ask", batchCommand(replayCommand, feetCommand));
   add("Ask", worldCommand());
+  add("Ask", askCommand());
   add("Ask", sweepCommand());
   add("Ask", certifyCommand());
   add("Live", serveCommand());

@@ -16,6 +16,7 @@ from foretouch._types import (
     Depth,
     Doubles,
     Edges,
+    FlightAnswer,
     IgnoredLike,
     JointMatch,
     LeftOutLike,
@@ -41,6 +42,7 @@ from foretouch._types import (
     SolidContact,
     SweptSurface,
     TriggerEvent,
+    WorldAnswer,
     WorldContacts,
     WorldEvents,
 )
@@ -574,6 +576,33 @@ class World:
     @property
     def tolerance(self) -> float: ...
     def depth(self, utime_us: int, body: int, other: Optional[int] = None) -> Depth: ...
+    def probe(
+        self,
+        utime_us: Union[int, tuple[int, float]],
+        shape: Union[npt.ArrayLike, tuple[npt.ArrayLike, float], _LssLike],
+        *,
+        direction: Optional[npt.ArrayLike] = None,
+        reach: float = 1000.0,
+        within: Optional[float] = None,
+        which: str = "closest",
+        only: Optional[Sequence[Any]] = None,
+        without: Optional[Sequence[Any]] = None,
+        instants: Optional[Mapping[int, Union[int, tuple[int, float]]]] = None,
+        groups: Optional[Sequence[int]] = None,
+        still: bool = True,
+    ) -> WorldAnswer: ...
+    def fly(
+        self,
+        from_us: int,
+        to_us: int,
+        shape: Union[npt.ArrayLike, tuple[npt.ArrayLike, float], _LssLike],
+        way: npt.ArrayLike,
+        *,
+        only: Optional[Sequence[Any]] = None,
+        without: Optional[Sequence[Any]] = None,
+        groups: Optional[Sequence[int]] = None,
+        still: bool = True,
+    ) -> FlightAnswer: ...
 
 class SolidWorld:
     def __init__(

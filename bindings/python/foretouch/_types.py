@@ -711,6 +711,55 @@ class Depth(NamedTuple):
     is_assumed: bool
 
 
+class WorldHit(NamedTuple):
+    """What a shape hit, or is near to. Metres, world frame."""
+
+    distance: float
+    """Of a cast: along the way. Else how far the two are apart. Rounded down."""
+    what: ContactSide
+    """Whom; its point is on that one's surface."""
+    normal: Doubles
+    """(3,): unit, to the shape; zero if none is told."""
+    weights: Optional[Doubles]
+    """(3,): of a triangle: the point as a sum of its corners."""
+    is_assumed: bool
+    """It rests on a body that was silent, and was taken to hold still."""
+
+
+class UnknownBody(NamedTuple):
+    """A body that was asked about, and is not known at the instant."""
+
+    body: int
+    why: str
+    """'assumed' (taken to hold still), or 'silent', 'not_there' or 'unresolved': it was left out."""
+
+
+class WorldAnswer(NamedTuple):
+    """What World.probe() found."""
+
+    verdict: str
+    """'hit', 'clear' (proven) or 'unknown': nothing that is known is hit or near."""
+    hits: list[WorldHit]
+    """Nearest first."""
+    unknown: list[UnknownBody]
+    is_complete: bool
+    """All that was asked about is known."""
+
+
+class FlightAnswer(NamedTuple):
+    """What World.fly() found: the first hit of all."""
+
+    verdict: str
+    """'hit', 'clear' (proven) or 'unknown'."""
+    hit: Optional[WorldHit]
+    time_us: Optional[int]
+    """Never later than it is."""
+    fraction: Optional[float]
+    """Of one microsecond more, in [0, 1)."""
+    unknown: list[UnknownBody]
+    """Bodies that are not known all through."""
+
+
 class Policy(TypedDict, total=False):
     """What one link has for itself, or with one object. What is missing is as for all links."""
 

@@ -330,6 +330,7 @@ TEST(Quiet, MeansTheSameToEveryCommand) {
       {"feet", walk, walker, "--skip-t-pose"},
       {"repair", walk, walker, "--skip-t-pose", "-o", out + "bvh"},
       {"batch", fleet, "-o", folder / "fleet"},
+      {"ask", stage, "--from", "0,0,0", "--radius", "1"},
       {"world", "check", stage},
       {"world", "replay", stage, "-o", out + "jsonl"},
       {"world", "view", stage, "-o", out + "html"},

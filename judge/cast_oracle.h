@@ -1,0 +1,28 @@
+// judge/cast_oracle.h: a shape that moves along a line, or rests, among capsules and triangles that
+// rest: how near it comes to each, by looking at each. The distance of two convex sets is convex
+// along a line, so sections find its least; nothing else is used. In long double.
+#pragma once
+
+#include "judge/vector.h"
+#include "judge/world_judge.h"
+
+namespace foretouch::oracle {
+
+/// A segment with a radius, and the line that it moves along.
+struct CastShape {
+  Vec3d a, b;
+  double radius = 0.0;
+  Vec3d direction;  ///< Of any length; zero: it rests.
+};
+
+/// Of the shape after it has moved so far and the part, less both radii: 0 where they touch.
+[[nodiscard]] Real gapAfter(const CastShape& shape, Real along, const OraclePart& part);
+/// The least of them up to `until`; of parts that are proven farther than `beyond`, at least that.
+[[nodiscard]] Real leastGap(const CastShape& shape, Real until, const OraclePart& part,
+                            Real beyond);
+/// How far it has moved when it first touches the part; -1 if it does not up to `until`.
+[[nodiscard]] Real firstTouch(const CastShape& shape, Real until, const OraclePart& part);
+/// Of a point and the part's surface or, with its sign, of one in a capsule.
+[[nodiscard]] Real heightOver(const Vec3d& p, const OraclePart& part);
+
+}  // namespace foretouch::oracle

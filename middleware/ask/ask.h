@@ -1,0 +1,144 @@
+// middleware/ask/ask.h: questions about a world at an instant: what a ray hits, what a moved sphere
+// or capsule hits first, what a shape overlaps, what is nearest. At any instant that the world
+// knows, between poses too: each body is where its motion has it then. The proof: ask.md. Metres,
+// in W; world time in microseconds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "articulated/result.h"
+#include "lss/lss.h"
+#include "middleware/scene/raw_scene.h"
+#include "middleware/scratch.h"
+#include "middleware/world/world.h"
+#include "middleware/world/world_contacts.h"
+
+namespace foretouch {
+
+enum class AskWhat : std::uint8_t {
+  Cast,     ///< The shape moves along `direction`, up to `reach`: where does it first touch?
+  Overlap,  ///< What does the shape touch where it is?
+  Nearest,  ///< What is near the shape, up to `reach`?
+};
+
+enum class AskWhich : std::uint8_t {
+  Closest,  ///< The first one along the way, or the nearest one.
+  Any,      ///< Whether there is one: some hit, which may be another one in another build.
+  All,      ///< Each LSS and each triangle that is touched or near, nearest first.
+};
+
+/// In a filter: every object.
+inline constexpr ObjectId kEveryObject = -1;
+
+/// A body, one of its links, or an object of it: of a mesh, or of the static scene (kStillScene).
+struct AskPart {
+  BodyId body = kStillScene;
+  LinkId link = kEveryLink;
+  ObjectId object = kEveryObject;
+};
+
+/// A body that is asked about at an instant of its own, with all that carries it.
+struct AskInstant {
+  BodyId body = 0;
+  WorldTime time;
+};
+
+/// Whom a question is about: everybody, unless it says less.
+struct AskWhom {
+  std::uint32_t groups = ~std::uint32_t{0};  ///< Bit g: bodies of group g are asked about.
+  bool asksStill = true;                     ///< So is the static scene, if there is one.
+  std::vector<AskPart> only;                 ///< Not empty: nothing but these.
+  std::vector<AskPart> without;              ///< Not these.
+};
+
+/// One question. Fill it by ray(), cast(), overlap() or nearest(), and set what else matters.
+struct WorldQuestion : AskWhom {
+  AskWhat what = AskWhat::Cast;
+  AskWhich which = AskWhich::Closest;
+  /// Where it begins; solid. Both ends alike: a sphere. No radius either: a point, whose cast is a
+  /// ray. Coordinates and radius within kMaxCoordinate.
+  Lss shape;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< Of a cast: of any length but zero.
+  /// Of a cast: how far it moves. Of Nearest: nothing farther is told. Up to kMostAskReach.
+  double reach = 0.0;
+  WorldTime time;
+  /// These bodies at these instants, all others at `time`: what a player saw, who sees others late.
+  std::vector<AskInstant> instants;
+
+  [[nodiscard]] static WorldQuestion ray(const Eigen::Vector3d& from,
+                                         const Eigen::Vector3d& direction, double reach,
+                                         const WorldTime& time);
+  [[nodiscard]] static WorldQuestion cast(const Lss& shape, const Eigen::Vector3d& direction,
+                                          double reach, const WorldTime& time);
+  /// All that it overlaps.
+  [[nodiscard]] static WorldQuestion overlap(const Lss& shape, const WorldTime& time);
+  [[nodiscard]] static WorldQuestion nearest(const Lss& shape, double reach, const WorldTime& time);
+};
+
+/// A reach is at most this (m): from one end of all places that a world may have to the other.
+inline constexpr double kMostAskReach = 1e8;
+
+/// At the distance of a hit, the shape is at most so far (m) from what it hits, where doubles
+/// resolve it: near places of 1e6 m they do not. A shape that passes by at less may be told to hit.
+/// Doubled, answers are earlier by as much; halved, casts that graze take a step more.
+inline constexpr double kAskTolerance = 1e-9;
+
+/// An LSS, or a triangle, that was hit or is near.
+struct WorldHit {
+  /// Whom; `p_W` is the point of its surface, of an LSS that holds the whole shape the shape's own.
+  ContactSide what;
+  ObjectId object = kEveryObject;  ///< Of a triangle of a mesh or of the scene.
+  /// Of a cast: along the way; the shape is free of this LSS or triangle before. Else how far the
+  /// two are apart. Rounded down; 0 if they touch where the shape begins.
+  double distance = 0.0;
+  Eigen::Vector3d nhat_W = Eigen::Vector3d::Zero();  ///< Unit, to the shape; zero if none is told.
+  /// Of a triangle: p_W as a sum of its corners, in the order of Scene::triangle(), or of
+  /// AvatarSurface::triangles().
+  std::array<double, 3> weights{};
+  bool isAssumed = false;  ///< As WorldContact::isAssumed.
+};
+
+/// Why a body is not known at the instant.
+enum class AskUnknown : std::uint8_t {
+  Assumed,     ///< Silent, and taken to hold still: hits of it are assumed.
+  Silent,      ///< Nothing is known after its last pose; it was left out.
+  NotThere,    ///< Before its first pose; it was left out.
+  Unresolved,  ///< Of a flight: more triangles, or steps, than are followed in motion.
+};
+
+struct UnknownBody {
+  BodyId body = 0;
+  AskUnknown why = AskUnknown::Silent;
+};
+
+enum class AskVerdict : std::uint8_t {
+  Clear,    ///< Nothing is hit or near, proven.
+  Hit,      ///< Something is. What is left out may be nearer.
+  Unknown,  ///< Nothing that is known is; of `unknown` nothing is claimed.
+};
+
+struct WorldAnswer {
+  std::vector<WorldHit> hits;  ///< By distance, then by body, link, LSS and triangle.
+  /// Bodies that were asked about and are not known then, by number.
+  std::vector<UnknownBody> unknown;
+
+  [[nodiscard]] AskVerdict verdict() const;
+  /// All that was asked about is known: a hit is the first of all, and no hit is none.
+  [[nodiscard]] bool isComplete() const;
+};
+
+/// Replaces `answer`. Never missed, never late: what the shape hits, where everything truly is at
+/// the instant, has a hit, no farther than it is; tight to kAskTolerance (ask.md). The same for the
+/// same world and question. Surfaces count: a shape inside a mesh that touches no triangle of it
+/// does not overlap it. Questions at the instant of the last one, while nobody changes the world,
+/// are cheapest. Allocates nothing once scratch and answer have grown. Errors, which name what is
+/// wrong: a shape, direction or reach that is not finite, out of range, or without length; unknown
+/// bodies or links; an instant before what was forgotten.
+Result<Done> askWorld(const World& world, const WorldQuestion& question, Scratch& scratch,
+                      WorldAnswer& answer);
+
+}  // namespace foretouch

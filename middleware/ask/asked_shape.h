@@ -1,0 +1,47 @@
+// middleware/ask/asked_shape.h: a shape on its way, or at rest, against one convex piece of the
+// world: where they first touch, or how far they are apart. Proven by planes: ask.md. Metres, all
+// in one frame. Not installed.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "lss/lss.h"
+#include "lss/separation.h"
+#include "middleware/depth/body_places.h"
+
+namespace foretouch::internal {
+
+/// In a frame in which the pieces rest.
+struct AskedShape {
+  Lss lss;                                        ///< Where it begins.
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();  ///< Unit; zero: it rests.
+  double reach = 0.0;                             ///< How far it moves; at rest, how far is near.
+  double moved = 0.0;                             ///< How far it had moved before it was here.
+  double rounding = 0.0;  ///< No point of it or of a piece is farther from where it is given.
+  double ofWay = 0.0;     ///< Nor is the true unit way from `way`, beside its own rounding.
+
+  [[nodiscard]] bool moves() const { return !way.isZero(0.0); }
+  [[nodiscard]] bool isRay() const { return moves() && lss.a == lss.b && lss.radius == 0.0; }
+  /// The same after it has moved so far; it may go no farther than `until` then.
+  [[nodiscard]] AskedShape movedBy(double along, double until) const;
+  /// As somebody sees it who rests in the frame; rounding grows by what that adds.
+  [[nodiscard]] AskedShape seenFrom(const LinkPlace& frame) const;
+};
+
+/// How a shape meets a piece.
+struct Meeting {
+  double distance = 0.0;  ///< Along the way, from here; or of the two.
+  Separation apart;       ///< There: of the shape's axis and the piece.
+};
+
+/// As separation(), with more planes tried where rounding tilts the one between.
+[[nodiscard]] Separation apartOf(const Hull& one, const Hull& other);
+
+/// False: proven to miss it, or to be farther than the reach. `radius`: of the piece.
+[[nodiscard]] bool meets(const AskedShape& shape, const Hull& piece, double radius,
+                         Meeting& meeting);
+
+/// Proven: the line of a point's way misses the triangle. False: it may hit.
+[[nodiscard]] bool lineMisses(const AskedShape& shape, const Triangle& triangle);
+
+}  // namespace foretouch::internal

@@ -1,0 +1,67 @@
+// middleware/ask/body_asker.h: asks the static scene, and the bodies whose boxes a shape comes to,
+// the nearest first. Not installed.
+#pragma once
+
+#include <vector>
+
+#include "middleware/ask/ask_filter.h"
+#include "middleware/ask/asked_shape.h"
+#include "middleware/ask/hit_list.h"
+#include "middleware/ask/instant_bodies.h"
+#include "middleware/ask/moving_body.h"
+#include "middleware/ask/piece_asker.h"
+#include "middleware/scene/scene.h"
+#include "middleware/scratch.h"
+#include "middleware/world/world_parts.h"
+
+namespace foretouch::internal {
+
+/// What questions keep.
+struct AskMemory : ScratchPart {
+  static constexpr ScratchKind kKind = ScratchKind::Ask;
+
+  struct NearBody {
+    double bound;
+    BodyId body;
+  };
+  InstantBodies bodies;
+  std::vector<double> bounds;  // of bodies, and of one's LSS
+  std::vector<NearBody> near;
+  // Of flights.
+  struct LaterPart {
+    double us;           // from when on it is to be looked at
+    std::int32_t child;  // a node of a hierarchy, or ~ a triangle
+  };
+  MovingBody moving;
+  WorldAnswer ofStill;
+  std::vector<LaterPart> parts;
+};
+
+/// Of one question. Refers to all that it is given.
+class BodyAsker {
+ public:
+  BodyAsker(const WorldParts& world, const AskFilter& filter, const AskedShape& shape,
+            AskMemory& memory, HitList& hits)
+      : world_(world), filter_(filter), shape_(shape), memory_(memory), hits_(hits) {}
+
+  void askStill(const Scene& scene);
+  /// At the instants to which they were brought.
+  void askBodies();
+
+ private:
+  void askBody(const AskMemory::NearBody& near);
+  void askMesh(BodyId body, const AskedShape& shape);
+  void askLinks(BodyId body, const PieceBoxes* pieces, const AskedShape& shape);
+  void askLink(const ContactSide& side, const LinkPlace& place, const AskedShape& shape);
+  [[nodiscard]] bool isAssumed(BodyId body) const {
+    return memory_.bodies.known(body) == PlaceKnown::Assumed;
+  }
+
+  const WorldParts& world_;
+  const AskFilter& filter_;
+  const AskedShape& shape_;
+  AskMemory& memory_;
+  HitList& hits_;
+};
+
+}  // namespace foretouch::internal

@@ -1,0 +1,97 @@
+"""Rays, casts and shapes against a world at an instant, and what is refused or unknown."""
+
+import unittest
+
+import numpy as np
+
+import foretouch as ft
+
+
+def rod():
+    """One metre up from its joint."""
+    return ft.Avatar.from_arrays(["rod"], [-1], [[0, 0, 0]], None,
+                                 [[((0, 0, 0), (0, 1, 0), 0.1)]])
+
+
+def turned(quarter):
+    """About z by so many quarter turns."""
+    half = 0.25 * np.pi * quarter
+    return np.array([np.cos(half), 0, 0, np.sin(half)]), np.zeros(3)
+
+
+class Ask(unittest.TestCase):
+    def setUp(self):
+        self.world = ft.World()
+        self.rod = self.world.add(rod())
+        self.world.push(self.rod, 0, turned(0))
+        self.world.push(self.rod, 1000, turned(1))
+
+    def test_a_ray_meets_the_rod_where_its_motion_has_it(self):
+        tip = np.sqrt(0.5) * np.array([-0.95, 0.95, 0])
+        ask = lambda when: self.world.probe(when, tip + [0, 0, 2], direction=[0, 0, -1])
+        self.assertEqual(ask(0).verdict, "clear")
+        self.assertEqual(ask(1000).verdict, "clear")
+        answer = ask(500)
+        self.assertEqual(answer.verdict, "hit")
+        self.assertTrue(answer.is_complete)
+        (hit,) = answer.hits
+        self.assertAlmostEqual(hit.distance, 1.9, places=8)
+        self.assertEqual((hit.what.body, hit.what.link, hit.what.lss), (self.rod, "rod", 0))
+        np.testing.assert_allclose(hit.normal, [0, 0, 1], atol=1e-8)
+        self.assertEqual(ask((500, 0.25)).verdict, "hit")
+
+    def test_a_body_at_an_instant_of_its_own(self):
+        tip = np.sqrt(0.5) * np.array([-0.95, 0.95, 0])
+        answer = self.world.probe(1000, tip + [0, 0, 2], direction=[0, 0, -1],
+                                  instants={self.rod: 500})
+        self.assertEqual(answer.verdict, "hit")
+
+    def test_casts_overlaps_and_the_nearest(self):
+        cast = self.world.probe(0, ([0.0, 0.5, 2], 0.25), direction=[0, 0, -1])
+        self.assertAlmostEqual(cast.hits[0].distance, 1.65, places=8)
+        capsule = ([1, 0.5, 0], [2, 0.5, 0], 0.1)
+        self.assertEqual(self.world.probe(0, capsule).verdict, "clear")
+        near = self.world.probe(0, capsule, within=1.0)
+        self.assertAlmostEqual(near.hits[0].distance, 0.8, places=8)
+        self.assertEqual(self.world.probe(0, ([0, 0.5, 0.2], 0.15)).verdict, "hit")
+
+    def test_filters_by_body_and_link(self):
+        for part in (self.rod, (self.rod, "rod")):
+            answer = self.world.probe(0, [0, 0.5, 2], direction=[0, 0, -1], without=[part])
+            self.assertEqual(answer.verdict, "clear")
+        answer = self.world.probe(0, [0, 0.5, 2], direction=[0, 0, -1], groups=[3])
+        self.assertEqual(answer.hits, [])
+
+    def test_a_flight_meets_what_moves_meanwhile(self):
+        # A ball comes down where the tip is halfway through its turn, when it is there.
+        tip = np.sqrt(0.5) * np.array([-0.9, 0.9, 0])
+        hit = self.world.fly(0, 1000, (tip + [0, 0, 1], 0.05), [0, 0, -2])
+        self.assertEqual(hit.verdict, "hit")
+        # At 0.85 m it would meet the rod if that were there already.
+        self.assertTrue(0.85 < hit.hit.distance < 0.95)
+        self.assertAlmostEqual(hit.time_us + hit.fraction, 500 * hit.hit.distance, places=6)
+        late = self.world.fly(0, 1000, (tip + [0, 0, 2], 0.05), [0, 0, -2.2])
+        self.assertEqual((late.verdict, late.hit), ("clear", None))
+        unknown = self.world.fly(500, 3000, (tip + [5, 0, 2], 0.05), [0, 0, -1])
+        self.assertEqual((unknown.verdict, unknown.unknown[0].why), ("unknown", "silent"))
+
+    def test_what_is_unknown_is_no_miss(self):
+        answer = self.world.probe(2000, [5, 5, 5], direction=[0, 0, 1])
+        self.assertEqual(answer.verdict, "unknown")
+        self.assertEqual(answer.unknown, [(self.rod, "silent")])
+
+    def test_refuses_by_name(self):
+        for message, arguments in {
+            "direction": dict(direction=[0, 0, 0]),
+            "reach": dict(direction=[0, 0, 1], reach=float("inf")),
+            "within": dict(direction=[0, 0, 1], within=1.0),
+            "body 7": dict(without=[7]),
+            "which": dict(which="first"),
+        }.items():
+            with self.subTest(message):
+                with self.assertRaisesRegex(ft.InputError, message):
+                    self.world.probe(0, [0, 0, 0], **arguments)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,114 @@
+// Random questions now and then, held against the judge's own world; and lies, which it must name.
+#include <cstdint>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/middleware/ask/ask_campaign.h"
+
+namespace foretouch {
+namespace {
+
+using test::AskTally;
+using test::AskTamper;
+
+AskTally judgeSome(int seeds, int questions, const AskTamper& tamper = {}) {
+  AskTally all;
+  for (int seed = 0; seed < seeds; ++seed) {
+    all.add(test::judgeQuestions(static_cast<std::uint64_t>(seed), questions, tamper));
+  }
+  return all;
+}
+
+TEST(AskOracle, QuestionsNowAndThenAreAnsweredAsTheJudgeSees) {
+  const AskTally tally = judgeSome(60, 40);
+  for (const std::string& problem : tally.problems) ADD_FAILURE() << problem;
+  SCOPED_TRACE(summaryOf(tally));
+  for (const auto& [kind, count] : tally.questions) {
+    EXPECT_GT(count, 300) << kind;
+    EXPECT_GT(tally.hits.at(kind), count / 4) << kind;
+    EXPECT_LT(tally.hits.at(kind), count - count / 20) << kind;
+  }
+  EXPECT_GT(tally.unknown, 50);
+  EXPECT_GT(tally.ofLss, 200);
+  EXPECT_GT(tally.ofTriangles, 1000);
+  EXPECT_GT(tally.ofCarried, 20);
+  EXPECT_GT(tally.starts, 100);
+  EXPECT_LE(static_cast<double>(tally.widest), 1.01 * kAskTolerance);
+}
+
+/// So many answers of few are found wrong.
+std::size_t problemsWith(const AskTamper& tamper) {
+  return judgeSome(12, 40, tamper).problems.size();
+}
+
+TEST(AskOracle, NamesAnotherInstant) {
+  AskTamper tamper;
+  tamper.question = [](WorldQuestion& question) {
+    question.time.us += 300;
+    for (AskInstant& instant : question.instants) instant.time.us += 300;
+  };
+  EXPECT_GT(problemsWith(tamper), 50U);
+}
+
+TEST(AskOracle, NamesInstantsOfOthers) {
+  AskTamper tamper;
+  tamper.question = [](WorldQuestion& question) { question.instants.clear(); };
+  EXPECT_GT(problemsWith(tamper), 5U);
+}
+
+TEST(AskOracle, NamesAForgottenFilter) {
+  AskTamper tamper;
+  tamper.question = [](WorldQuestion& question) { question.without.clear(); };
+  EXPECT_GT(problemsWith(tamper), 5U);
+  tamper.question = [](WorldQuestion& question) { question.groups = ~std::uint32_t{0}; };
+  EXPECT_GT(problemsWith(tamper), 5U);
+}
+
+TEST(AskOracle, NamesWhatIsLateEarlyMissedOrOfAnother) {
+  const auto withHits = [](void (*change)(std::vector<WorldHit>&)) {
+    AskTamper tamper;
+    tamper.answer = [change](WorldAnswer& answer) {
+      if (!answer.hits.empty()) change(answer.hits);
+    };
+    return problemsWith(tamper);
+  };
+  EXPECT_GT(withHits([](std::vector<WorldHit>& hits) { hits.front().distance += 1e-7; }), 50U);
+  EXPECT_GT(withHits([](std::vector<WorldHit>& hits) { hits.back().distance -= 1e-7; }), 50U);
+  EXPECT_GT(withHits([](std::vector<WorldHit>& hits) { hits.pop_back(); }), 50U);
+  EXPECT_GT(withHits([](std::vector<WorldHit>& hits) { ++hits.front().what.link; }), 50U);
+  EXPECT_GT(withHits([](std::vector<WorldHit>& hits) {
+              hits.front().what.p_W += Eigen::Vector3d(1e-6, 1e-6, 1e-6);
+            }),
+            50U);
+  EXPECT_GT(
+      withHits([](std::vector<WorldHit>& hits) { hits.front().nhat_W = -hits.front().nhat_W; }),
+      5U);
+}
+
+TEST(AskOracle, FlightsHitWhatTheJudgeSeesThemHitFirst) {
+  AskTally tally;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) tally.add(test::judgeFlights(seed, 6));
+  for (const std::string& problem : tally.problems) ADD_FAILURE() << problem;
+  SCOPED_TRACE(summaryOf(tally));
+  EXPECT_GT(tally.hits["flight"], 60);
+  EXPECT_LT(tally.hits["flight"], 220);
+  EXPECT_GT(tally.ofLss, 15);
+  EXPECT_GT(tally.ofTriangles, 15);
+  EXPECT_GT(tally.ofCarried, 0);
+  EXPECT_LT(tally.filtered, 5);  // not resolved
+}
+
+TEST(AskOracle, NamesFlightsAtAnotherTime) {
+  AskTally tally;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    tally.add(test::judgeFlights(seed, 6, [](FlightQuestion& flight) {
+      flight.fromUs += 300;
+      flight.toUs += 300;
+    }));
+  }
+  EXPECT_GT(tally.problems.size(), 5U);
+}
+
+}  // namespace
+}  // namespace foretouch
