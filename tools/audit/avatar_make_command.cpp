@@ -186,7 +186,8 @@ Command avatarBvhCommand() {
 Command avatarMeshCommand() {
   const auto asked = std::make_shared<AskedOfModel>();
   Settings settings;
-  settings.path("model", "BODY", asked->model, "Model: glTF, FBX, Collada, X, or a mesh format")
+  settings
+      .path("model", "BODY", asked->model, "Model: glTF, VRM, FBX, Collada, X, or a mesh format")
       .files(kModelEndings)
       .required("a rigged model");
   addModelSettings(settings, *asked, "Metres per unit of the model");
