@@ -204,9 +204,14 @@ class VrmReader {
 
   void noteSprings() {
     if (!vrm_.colliders.empty()) {
+      double largest = 0.0;
+      for (const VrmCollider& collider : vrm_.colliders) {
+        largest = std::max(largest, collider.lss.radius);
+      }
       vrm_.notes.push_back(std::to_string(vrm_.colliders.size()) +
                            " spheres and capsules of spring bones' colliders are LSS of the body, "
-                           "beside those around its meshes");
+                           "beside those around its meshes, the largest of radius " +
+                           inDigits(largest));
     }
     if (springJoints_ == 0) return;
     vrm_.notes.push_back("spring bones are not followed: " + std::to_string(springJoints_) +

@@ -37,6 +37,19 @@ TEST(VrmProgram, MakesAnAvatarThatTheCheckAcceptsAndAClipOfOthersMoves) {
   }
 }
 
+TEST(VrmProgram, LeavesOutCollidersIfAsked) {
+  const TempFolder folder;
+  const std::string body = folder.write("body.vrm", vrmSample(VrmVersion::Old).file.glb());
+  std::vector<std::string> make{"avatar", "mesh", body, "-o", folder / "a.json"};
+  const Ended with = runForetouch(make);
+  ASSERT_EQ(with.exitCode, 0) << with.err;
+  EXPECT_TRUE(holds(with.err, "the largest of radius 0.1")) << with.err;
+  const int all = readAvatarFile(folder / "a.json").value().numLss();
+  make.emplace_back("--mesh-alone");
+  ASSERT_EQ(runForetouch(make).exitCode, 0);
+  EXPECT_EQ(readAvatarFile(folder / "a.json").value().numLss(), all - 1);
+}
+
 TEST(VrmProgram, SetsUpAScene) {
   const TempFolder folder;
   const std::string body = folder.write("body.vrm", vrmSample(VrmVersion::One).file.glb());
