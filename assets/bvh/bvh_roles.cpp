@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "assets/human_bones.h"
 #include "lss/index.h"
 
 namespace foretouch::internal {
@@ -65,9 +66,23 @@ BodyRole roleOfName(std::string_view name) {
   return BodyRole::Unknown;
 }
 
+/// Of a skeleton whose joints are called by their part of the body, where that comes before what
+/// else a name may mean: "SkirtBack" is no back. What carries the hips is a root.
+std::vector<BodyRole> rolesOfHumanoid(const Skeleton& skeleton) {
+  std::vector<BodyRole> roles;
+  for (JointId j = 0; j < skeleton.numJoints(); ++j) {
+    const std::string& name = skeleton.name(j);
+    roles.push_back(isHumanBone(name) ? roleOfName(name) : BodyRole::Unknown);
+  }
+  JointId above = skeleton.parent(*skeleton.find("hips"));
+  for (; above != kNoParent; above = skeleton.parent(above)) roles[slotOf(above)] = BodyRole::Root;
+  return roles;
+}
+
 }  // namespace
 
 std::vector<BodyRole> bodyRoles(const Skeleton& skeleton) {
+  if (isHumanoid(skeleton)) return rolesOfHumanoid(skeleton);
   const auto n = countOf(skeleton.numJoints());
   std::vector<BodyRole> named(n);
   std::vector<int> children(n, 0);

@@ -54,7 +54,7 @@ Result<Model> readRobotModel(const ClipFileOptions& options) {
 
 ClipFormat clipFormatOf(const std::string& path) {
   const std::string extension = endingOf(path);
-  constexpr std::array kModels = {".glb", ".gltf", ".fbx", ".dae", ".x"};
+  constexpr std::array kModels = {".glb", ".gltf", ".vrm", ".fbx", ".dae", ".x"};
   if (std::find(kModels.begin(), kModels.end(), extension) != kModels.end()) {
     return ClipFormat::Model;
   }

@@ -196,7 +196,7 @@ void readDocument(GltfFile& file, std::string_view text, std::uint64_t textBegin
 
 bool isGltf(const std::string& path) {
   const std::string extension = lowerExtensionOf(path);
-  return extension == ".gltf" || extension == ".glb";
+  return extension == ".gltf" || extension == ".glb" || extension == ".vrm";
 }
 
 GltfFile openGltf(const std::string& path) {
@@ -205,7 +205,7 @@ GltfFile openGltf(const std::string& path) {
   file.bytes = bytesIn(path);
   Faults faults;
   // Tools save a GLB under the other name now and then; the first bytes tell.
-  file.isBinary = lowerExtensionOf(path) == ".glb" || file.bytes.rfind("glTF", 0) == 0;
+  file.isBinary = lowerExtensionOf(path) != ".gltf" || file.bytes.rfind("glTF", 0) == 0;
   if (!file.isBinary) {
     readDocument(file, file.bytes, 0, faults);
     return file;

@@ -5,6 +5,7 @@
 #include "assets/import/failure.h"
 #include "assets/import/gltf_json.h"
 #include "assets/import/gltf_scene.h"
+#include "assets/import/gltf_vrm.h"
 #include "assets/import/model.h"
 #include "assets/import/text.h"
 #include "lss/index.h"
@@ -18,12 +19,15 @@ using nlohmann::json;
 /// Reads one file; a class as every part needs the file, the builder and the node numbers.
 class GltfModel {
  public:
-  GltfModel(const std::string& path, ModelBuilder& builder) : scene_(path), builder_(builder) {}
+  GltfModel(const std::string& path, ModelBuilder& builder)
+      : scene_(path), vrm_(vrmIn(scene_.document())), builder_(builder) {}
 
   void build() {
     addNodes();
+    addColliders();
     for (std::size_t i = 0; i < nodes_.size(); ++i) addMeshes(static_cast<std::int32_t>(i));
     for (std::size_t i = 0; i < sizeOf(scene_.document(), "animations"); ++i) addAnimation(i);
+    for (const std::string& note : vrm_.notes) builder_.note(note);
     for (const std::string& note : scene_.notes()) builder_.note(note);
     for (const std::string& note : skippedNotes(skippedPrimitives_, skippedFaces_)) {
       builder_.note(note);
@@ -36,7 +40,7 @@ class GltfModel {
     positions_.assign(sizeOf(scene_.document(), "nodes"), -1);
     for (const GltfNode& from : nodes_) {
       ModelNode node;
-      node.name = from.name;
+      node.name = from.index ? nameIn(vrm_, *from.index, from.name) : from.name;
       node.parent = from.parent;
       node.toParent = from.toParent;
       node.isOnlooker = from.isOnlooker;
@@ -48,6 +52,21 @@ class GltfModel {
         positions_[*from.index] = static_cast<std::int32_t>(builder_.model.nodes.size());
       }
       builder_.model.nodes.push_back(std::move(node));
+    }
+  }
+
+  void addColliders() {
+    for (const VrmCollider& collider : vrm_.colliders) {
+      const std::int32_t position = positions_[collider.node];
+      if (position < 0) {
+        builder_.note(collider.place + ": its node is not in the scene, so it is left out");
+      } else {
+        builder_.addLss(position, collider.lss);
+      }
+    }
+    for (const auto& [node, bone] : vrm_.boneOfNode) {
+      if (positions_[node] >= 0) continue;
+      builder_.note("the bone " + inQuotes(bone) + " is a node that the scene does not hold");
     }
   }
 
@@ -265,6 +284,7 @@ class GltfModel {
   }
 
   GltfScene scene_;
+  Vrm vrm_;
   ModelBuilder& builder_;
   std::vector<GltfNode> nodes_;
   std::vector<std::int32_t> positions_;  // of the file's nodes in the walk; -1: not in the scene

@@ -20,7 +20,8 @@ enum class Kind : std::uint8_t {
   Object,
   List,
   Text,
-  Count,    ///< A whole number, 0 or above.
+  Count,  ///< A whole number, 0 or above.
+  Number,
   Number3,  ///< A list of that many numbers.
   Number4,
   Number16,
@@ -141,6 +142,61 @@ constexpr Rule kRules[] = {
     {"buffers/*", Kind::Object},
     {"buffers/*/byteLength", Kind::Count, true},
     {"buffers/*/uri", Kind::Text},
+    {"extensions/VRMC_vrm", Kind::Object},
+    {"extensions/VRMC_vrm/humanoid", Kind::Object, true},
+    {"extensions/VRMC_vrm/humanoid/humanBones", Kind::Object, true},
+    {"extensions/VRMC_vrm/humanoid/humanBones/*", Kind::Object},
+    {"extensions/VRMC_vrm/humanoid/humanBones/*/node", Kind::Index, true, "nodes"},
+    {"extensions/VRMC_springBone", Kind::Object},
+    {"extensions/VRMC_springBone/springs", Kind::List},
+    {"extensions/VRMC_springBone/springs/*", Kind::Object},
+    {"extensions/VRMC_springBone/springs/*/joints", Kind::List},
+    {"extensions/VRMC_springBone/colliders", Kind::List},
+    {"extensions/VRMC_springBone/colliders/*", Kind::Object},
+    {"extensions/VRMC_springBone/colliders/*/node", Kind::Index, true, "nodes"},
+    {"extensions/VRMC_springBone/colliders/*/shape", Kind::Object, true},
+    {"extensions/VRMC_springBone/colliders/*/shape/*", Kind::Object},
+    {"extensions/VRMC_springBone/colliders/*/shape/*/offset", Kind::Number3},
+    {"extensions/VRMC_springBone/colliders/*/shape/*/tail", Kind::Number3},
+    {"extensions/VRMC_springBone/colliders/*/shape/*/radius", Kind::Number},
+    {"extensions/VRMC_springBone/colliders/*/extensions/VRMC_springBone_extended_collider",
+     Kind::Object},
+    {"extensions/VRMC_springBone/colliders/*/extensions/VRMC_springBone_extended_collider/shape",
+     Kind::Object, true},
+    {"extensions/VRMC_springBone/colliders/*/extensions/VRMC_springBone_extended_collider/shape/*",
+     Kind::Object},
+    {"extensions/VRMC_springBone/colliders/*/extensions/VRMC_springBone_extended_collider/shape/*/"
+     "offset",
+     Kind::Number3},
+    {"extensions/VRMC_springBone/colliders/*/extensions/VRMC_springBone_extended_collider/shape/*/"
+     "tail",
+     Kind::Number3},
+    {"extensions/VRMC_springBone/colliders/*/extensions/VRMC_springBone_extended_collider/shape/*/"
+     "radius",
+     Kind::Number},
+    {"extensions/VRMC_springBone/colliders/*/extensions/VRMC_springBone_extended_collider/shape/*/"
+     "inside",
+     Kind::Flag},
+    {"extensions/VRM", Kind::Object},
+    {"extensions/VRM/humanoid", Kind::Object, true},
+    {"extensions/VRM/humanoid/humanBones", Kind::List, true},
+    {"extensions/VRM/humanoid/humanBones/*", Kind::Object},
+    {"extensions/VRM/humanoid/humanBones/*/bone", Kind::Text, true},
+    {"extensions/VRM/humanoid/humanBones/*/node", Kind::Index, true, "nodes"},
+    {"extensions/VRM/secondaryAnimation", Kind::Object},
+    {"extensions/VRM/secondaryAnimation/boneGroups", Kind::List},
+    {"extensions/VRM/secondaryAnimation/boneGroups/*", Kind::Object},
+    {"extensions/VRM/secondaryAnimation/boneGroups/*/bones", Kind::List},
+    {"extensions/VRM/secondaryAnimation/colliderGroups", Kind::List},
+    {"extensions/VRM/secondaryAnimation/colliderGroups/*", Kind::Object},
+    {"extensions/VRM/secondaryAnimation/colliderGroups/*/node", Kind::Index, true, "nodes"},
+    {"extensions/VRM/secondaryAnimation/colliderGroups/*/colliders", Kind::List},
+    {"extensions/VRM/secondaryAnimation/colliderGroups/*/colliders/*", Kind::Object},
+    {"extensions/VRM/secondaryAnimation/colliderGroups/*/colliders/*/offset", Kind::Object},
+    {"extensions/VRM/secondaryAnimation/colliderGroups/*/colliders/*/offset/x", Kind::Number},
+    {"extensions/VRM/secondaryAnimation/colliderGroups/*/colliders/*/offset/y", Kind::Number},
+    {"extensions/VRM/secondaryAnimation/colliderGroups/*/colliders/*/offset/z", Kind::Number},
+    {"extensions/VRM/secondaryAnimation/colliderGroups/*/colliders/*/radius", Kind::Number},
 };
 
 /// A value, or a missing one, with the path of keys that leads there.
@@ -233,6 +289,7 @@ std::string unmet(const Rule& rule, const Visited& visited, const json& document
     case Kind::List: return unless(value.is_array(), "a list");
     case Kind::Text: return unless(value.is_string(), "a text");
     case Kind::Count: return unless(value.is_number_unsigned(), "a whole number, 0 or above");
+    case Kind::Number: return unless(value.is_number(), "a number");
     case Kind::Number3: return unless(isNumbers(value, 3), "a list of 3 numbers");
     case Kind::Number4: return unless(isNumbers(value, 4), "a list of 4 numbers");
     case Kind::Number16: return unless(isNumbers(value, 16), "a list of 16 numbers");

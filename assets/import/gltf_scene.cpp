@@ -21,16 +21,31 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::json;
 
-/// Read, and those that say how surfaces look or what they are called, which nobody asks here.
-constexpr std::array<std::string_view, 13> kUnderstood{
-    "KHR_mesh_quantization", kMeshoptCompression,   kDracoCompression,  kInstancing,
-    "KHR_texture_transform", "KHR_texture_basisu",  "EXT_texture_webp", "EXT_texture_avif",
-    "MSFT_texture_dds",      "KHR_lights_punctual", "EXT_lights_ies",   "KHR_xmp_json_ld",
-    "EXT_lights_image_based"};
+/// Read, and those that say how surfaces look or what they are called, which nobody asks here. What
+/// VRM adds of motion that is not followed gets notes of its own (assets/import/gltf_vrm.h).
+constexpr std::array<std::string_view, 18> kUnderstood{"KHR_mesh_quantization",
+                                                       kMeshoptCompression,
+                                                       kDracoCompression,
+                                                       kInstancing,
+                                                       "KHR_texture_transform",
+                                                       "KHR_texture_basisu",
+                                                       "EXT_texture_webp",
+                                                       "EXT_texture_avif",
+                                                       "MSFT_texture_dds",
+                                                       "KHR_lights_punctual",
+                                                       "EXT_lights_ies",
+                                                       "KHR_xmp_json_ld",
+                                                       "EXT_lights_image_based",
+                                                       "VRM",
+                                                       "VRMC_vrm",
+                                                       "VRMC_springBone",
+                                                       "VRMC_springBone_extended_collider",
+                                                       "VRMC_node_constraint"};
 
 bool isUnderstood(std::string_view extension) {
-  constexpr std::string_view kMaterials = "KHR_materials_";
+  constexpr std::string_view kMaterials = "KHR_materials_", kOfVrm = "VRMC_materials_";
   return extension.substr(0, kMaterials.size()) == kMaterials ||
+         extension.substr(0, kOfVrm.size()) == kOfVrm ||
          std::find(kUnderstood.begin(), kUnderstood.end(), extension) != kUnderstood.end();
 }
 

@@ -49,14 +49,12 @@ std::string linkTable(const Avatar& avatar) {
   return text;
 }
 
-Result<Motion> readClip(const ClipRequest& asked) {
-  FORETOUCH_TRY(auto motion, readMotion(motionRequestOf(asked)));
+void noteOn(const ClipRequest& asked, const Motion& motion) {
   for (const std::string& note : motion.clip.notes) {
     printNote(asked.motionPath + ": " + note);
   }
   const auto frame = remarkOnFrame(motion.frame, {"--clip-scale", "--clip-up"}, asked.motionPath);
   if (frame) printNote(*frame);
-  return motion;
 }
 
 /// How the clip's joints match the avatar's; `pose` becomes the first frame's, and a clip that
@@ -92,8 +90,12 @@ Result<Done> findMatch(const ClipRequest& asked, const Avatar& avatar, const Mot
 /// The match with the clip; `pose` becomes the first frame's, if there is a match.
 Result<Done> checkMotion(const ClipRequest& asked, const Avatar& avatar, Pose& pose,
                          Findings& findings) {
-  FORETOUCH_TRY(const auto motion, readClip(asked));
-  const auto match = findMatch(asked, avatar, motion, pose, findings);
+  FORETOUCH_TRY(auto motion, readMotion(motionRequestOf(asked)));
+  const auto followed =
+      followByParts(avatar.skeleton(), asked.mapPath, asked.motionPath, motion.clip);
+  noteOn(asked, motion);
+  const auto match =
+      followed.ok() ? findMatch(asked, avatar, motion, pose, findings) : followed.error();
   if (match.ok()) return Done{};
   if (match.error().code != ErrorCode::Mismatch) return inFile(match.error(), asked.motionPath);
   findings.doubts.push_back(describe(match.error()));

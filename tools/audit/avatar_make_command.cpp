@@ -39,7 +39,7 @@ struct AskedOfModel {
   std::string model, output;
   ModelImportOptions reading;
   ModelAvatarOptions making;
-  bool visual = false, isRobot = false, allowsMissing = false;
+  bool visual = false, isRobot = false, allowsMissing = false, meshAlone = false;
 };
 
 /// Describes the result, and what looks wrong about it.
@@ -128,7 +128,10 @@ ExitCode makeFromModel(AskedOfModel asked) {
     }
     return failed(error);
   };
-  FORETOUCH_TRY_OR(failedToRead, const auto model, importModel(asked.model, asked.reading));
+  FORETOUCH_TRY_OR(failedToRead, auto model, importModel(asked.model, asked.reading));
+  if (asked.meshAlone) {
+    for (ModelNode& node : model.nodes) node.lss.clear();
+  }
   for (const std::string& note : model.notes) printNote(asked.model + ": " + note);
   if (const auto remark =
           remarkOnFrame(model.frame, {"--model-scale", "--model-up"}, asked.model)) {
@@ -186,10 +189,13 @@ Command avatarBvhCommand() {
 Command avatarMeshCommand() {
   const auto asked = std::make_shared<AskedOfModel>();
   Settings settings;
-  settings.path("model", "BODY", asked->model, "Model: glTF, FBX, Collada, X, or a mesh format")
+  settings
+      .path("model", "BODY", asked->model, "Model: glTF, VRM, FBX, Collada, X, or a mesh format")
       .files(kModelEndings)
       .required("a rigged model");
   addModelSettings(settings, *asked, "Metres per unit of the model");
+  settings.flag("--mesh-alone", asked->meshAlone,
+                "Leave out the colliders of a VRM avatar: LSS around its triangles alone");
   Command command{"mesh", "Make an avatar from a rigged model: LSS that contain its triangles",
                   "Example:\n  foretouch avatar mesh man.glb -o man.avatar.json\n\n"
                   "The links' triangles go beside it, to man.avatar.mesh.glb.",

@@ -51,8 +51,9 @@ bool isBvh(const std::string& path) {
   return extension == ".bvh";
 }
 
-Result<Motion> readNoted(const ClipRequest& request) {
+Result<Motion> readNoted(const ClipRequest& request, const Skeleton& avatar) {
   FORETOUCH_TRY(auto motion, readMotion(motionRequestOf(request)));
+  FORETOUCH_CHECK(followByParts(avatar, request.mapPath, request.motionPath, motion.clip));
   for (const std::string& note : motion.clip.notes) {
     printNote(request.motionPath + ": " + note);
   }
@@ -85,7 +86,7 @@ Result<std::vector<Pose>> usualPoses(const AskedPairs& asked, const Avatar& avat
   for (const std::string& path : clips) {
     ClipRequest request = asked.reading;
     request.motionPath = path;
-    FORETOUCH_TRY(const auto motion, readNoted(request));
+    FORETOUCH_TRY(const auto motion, readNoted(request, avatar.skeleton()));
     const auto match = matchWithMap(avatar.skeleton(), motion.clip.skeleton, request.mapPath, path);
     if (!match.ok()) return match.error();
     FORETOUCH_CHECK(addUsualPoses(avatar, motion.clip, match.value(), path, poses));

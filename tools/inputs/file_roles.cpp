@@ -57,9 +57,7 @@ FileRole roleByContent(const std::string& path) {
 Result<FileRole> roleOfModel(const std::string& path) {
   FORETOUCH_TRY(const auto model, importModel(path));
   if (!model.animations.empty()) return FileRole::Clip;
-  const bool hasBones = std::any_of(model.meshes.begin(), model.meshes.end(),
-                                    [](const ModelMesh& mesh) { return !mesh.bones.empty(); });
-  return hasBones ? FileRole::Body : FileRole::Scene;
+  return holdsBody(model) ? FileRole::Body : FileRole::Scene;
 }
 
 /// A setting that files without an option may fill.
@@ -150,13 +148,20 @@ Error alsoTyped(const Place& place) {
 
 }  // namespace
 
+bool holdsBody(const Model& model) {
+  return std::any_of(model.meshes.begin(), model.meshes.end(),
+                     [](const ModelMesh& mesh) { return !mesh.bones.empty(); }) ||
+         std::any_of(model.nodes.begin(), model.nodes.end(),
+                     [](const ModelNode& node) { return !node.lss.empty(); });
+}
+
 bool isEventLog(const std::string& path) {
   return lowerExtensionOf(path) == ".lcmlog" || beginningOf(path).rfind(kLogMagic, 0) == 0;
 }
 
 Result<FileRole> roleOfFile(const std::string& path) {
   constexpr std::array kScenes{".obj"sv, ".ply"sv, ".stl"sv, ".off"sv, ".3ds"sv, ".iqm"sv};
-  constexpr std::array kModels{".glb"sv, ".gltf"sv, ".fbx"sv, ".dae"sv, ".x"sv};
+  constexpr std::array kModels{".glb"sv, ".gltf"sv, ".vrm"sv, ".fbx"sv, ".dae"sv, ".x"sv};
   constexpr std::array kMotions{".bvh"sv, ".csv"sv, ".npz"sv, ".lcmlog"sv};
   const std::string extension = lowerExtensionOf(path);
   const auto isOneOf = [&](const auto& extensions) {

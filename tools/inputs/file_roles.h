@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "articulated/result.h"
+#include "assets/model/model.h"
 #include "tools/settings/settings.h"
 
 namespace foretouch::tools {
@@ -23,6 +24,9 @@ enum class FileRole : std::uint8_t {
 /// By the name, and where that leaves it open by the content: of a model, whether bones and
 /// animations are in it. Errors: a model that cannot be read.
 [[nodiscard]] Result<FileRole> roleOfFile(const std::string& path);
+
+/// Does it hold bones, or the spheres and capsules of a VRM avatar?
+[[nodiscard]] bool holdsBody(const Model& model);
 
 /// Is a log of LCM events, by its first bytes or its ending.
 [[nodiscard]] bool isEventLog(const std::string& path);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "articulated/try.h"
+#include "assets/avatar/humanoid_clip.h"
 #include "assets/text_file.h"
 #include "tools/console.h"
 
@@ -99,6 +100,15 @@ Result<JointMatch> matchWithMap(const Skeleton& avatar, const Skeleton& clip,
   if (match.ok()) return match;
   const bool isOfMap = match.error().code == ErrorCode::UnknownName;
   return inFile(match.error(), isOfMap ? mapPath : motionPath);
+}
+
+Result<bool> followByParts(const Skeleton& avatar, const std::string& mapPath,
+                           const std::string& motionPath, Clip& clip) {
+  if (!mapPath.empty()) return false;
+  FORETOUCH_TRY(auto followed, inFile(humanoidClip(avatar, clip), motionPath));
+  if (!followed) return false;
+  clip = *std::move(followed);
+  return true;
 }
 
 }  // namespace foretouch::tools

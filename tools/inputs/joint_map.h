@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "articulated/clip.h"
 #include "articulated/result.h"
 #include "assets/avatar/joint_match.h"
 
@@ -24,5 +25,11 @@ inline constexpr std::size_t kMaxJointMapBytes = 16u << 20;
 [[nodiscard]] Result<JointMatch> matchWithMap(const Skeleton& avatar, const Skeleton& clip,
                                               const std::string& mapPath,
                                               const std::string& motionPath);
+
+/// The clip of one humanoid becomes one of `avatar`, another humanoid, by the parts of the body
+/// (assets/avatar/humanoid_clip.h); true if it did. A map says itself what belongs together, so
+/// with one the clip stays as it is. Errors name the clip.
+[[nodiscard]] Result<bool> followByParts(const Skeleton& avatar, const std::string& mapPath,
+                                         const std::string& motionPath, Clip& clip);
 
 }  // namespace foretouch::tools

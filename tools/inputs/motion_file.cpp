@@ -19,7 +19,7 @@ bool isNpz(const std::string& path) {
 Result<Done> checkOptions(const MotionRequest& request, ClipFormat format) {
   if (format != ClipFormat::Model && !request.animation.empty()) {
     return Error::in("--animation", ErrorCode::Mismatch,
-                     "expected a model (.glb, .gltf, .fbx, .dae, .x) as --motion, found " +
+                     "expected a model (.glb, .gltf, .vrm, .fbx, .dae, .x) as --motion, found " +
                          inQuotes(request.path));
   }
   if (format != ClipFormat::JointTable && !request.robot.empty()) {

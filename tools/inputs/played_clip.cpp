@@ -51,11 +51,14 @@ Result<PlayedClip> loadPlayedClip(const ClipRequest& request) {
   FORETOUCH_TRY(auto avatar, readAvatarFile(request.avatarPath));
   FORETOUCH_TRY(auto read, readMotion(motionRequestOf(request)));
   Clip& clip = read.clip;
+  FORETOUCH_TRY(const bool isByParts,
+                followByParts(avatar.skeleton(), request.mapPath, request.motionPath, clip));
   auto match = matchWithMap(avatar.skeleton(), clip.skeleton, request.mapPath, request.motionPath);
   if (!match.ok()) return match.error();
   FORETOUCH_TRY(const auto steps, stepsOf(request, clip, read.isUpright));
-  return PlayedClip{std::move(avatar), std::move(clip), std::move(match).value(), steps,
-                    read.isUpright,    read.frame};
+  return PlayedClip{
+      std::move(avatar), std::move(clip), std::move(match).value(), steps, read.isUpright,
+      read.frame,        isByParts};
 }
 
 Result<PlayedClip> loadClipAlone(const ClipRequest& request) {

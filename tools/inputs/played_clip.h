@@ -22,6 +22,7 @@ struct PlayedClip {
   StepSelection steps;
   bool isUpright = false;  ///< As Motion::isUpright.
   FileFrame frame{};       ///< Of the clip's file.
+  bool isByParts = false;  ///< The clip is no longer the file's: followByParts().
 };
 
 /// Errors name the file or option.

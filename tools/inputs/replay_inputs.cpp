@@ -126,7 +126,7 @@ Result<QueryOptions> queryOptionsFor(const WorldRequest& request, const std::str
 
 Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
   FORETOUCH_TRY(auto played, loadPlayedClip(request));
-  auto& [avatar, clip, match, steps, isUpright, clipFrame] = played;
+  auto& [avatar, clip, match, steps, isUpright, clipFrame, isByParts] = played;
   FileFrame sceneFrame;
   FORETOUCH_TRY(auto scene, loadScene(request, sceneFrame));
   FORETOUCH_TRY(auto query, queryOptionsFor(request, request.avatarPath, avatar, scene));

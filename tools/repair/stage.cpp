@@ -17,6 +17,11 @@ Result<RepairStage> RepairStage::load(const RepairRequest& request) {
     return Error::in(request.motionPath, ErrorCode::OutOfRange,
                      "expected joints that turn by at most 3 rad from one row to the next");
   }
+  if (feet.played.isByParts) {
+    return Error::in(request.motionPath, ErrorCode::Mismatch,
+                     "expected joints with the names of the avatar's, as the mended clip has the "
+                     "file's own; here they only have the same parts of the body");
+  }
   RepairStage stage(request, std::move(feet));
   FORETOUCH_CHECK(stage.prepare());
   return stage;

@@ -26,7 +26,7 @@ inline constexpr NumberRange kGroundHeightRange{0.0, 1e6, "metres", "m", true};
 inline constexpr NumberRange kToleranceRange{kMinTolerance, kMaxTolerance, "metres", "m"};
 
 /// The usual formats of scenes and rigged models, for a shell that completes files.
-inline constexpr char kModelEndings[] = "obj ply stl off 3ds glb gltf fbx dae x";
+inline constexpr char kModelEndings[] = "obj ply stl off 3ds glb gltf vrm fbx dae x";
 
 /// A scene and a query; each setting is legal by itself. Paths are ready to open; an empty one
 /// means: not requested.

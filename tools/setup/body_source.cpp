@@ -38,9 +38,12 @@ Result<Done> readModelBody(const std::string& path, const BodyRequest& request,
   FORETOUCH_TRY(const auto model, readModelOf(path, request));
   source.frame = model.frame;
   source.isUpright = true;
-  const bool hasMesh = std::any_of(model.meshes.begin(), model.meshes.end(),
-                                   [](const ModelMesh& mesh) { return !mesh.triangles.empty(); });
-  if (!hasMesh) {  // a motion without a body
+  const bool hasSurface =
+      std::any_of(model.meshes.begin(), model.meshes.end(),
+                  [](const ModelMesh& mesh) { return !mesh.triangles.empty(); }) ||
+      std::any_of(model.nodes.begin(), model.nodes.end(),
+                  [](const ModelNode& node) { return !node.lss.empty(); });
+  if (!hasSurface) {  // a motion without a body
     source.notes.push_back(path +
                            ": holds no mesh, so the body is a guess: capsules as thick as a "
                            "person's around its joints; --avatar MODEL takes the file with the "
@@ -130,9 +133,10 @@ Result<BodySource> readBody(const BodyRequest& request, const std::string& meshF
 }
 
 Result<WalkingBody> walkingBody(const BodySource& source, const BodyRequest& request) {
-  const Clip clip = source.clipOrRest();
+  Clip clip = source.clipOrRest();
   const Avatar& avatar = *source.avatar;
   const std::string& path = request.motion.empty() ? request.avatar : request.motion;
+  FORETOUCH_CHECK(followByParts(avatar.skeleton(), request.map, path, clip));
   FORETOUCH_TRY(const auto match,
                 matchWithMap(avatar.skeleton(), clip.skeleton, request.map, path));
   Placement upright;

@@ -61,8 +61,7 @@ Result<bool> isBody(const std::string& path) {
     return role == FileRole::Clip || role == FileRole::Avatar;
   }
   FORETOUCH_TRY(const auto model, importModel(path));
-  return std::any_of(model.meshes.begin(), model.meshes.end(),
-                     [](const ModelMesh& mesh) { return !mesh.bones.empty(); });
+  return holdsBody(model);
 }
 
 /// The scene and the body may come in any order where only one of them can be the body. What cannot
@@ -282,7 +281,7 @@ Command setupCommand() {
   scene.option = "scene";
   scene.value = "SCENE";
   addMotionSetting(settings, asked->clip, "body", "CLIP|MODEL",
-                   "BVH clip, or model with or without an animation (glb, gltf, fbx, dae, x)")
+                   "BVH clip, or model with or without an animation (glb, gltf, vrm, fbx, dae, x)")
       .required("a clip or a model behind the scene");
   settings
       .path("--avatar", "FILE|MODEL", asked->clip.avatarPath,

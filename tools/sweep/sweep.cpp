@@ -235,7 +235,7 @@ Result<Done> finishOne(const SweepInputs& inputs, Work& work, Sweep& sweep) {
 
 Result<SweepInputs> loadSweepInputs(const SweepRequest& request) {
   FORETOUCH_TRY(auto played, loadPlayedClip(request));
-  auto& [avatar, clip, match, steps, isUpright, frame] = played;
+  auto& [avatar, clip, match, steps, isUpright, frame, isByParts] = played;
   FORETOUCH_TRY(auto links, linksOf(request.links, avatar));
   SweepInputs inputs{request, std::move(avatar), std::move(clip), std::move(match),
                      steps,   isUpright,         std::move(links)};

@@ -157,7 +157,8 @@ Result<BodyKnots> KnotLoader::ofAvatar(const FileBody& body, const Avatar& avata
   }
   found.file = path;
   FORETOUCH_TRY(const auto motion, motionOf(body.clip));
-  const Clip& clip = motion->clip;
+  Clip clip = motion->clip;
+  FORETOUCH_CHECK(followByParts(avatar.skeleton(), body.clip.mapPath, path, clip));
   const auto match = matchWithMap(avatar.skeleton(), clip.skeleton, body.clip.mapPath, path);
   if (!match.ok()) return match.error();
   FORETOUCH_TRY(const auto frames, framesOf(body, clip, world));

@@ -10,6 +10,7 @@ import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
+import { distance, farthestLss } from './distances.mjs';
 import { readByThree } from './three_reader.mjs';
 import { modes, write } from './writers.mjs';
 
@@ -30,8 +31,6 @@ function readByUs(file, durations = []) {
   if (said.status !== 0) return { error: `${program} ended with ${said.status ?? said.signal}` };
   return JSON.parse(said.stdout);
 }
-
-const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 
 function sizeOf(points) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
@@ -90,22 +89,6 @@ function farthestNamed(ours, theirs) {
     worst = Math.max(worst, distance(p, q));
   }
   return worst;
-}
-
-// LSS as a set: either end may come first.
-function farthestLss(a, b) {
-  if (a.length !== b.length) return Infinity;
-  const between = (s, t) => {
-    const [p, q, u, v] = [s.slice(0, 3), s.slice(3, 6), t.slice(0, 3), t.slice(3, 6)];
-    return Math.max(
-      Math.abs(s[6] - t[6]),
-      Math.min(
-        Math.max(distance(p, u), distance(q, v)),
-        Math.max(distance(p, v), distance(q, u)),
-      ),
-    );
-  };
-  return Math.max(0, ...a.map((s) => Math.min(...b.map((t) => between(s, t)))));
 }
 
 const places = (named) => named.map(([, ...p]) => p);

@@ -1,6 +1,7 @@
 // What our reader makes of a model, as JSON on standard output, for oracle.mjs to compare.
 //   read_model FILE [DURATION...]
 // {"nodes": [[name, x, y, z]...], "vertices": [[x, y, z]...], "lss": [[x, y, z, x, y, z, r]...],
+//  "stated": [[...]...] (of those the file's own, as its nodes hold them),
 //  "notes": [...], "animations": [{"name", "duration", "instants": [{"joints": [[name, x, y,
 //  z]...], "vertices": [[x, y, z]...]}...]}...]}, or {"error": "..."}.
 // All in the world, metres; vertices with their skins. The instants divide an animation's duration,
@@ -102,11 +103,17 @@ std::vector<Affine> placesIn(const Model& model, const ModelAvatar& made,
   return places;
 }
 
-json lssIn(const Avatar& avatar, const std::vector<LinkState>& states) {
+/// A link has those that its node states first.
+json lssIn(const Model& model, const ModelAvatar& made, const std::vector<LinkState>& states,
+           bool statedAlone) {
   json all = json::array();
-  for (std::int32_t link = 0; link < avatar.numLinks(); ++link) {
-    const LinkState& state = states[static_cast<std::size_t>(link)];
-    for (const Lss& lss : avatar.lss(link)) {
+  for (std::int32_t link = 0; link < made.avatar.numLinks(); ++link) {
+    const auto l = static_cast<std::size_t>(link);
+    const LinkState& state = states[l];
+    std::vector<Lss> shown = made.avatar.lss(link);
+    if (statedAlone)
+      shown.resize(model.nodes[static_cast<std::size_t>(made.nodeOfLink[l])].lss.size());
+    for (const Lss& lss : shown) {
       const Vector3d a = state.p_WL + state.R_WL * lss.a, b = state.p_WL + state.R_WL * lss.b;
       all.push_back(json::array({a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), lss.radius}));
     }
@@ -154,11 +161,9 @@ json reading(const std::string& path, const std::vector<double>& durations) {
   if (!imported.ok()) return {{"error", describe(imported.error())}};
   const Model& model = imported.value();
   const std::vector<Affine> places = placesOf(model);
-  json said = {{"nodes", json::array()},
-               {"vertices", verticesOf(model, places)},
-               {"lss", json::array()},
-               {"animations", json::array()},
-               {"notes", model.notes}};
+  json said = {{"nodes", json::array()},      {"vertices", verticesOf(model, places)},
+               {"lss", json::array()},        {"stated", json::array()},
+               {"animations", json::array()}, {"notes", model.notes}};
   for (std::size_t i = 0; i < places.size(); ++i) {
     said["nodes"].push_back(named(model.nodes[i].name, places[i].translation));
   }
@@ -166,7 +171,8 @@ json reading(const std::string& path, const std::vector<double>& durations) {
   if (made.ok()) {
     const Skeleton& skeleton = made.value().avatar.skeleton();
     const std::vector<LinkState> states = statesIn(skeleton, restPose(skeleton));
-    said["lss"] = lssIn(made.value().avatar, states);
+    said["lss"] = lssIn(model, made.value(), states, false);
+    said["stated"] = lssIn(model, made.value(), states, true);
   }
   for (std::size_t i = 0; i < model.animations.size(); ++i) {
     const double durationS = i < durations.size() ? durations[i] : model.animations[i].durationS;

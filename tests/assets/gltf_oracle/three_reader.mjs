@@ -12,7 +12,7 @@ globalThis.ProgressEvent ??= class extends Event {};
 const kGlb = 0x46546c67, kJson = 0x4e4f534a, kBinary = 0x004e4942;
 
 // The JSON, with all its buffers in it.
-function withoutPictures(path) {
+export function withoutPictures(path) {
   const bytes = readFileSync(path);
   let json, binary;
   if (bytes.readUInt32LE(0) === kGlb) {

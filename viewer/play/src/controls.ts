@@ -38,7 +38,7 @@ export class Controls {
     file.type = "file";
     file.multiple = true;
     file.id = "file";
-    file.accept = ".glb,.gltf,.obj,.bvh,.json";
+    file.accept = ".glb,.gltf,.vrm,.obj,.bvh,.json";
     file.addEventListener("change", () => {
       if (file.files !== null) choices.files(file.files);
     });

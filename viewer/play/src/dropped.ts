@@ -15,8 +15,8 @@ export type Dropped =
 
 export async function readDropped(file: File): Promise<Dropped> {
   const ending = (/\.([a-z0-9]+)$/i.exec(file.name)?.[1] ?? "").toLowerCase();
-  if (!["bvh", "json", "obj", "glb", "gltf"].includes(ending)) {
-    throw new Refused(`${file.name}: expected a scene (.glb, .gltf, .obj), a clip (.bvh) or an avatar (.json).`);
+  if (!["bvh", "json", "obj", "glb", "gltf", "vrm"].includes(ending)) {
+    throw new Refused(`${file.name}: expected a scene (.glb, .gltf, .vrm, .obj), a clip (.bvh) or an avatar (.json).`);
   }
   if (file.size > mostBytes) {
     throw new Refused(`${file.name}: expected at most ${mostBytes / 1e6} MB, found ${Math.round(file.size / 1e6)}. The program foretouch reads larger ones.`);
