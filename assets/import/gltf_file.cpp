@@ -205,7 +205,9 @@ GltfFile openGltf(const std::string& path) {
   file.bytes = bytesIn(path);
   Faults faults;
   // Tools save a GLB under the other name now and then; the first bytes tell.
-  file.isBinary = lowerExtensionOf(path) != ".gltf" || file.bytes.rfind("glTF", 0) == 0;
+  const std::string extension = lowerExtensionOf(path);
+  const bool isNamedBinary = extension == ".glb" || extension == ".vrm";
+  file.isBinary = isNamedBinary || file.bytes.rfind("glTF", 0) == 0;
   if (!file.isBinary) {
     readDocument(file, file.bytes, 0, faults);
     return file;
