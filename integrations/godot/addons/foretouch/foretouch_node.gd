@@ -88,3 +88,21 @@ func _is_going() -> bool:
 
 func _object_name(object: int) -> String:
 	return _scene.handle.object_name(object)
+
+
+# ---- What a body and a hand say of themselves ----
+
+func _moved_node():
+	return null
+
+
+func _use_scene(_handle) -> bool:
+	return false
+
+
+func _words_for_no_node() -> String:
+	return ""
+
+
+func _class() -> String:
+	return ""
