@@ -76,3 +76,7 @@ cmp "$folder/steps.bin" "$folder/c_steps.bin"
 cmp "$folder/ticks.bin" "$folder/c_ticks.bin"
 echo "$(wc -c <"$folder/steps.bin") and $(wc -c <"$folder/ticks.bin") bytes of the bundled clips: the same"
 "$folder/answers" own "$folder/own.bin"
+
+echo "== the entry for Godot 4, in a host of our own"
+cc_here godot4_host "$here/godot4_host.c" -ldl
+"$folder/godot4_host" "$project/addons/foretouch/linux-x64/libforetouch_godot4.so"
