@@ -77,6 +77,15 @@ cmp "$folder/ticks.bin" "$folder/c_ticks.bin"
 echo "$(wc -c <"$folder/steps.bin") and $(wc -c <"$folder/ticks.bin") bytes of the bundled clips: the same"
 "$folder/answers" own "$folder/own.bin"
 
+echo "== the demo"
+cp -r "$package/demo" "$folder/demo"
+cp -r "$project/addons" "$folder/demo/"
+godot "$folder/demo" --fixed-fps 60
+for words in 'touches Bar3' 'leaves Bar3' 'touches Button' 'the button is pressed' 'touches Door' 'the door is open by [3-9][0-9] degrees'; do
+  grep -q "$words" "$folder/said.txt" || { echo "expected '$words', found:"; cat "$folder/said.txt"; exit 1; }
+done
+grep 'the door is open' "$folder/said.txt"
+
 echo "== the entry for Godot 4, in a host of our own"
 cc_here godot4_host "$here/godot4_host.c" -ldl
 "$folder/godot4_host" "$project/addons/foretouch/linux-x64/libforetouch_godot4.so"
