@@ -86,6 +86,12 @@ for words in 'touches Bar3' 'leaves Bar3' 'touches Button' 'the button is presse
 done
 grep 'the door is open' "$folder/said.txt"
 
+echo "== the script of the README"
+awk '/^```gdscript/ { on = 1; next } /^```/ { on = 0 } on' "$package/README.md" >"$project/try.gd"
+must "$project" try.gd
+grep -qxF "$(sed -n 's/.*# prints: //p' "$project/try.gd")" "$folder/said.txt" ||
+  { echo "expected what the README says, found:"; cat "$folder/said.txt"; exit 1; }
+
 echo "== the entry for Godot 4, in a host of our own"
 cc_here godot4_host "$here/godot4_host.c" -ldl
 "$folder/godot4_host" "$project/addons/foretouch/linux-x64/libforetouch_godot4.so"
