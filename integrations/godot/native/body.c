@@ -1,4 +1,4 @@
-#include "body.h"
+#include "integrations/godot/native/body.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene.h"
+#include "integrations/godot/native/scene.h"
 
 int64_t fail(Body* body, const char* format, ...) {
   va_list list;
@@ -54,9 +54,12 @@ static void forget_made(Body* body) {
   free(body->from.translations);
   free(body->to.rotations);
   free(body->to.translations);
+  free(body->last.rotations);
+  free(body->last.translations);
   free(body->contacts);
   body->world = NULL;
   body->from.rotations = body->from.translations = body->to.rotations = body->to.translations = NULL;
+  body->last.rotations = body->last.translations = NULL;
   body->contacts = NULL;
   forget_answers(body);
 }
@@ -93,9 +96,12 @@ static bool has_memory(Body* body) {
   body->from.translations = calloc(3 * n, sizeof(double));
   body->to.rotations = calloc(4 * n, sizeof(double));
   body->to.translations = calloc(3 * n, sizeof(double));
+  body->last.rotations = calloc(4 * n, sizeof(double));
+  body->last.translations = calloc(3 * n, sizeof(double));
   body->contacts = calloc(n, sizeof *body->contacts);
   if (body->world != NULL && body->from.rotations != NULL && body->from.translations != NULL &&
-      body->to.rotations != NULL && body->to.translations != NULL && body->contacts != NULL)
+      body->to.rotations != NULL && body->to.translations != NULL && body->last.rotations != NULL && body->last.translations != NULL &&
+      body->contacts != NULL)
     return true;
   fail(body, "no memory for %zu joints", n);
   return false;

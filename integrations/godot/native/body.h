@@ -1,13 +1,13 @@
-/* body.h: the class FtBody: joints with capsules, read from a skeleton's bones or from one node; what it
- * meets between two places, and the solid body that is shown instead. Made by body.c, asked by steps.c,
- * solid by solid.c. */
+/* body.h: the class FtBody: joints with capsules, read from a skeleton's bones or from one node;
+ * what it meets between two places, and the solid body that is shown instead. Made by body.c, asked
+ * by steps.c, solid by solid.c. */
 #ifndef FORETOUCH_GODOT_BODY_H
 #define FORETOUCH_GODOT_BODY_H
 
 #include <foretouch/solid.h>
 
-#include "core.h"
-#include "place.h"
+#include "integrations/godot/native/core.h"
+#include "integrations/godot/native/place.h"
 
 /* As many as the library takes in one avatar. */
 #define MOST_JOINTS 4096
@@ -36,15 +36,17 @@ typedef struct Body {
   Capsule* capsules;
   size_t capsule_count;
   int64_t bone_count; /* of the skeleton that it was made of */
-  bool is_of_file; /* load(): its poses come from a clip, else from nodes */
+  bool is_of_file;    /* load(): its poses come from a clip, else from nodes */
   ft_avatar* avatar;
   ft_clip* clip;
   ft_query* query;
   ft_solid* solid;
   Place* world; /* one per joint */
   Pose from, to;
+  Pose last;  /* of the last step */
   Place node; /* of the last sweep, in the frame of joint 0 */
   bool has_begun;
+  bool was_swept;       /* since the last step: the query ended elsewhere */
   ft_contact* contacts; /* of the last step */
   size_t contact_count;
   ft_solid_tick tick;
@@ -63,7 +65,8 @@ int64_t fail(Body* body, const char* format, ...)
     ;
 int64_t fail_by_library(Body* body);
 
-/* Where the bones are in the node (`place` NULL: where it is itself), as a pose. False: body->error. */
+/* Where the bones are in the node (`place` NULL: where it is itself), as a pose. False:
+ * body->error. */
 bool read_pose(Body* body, void* node, const float* place, Pose* into);
 ft_pose as_pose(const Body* body, const Pose* pose);
 /* Bytes of a result; NULL: no memory. */

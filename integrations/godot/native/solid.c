@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "body.h"
-#include "scene.h"
+#include "integrations/godot/native/body.h"
+#include "integrations/godot/native/scene.h"
 
 /* What the library takes in one tick: after a longer gap it begins anew. */
 static const double longest_tick_s = 10;

@@ -17,7 +17,7 @@ export HOME=$folder LC_ALL=C.UTF-8 LD_LIBRARY_PATH=$library FORETOUCH_IMPORTER=$
 export FORETOUCH_EXAMPLES=$examples FORETOUCH_OUT=$folder
 
 cc_here() {  # cc_here OUTPUT ARGUMENTS...
-  cc -std=c99 -Wall -Wextra -Werror -O2 -I "$package/../../bindings/c/include" -o "$folder/$1" "${@:2}" -L "$library" -lforetouch -lm
+  cc -std=c99 -Wall -Wextra -Werror -O2 -I "$package/../.." -I "$package/../../bindings/c/include" -o "$folder/$1" "${@:2}" -L "$library" -lforetouch -lm
 }
 # What Godot prints of itself at every start is of the machine: no locale, no sound.
 godot() {  # godot PROJECT ARGUMENTS...
