@@ -73,10 +73,10 @@ ft_pose as_pose(const Body* body, const Pose* pose);
 uint8_t* bytes_of(Body* body, size_t count);
 
 /* Of steps.c and solid.c, for the table of methods. */
-void step(void* self, const Value* arguments, Value* result);
-void step_clip(void* self, const Value* arguments, Value* result);
-void sweep(void* self, const Value* arguments, Value* result);
-void restart(void* self, const Value* arguments, Value* result);
+void body_step(void* self, const Value* arguments, Value* result);
+void body_step_clip(void* self, const Value* arguments, Value* result);
+void body_sweep(void* self, const Value* arguments, Value* result);
+void body_restart(void* self, const Value* arguments, Value* result);
 void place_of_node_at(void* self, const Value* arguments, Value* result);
 void contact_joint(void* self, const Value* arguments, Value* result);
 void contact_object(void* self, const Value* arguments, Value* result);
@@ -88,10 +88,10 @@ void contact_normal(void* self, const Value* arguments, Value* result);
 void step_bytes(void* self, const Value* arguments, Value* result);
 
 void make_solid(void* self, const Value* arguments, Value* result);
-void follow(void* self, const Value* arguments, Value* result);
-void follow_clip(void* self, const Value* arguments, Value* result);
-void show(void* self, const Value* arguments, Value* result);
-void reset(void* self, const Value* arguments, Value* result);
+void body_follow(void* self, const Value* arguments, Value* result);
+void body_follow_clip(void* self, const Value* arguments, Value* result);
+void body_show(void* self, const Value* arguments, Value* result);
+void body_reset(void* self, const Value* arguments, Value* result);
 void tick_state(void* self, const Value* arguments, Value* result);
 void tick_deviation(void* self, const Value* arguments, Value* result);
 void tick_is_certified(void* self, const Value* arguments, Value* result);

@@ -33,7 +33,7 @@ static int64_t step_on(Body* body, bool goes_on) {
 }
 
 /* step(Skeleton or Spatial): from where it was at the last step to where it is. */
-void step(void* self, const Value* arguments, Value* result) {
+void body_step(void* self, const Value* arguments, Value* result) {
   Body* body = self;
   const bool goes_on = body->has_begun;
   body->has_begun = false;
@@ -43,7 +43,7 @@ void step(void* self, const Value* arguments, Value* result) {
 }
 
 /* step_clip(frame): likewise, to a frame of the clip. */
-void step_clip(void* self, const Value* arguments, Value* result) {
+void body_step_clip(void* self, const Value* arguments, Value* result) {
   Body* body = self;
   const bool goes_on = body->has_begun;
   body->has_begun = false;
@@ -74,7 +74,7 @@ static bool read_node(Body* body, const float* from) {
 
 /* sweep(Skeleton or Spatial, from, to): as if the node went from one place to the other, bones as they are.
  * Steps go on as if it had not been asked. */
-void sweep(void* self, const Value* arguments, Value* result) {
+void body_sweep(void* self, const Value* arguments, Value* result) {
   Body* body = self;
   ft_pose from, to;
   body->was_swept = true;
@@ -88,7 +88,7 @@ void sweep(void* self, const Value* arguments, Value* result) {
 }
 
 /* After a teleport: the next step begins anew. */
-void restart(void* self, const Value* arguments, Value* result) {
+void body_restart(void* self, const Value* arguments, Value* result) {
   (void)arguments;
   (void)result;
   ((Body*)self)->has_begun = false;
