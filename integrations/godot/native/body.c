@@ -1,4 +1,4 @@
-#include "body.h"
+#include "integrations/godot/native/body.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene.h"
+#include "integrations/godot/native/scene.h"
 
 int64_t fail(Body* body, const char* format, ...) {
   va_list list;
@@ -54,9 +54,12 @@ static void forget_made(Body* body) {
   free(body->from.translations);
   free(body->to.rotations);
   free(body->to.translations);
+  free(body->last.rotations);
+  free(body->last.translations);
   free(body->contacts);
   body->world = NULL;
   body->from.rotations = body->from.translations = body->to.rotations = body->to.translations = NULL;
+  body->last.rotations = body->last.translations = NULL;
   body->contacts = NULL;
   forget_answers(body);
 }
@@ -93,9 +96,12 @@ static bool has_memory(Body* body) {
   body->from.translations = calloc(3 * n, sizeof(double));
   body->to.rotations = calloc(4 * n, sizeof(double));
   body->to.translations = calloc(3 * n, sizeof(double));
+  body->last.rotations = calloc(4 * n, sizeof(double));
+  body->last.translations = calloc(3 * n, sizeof(double));
   body->contacts = calloc(n, sizeof *body->contacts);
   if (body->world != NULL && body->from.rotations != NULL && body->from.translations != NULL &&
-      body->to.rotations != NULL && body->to.translations != NULL && body->contacts != NULL)
+      body->to.rotations != NULL && body->to.translations != NULL && body->last.rotations != NULL && body->last.translations != NULL &&
+      body->contacts != NULL)
     return true;
   fail(body, "no memory for %zu joints", n);
   return false;
@@ -404,10 +410,10 @@ static const Method methods[] = {
     {"use_scene", KIND_BOOL, use_scene, 2, {KIND_OBJECT, KIND_REAL}},
     {"error", KIND_TEXT, error, 0, {KIND_NIL}},
     {"joint_name", KIND_TEXT, joint_name, 1, {KIND_INT}},
-    {"step", KIND_INT, step, 1, {KIND_OBJECT}},
-    {"step_clip", KIND_INT, step_clip, 1, {KIND_INT}},
-    {"sweep", KIND_INT, sweep, 3, {KIND_OBJECT, KIND_PLACE, KIND_PLACE}},
-    {"restart", KIND_NIL, restart, 0, {KIND_NIL}},
+    {"step", KIND_INT, body_step, 1, {KIND_OBJECT}},
+    {"step_clip", KIND_INT, body_step_clip, 1, {KIND_INT}},
+    {"sweep", KIND_INT, body_sweep, 3, {KIND_OBJECT, KIND_PLACE, KIND_PLACE}},
+    {"restart", KIND_NIL, body_restart, 0, {KIND_NIL}},
     {"place_of_node_at", KIND_PLACE, place_of_node_at, 1, {KIND_REAL}},
     {"contact_joint", KIND_INT, contact_joint, 1, {KIND_INT}},
     {"contact_object", KIND_INT, contact_object, 1, {KIND_INT}},
@@ -418,10 +424,10 @@ static const Method methods[] = {
     {"contact_normal", KIND_VECTOR, contact_normal, 1, {KIND_INT}},
     {"step_bytes", KIND_BYTES, step_bytes, 0, {KIND_NIL}},
     {"make_solid", KIND_BOOL, make_solid, 2, {KIND_OBJECT, KIND_REAL}},
-    {"follow", KIND_INT, follow, 2, {KIND_OBJECT, KIND_REAL}},
-    {"follow_clip", KIND_INT, follow_clip, 2, {KIND_INT, KIND_REAL}},
-    {"show", KIND_BOOL, show, 1, {KIND_OBJECT}},
-    {"reset", KIND_NIL, reset, 0, {KIND_NIL}},
+    {"follow", KIND_INT, body_follow, 2, {KIND_OBJECT, KIND_REAL}},
+    {"follow_clip", KIND_INT, body_follow_clip, 2, {KIND_INT, KIND_REAL}},
+    {"show", KIND_BOOL, body_show, 1, {KIND_OBJECT}},
+    {"reset", KIND_NIL, body_reset, 0, {KIND_NIL}},
     {"tick_state", KIND_INT, tick_state, 0, {KIND_NIL}},
     {"tick_deviation", KIND_REAL, tick_deviation, 0, {KIND_NIL}},
     {"tick_is_certified", KIND_BOOL, tick_is_certified, 0, {KIND_NIL}},

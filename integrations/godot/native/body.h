@@ -1,13 +1,13 @@
-/* body.h: the class FtBody: joints with capsules, read from a skeleton's bones or from one node; what it
- * meets between two places, and the solid body that is shown instead. Made by body.c, asked by steps.c,
- * solid by solid.c. */
+/* body.h: the class FtBody: joints with capsules, read from a skeleton's bones or from one node;
+ * what it meets between two places, and the solid body that is shown instead. Made by body.c, asked
+ * by steps.c, solid by solid.c. */
 #ifndef FORETOUCH_GODOT_BODY_H
 #define FORETOUCH_GODOT_BODY_H
 
 #include <foretouch/solid.h>
 
-#include "core.h"
-#include "place.h"
+#include "integrations/godot/native/core.h"
+#include "integrations/godot/native/place.h"
 
 /* As many as the library takes in one avatar. */
 #define MOST_JOINTS 4096
@@ -36,15 +36,17 @@ typedef struct Body {
   Capsule* capsules;
   size_t capsule_count;
   int64_t bone_count; /* of the skeleton that it was made of */
-  bool is_of_file; /* load(): its poses come from a clip, else from nodes */
+  bool is_of_file;    /* load(): its poses come from a clip, else from nodes */
   ft_avatar* avatar;
   ft_clip* clip;
   ft_query* query;
   ft_solid* solid;
   Place* world; /* one per joint */
   Pose from, to;
+  Pose last;  /* of the last step */
   Place node; /* of the last sweep, in the frame of joint 0 */
   bool has_begun;
+  bool was_swept;       /* since the last step: the query ended elsewhere */
   ft_contact* contacts; /* of the last step */
   size_t contact_count;
   ft_solid_tick tick;
@@ -63,17 +65,18 @@ int64_t fail(Body* body, const char* format, ...)
     ;
 int64_t fail_by_library(Body* body);
 
-/* Where the bones are in the node (`place` NULL: where it is itself), as a pose. False: body->error. */
+/* Where the bones are in the node (`place` NULL: where it is itself), as a pose. False:
+ * body->error. */
 bool read_pose(Body* body, void* node, const float* place, Pose* into);
 ft_pose as_pose(const Body* body, const Pose* pose);
 /* Bytes of a result; NULL: no memory. */
 uint8_t* bytes_of(Body* body, size_t count);
 
 /* Of steps.c and solid.c, for the table of methods. */
-void step(void* self, const Value* arguments, Value* result);
-void step_clip(void* self, const Value* arguments, Value* result);
-void sweep(void* self, const Value* arguments, Value* result);
-void restart(void* self, const Value* arguments, Value* result);
+void body_step(void* self, const Value* arguments, Value* result);
+void body_step_clip(void* self, const Value* arguments, Value* result);
+void body_sweep(void* self, const Value* arguments, Value* result);
+void body_restart(void* self, const Value* arguments, Value* result);
 void place_of_node_at(void* self, const Value* arguments, Value* result);
 void contact_joint(void* self, const Value* arguments, Value* result);
 void contact_object(void* self, const Value* arguments, Value* result);
@@ -85,10 +88,10 @@ void contact_normal(void* self, const Value* arguments, Value* result);
 void step_bytes(void* self, const Value* arguments, Value* result);
 
 void make_solid(void* self, const Value* arguments, Value* result);
-void follow(void* self, const Value* arguments, Value* result);
-void follow_clip(void* self, const Value* arguments, Value* result);
-void show(void* self, const Value* arguments, Value* result);
-void reset(void* self, const Value* arguments, Value* result);
+void body_follow(void* self, const Value* arguments, Value* result);
+void body_follow_clip(void* self, const Value* arguments, Value* result);
+void body_show(void* self, const Value* arguments, Value* result);
+void body_reset(void* self, const Value* arguments, Value* result);
 void tick_state(void* self, const Value* arguments, Value* result);
 void tick_deviation(void* self, const Value* arguments, Value* result);
 void tick_is_certified(void* self, const Value* arguments, Value* result);

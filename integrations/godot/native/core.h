@@ -1,6 +1,7 @@
-/* core.h: what Foretouch is for Godot, without Godot: two classes as tables of methods, which godot3.c
- * registers by GDNative and godot4.c by GDExtension; and what both of them do for these classes, below
- * as host_*(). Lengths in metres. Godot's vectors and transforms are floats; all else here is double. */
+/* core.h: what Foretouch is for Godot, without Godot: two classes as tables of methods, which
+ * godot3.c registers by GDNative and godot4.c by GDExtension; and what both of them do for these
+ * classes, below as host_*(). Lengths in metres. Godot's vectors and transforms are floats; all
+ * else here is double. */
 #ifndef FORETOUCH_GODOT_CORE_H
 #define FORETOUCH_GODOT_CORE_H
 

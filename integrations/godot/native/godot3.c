@@ -1,10 +1,10 @@
 /* godot3.c: the entry for Godot 3.x, by GDNative and NativeScript. */
-#include "godot3.h"
+#include "integrations/godot/native/godot3.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include "core.h"
+#include "integrations/godot/native/core.h"
 
 #define EXPORTED __attribute__((visibility("default")))
 

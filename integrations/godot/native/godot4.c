@@ -1,11 +1,11 @@
 /* godot4.c: the entry for Godot 4.1 and later, by GDExtension. */
-#include "godot4.h"
+#include "integrations/godot/native/godot4.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core.h"
+#include "integrations/godot/native/core.h"
 
 #define EXPORTED __attribute__((visibility("default")))
 

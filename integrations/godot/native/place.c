@@ -1,4 +1,4 @@
-#include "place.h"
+#include "integrations/godot/native/place.h"
 
 #include <math.h>
 

@@ -1,4 +1,5 @@
-/* place.h: places of rigid bodies with one scale, in doubles, and Godot's transforms, which are floats. */
+/* place.h: places of rigid bodies with one scale, in doubles, and Godot's transforms, which are
+ * floats. */
 #ifndef FORETOUCH_GODOT_PLACE_H
 #define FORETOUCH_GODOT_PLACE_H
 

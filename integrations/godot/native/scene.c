@@ -1,12 +1,12 @@
-#include "scene.h"
+#include "integrations/godot/native/scene.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core.h"
-#include "place.h"
+#include "integrations/godot/native/core.h"
+#include "integrations/godot/native/place.h"
 
 struct Scene {
   void* owner;

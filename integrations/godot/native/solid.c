@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "body.h"
-#include "scene.h"
+#include "integrations/godot/native/body.h"
+#include "integrations/godot/native/scene.h"
 
 /* What the library takes in one tick: after a longer gap it begins anew. */
 static const double longest_tick_s = 10;
@@ -72,14 +72,14 @@ static bool can_follow(Body* body, bool can_pose) {
 }
 
 /* follow(Skeleton or Spatial that is tracked, seconds) */
-void follow(void* self, const Value* arguments, Value* result) {
+void body_follow(void* self, const Value* arguments, Value* result) {
   Body* body = self;
   result->integer = -1;
   if (can_follow(body, !body->is_of_file) && read_pose(body, arguments[0].object, NULL, &body->to))
     result->integer = follow_on(body, arguments[1].real);
 }
 
-void follow_clip(void* self, const Value* arguments, Value* result) {
+void body_follow_clip(void* self, const Value* arguments, Value* result) {
   Body* body = self;
   result->integer = -1;
   if (!can_follow(body, body->clip != NULL)) return;
@@ -117,7 +117,7 @@ static bool read_shown(Body* body) {
 }
 
 /* show(Skeleton or Spatial): another than the one that is tracked, with the same bones. */
-void show(void* self, const Value* arguments, Value* result) {
+void body_show(void* self, const Value* arguments, Value* result) {
   Body* body = self;
   void* node = arguments[0].object;
   float floats[12];
@@ -153,7 +153,7 @@ void show(void* self, const Value* arguments, Value* result) {
 }
 
 /* After a teleport, or when trackers were gone for long. */
-void reset(void* self, const Value* arguments, Value* result) {
+void body_reset(void* self, const Value* arguments, Value* result) {
   Body* body = self;
   (void)arguments;
   (void)result;

@@ -1,7 +1,7 @@
 /* steps.c: what a body meets between two places. */
 #include <string.h>
 
-#include "body.h"
+#include "integrations/godot/native/body.h"
 
 /* Contacts of the step that was just asked, their number, or -1. */
 static int64_t answered(Body* body) {
@@ -22,14 +22,18 @@ static bool can_step(Body* body, bool can_pose) {
 /* From where the last step ended to `body->to`. The first only begins. What went wrong before, and so is
  * not known, is not swept through. */
 static int64_t step_on(Body* body, bool goes_on) {
-  const ft_pose to = as_pose(body, &body->to);
-  if (ft_query_step(body->query, goes_on ? NULL : &to, &to) != FT_OK) return fail_by_library(body);
+  const ft_pose last = as_pose(body, &body->last), to = as_pose(body, &body->to);
+  const ft_pose* from = !goes_on ? &to : body->was_swept ? &last : NULL;
+  if (ft_query_step(body->query, from, &to) != FT_OK) return fail_by_library(body);
+  memcpy(body->last.rotations, body->to.rotations, 4 * body->joint_count * sizeof(double));
+  memcpy(body->last.translations, body->to.translations, 3 * body->joint_count * sizeof(double));
   body->has_begun = true;
+  body->was_swept = false;
   return goes_on ? answered(body) : 0;
 }
 
 /* step(Skeleton or Spatial): from where it was at the last step to where it is. */
-void step(void* self, const Value* arguments, Value* result) {
+void body_step(void* self, const Value* arguments, Value* result) {
   Body* body = self;
   const bool goes_on = body->has_begun;
   body->has_begun = false;
@@ -39,7 +43,7 @@ void step(void* self, const Value* arguments, Value* result) {
 }
 
 /* step_clip(frame): likewise, to a frame of the clip. */
-void step_clip(void* self, const Value* arguments, Value* result) {
+void body_step_clip(void* self, const Value* arguments, Value* result) {
   Body* body = self;
   const bool goes_on = body->has_begun;
   body->has_begun = false;
@@ -68,11 +72,12 @@ static bool read_node(Body* body, const float* from) {
   return true;
 }
 
-/* sweep(Skeleton or Spatial, from, to): as if the node went from one place to the other, bones as they are. */
-void sweep(void* self, const Value* arguments, Value* result) {
+/* sweep(Skeleton or Spatial, from, to): as if the node went from one place to the other, bones as they are.
+ * Steps go on as if it had not been asked. */
+void body_sweep(void* self, const Value* arguments, Value* result) {
   Body* body = self;
   ft_pose from, to;
-  body->has_begun = false;
+  body->was_swept = true;
   result->integer = -1;
   if (!can_step(body, !body->is_of_file) || !read_pose(body, arguments[0].object, arguments[1].place, &body->from) ||
       !read_node(body, arguments[1].place) || !read_pose(body, arguments[0].object, arguments[2].place, &body->to))
@@ -83,7 +88,7 @@ void sweep(void* self, const Value* arguments, Value* result) {
 }
 
 /* After a teleport: the next step begins anew. */
-void restart(void* self, const Value* arguments, Value* result) {
+void body_restart(void* self, const Value* arguments, Value* result) {
   (void)arguments;
   (void)result;
   ((Body*)self)->has_begun = false;

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../native/core.h"
-#include "../native/godot4.h"
+#include "integrations/godot/native/core.h"
+#include "integrations/godot/native/godot4.h"
 
 static long held; /* texts and arrays that live */
 static int errors, registered;

@@ -17,7 +17,7 @@ export HOME=$folder LC_ALL=C.UTF-8 LD_LIBRARY_PATH=$library FORETOUCH_IMPORTER=$
 export FORETOUCH_EXAMPLES=$examples FORETOUCH_OUT=$folder
 
 cc_here() {  # cc_here OUTPUT ARGUMENTS...
-  cc -std=c99 -Wall -Wextra -Werror -O2 -I "$package/../../bindings/c/include" -o "$folder/$1" "${@:2}" -L "$library" -lforetouch -lm
+  cc -std=c99 -Wall -Wextra -Werror -O2 -I "$package/../.." -I "$package/../../bindings/c/include" -o "$folder/$1" "${@:2}" -L "$library" -lforetouch -lm
 }
 # What Godot prints of itself at every start is of the machine: no locale, no sound.
 godot() {  # godot PROJECT ARGUMENTS...
@@ -76,6 +76,21 @@ cmp "$folder/steps.bin" "$folder/c_steps.bin"
 cmp "$folder/ticks.bin" "$folder/c_ticks.bin"
 echo "$(wc -c <"$folder/steps.bin") and $(wc -c <"$folder/ticks.bin") bytes of the bundled clips: the same"
 "$folder/answers" own "$folder/own.bin"
+
+echo "== the demo"
+cp -r "$package/demo" "$folder/demo"
+cp -r "$project/addons" "$folder/demo/"
+godot "$folder/demo" --fixed-fps 60
+for words in 'touches Bar3' 'leaves Bar3' 'touches Button' 'the button is pressed' 'touches Door' 'the door is open by [3-9][0-9] degrees'; do
+  grep -q "$words" "$folder/said.txt" || { echo "expected '$words', found:"; cat "$folder/said.txt"; exit 1; }
+done
+grep 'the door is open' "$folder/said.txt"
+
+echo "== the script of the README"
+awk '/^```gdscript/ { on = 1; next } /^```/ { on = 0 } on' "$package/README.md" >"$project/try.gd"
+must "$project" try.gd
+grep -qxF "$(sed -n 's/.*# prints: //p' "$project/try.gd")" "$folder/said.txt" ||
+  { echo "expected what the README says, found:"; cat "$folder/said.txt"; exit 1; }
 
 echo "== the entry for Godot 4, in a host of our own"
 cc_here godot4_host "$here/godot4_host.c" -ldl

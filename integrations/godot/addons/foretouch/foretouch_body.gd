@@ -22,16 +22,18 @@ func restart() -> void:
 
 
 # What the body meets if its node goes from one place in the world to another, turning at a constant rate on
-# the shorter arc, with its bones as they are now. Moves nothing. null: it is proven to touch nothing, or
-# something is wrong (`problem`). Else a touch, as above, and `place`: where the node is then.
+# the shorter arc, with its bones as they are now. Moves nothing. null: it is proven to touch nothing. Else a
+# touch, as above, and `place`: where the node is then. Where something is wrong (`problem`), nothing is known:
+# the touch is `undecided`, at `from`.
 func rotate_and_collide(from: Transform, to: Transform):
 	if not _is_ready():
-		return null
+		return _unknown(from)
 	var count: int = body.sweep(_moved if is_instance_valid(_moved) else null, from, to)
+	if count == 0:
+		return null
 	if count < 0:
 		_stop(body.error())
-	if count <= 0:
-		return null
+		return _unknown(from)
 	var touch := _touch(0)
 	touch.place = body.place_of_node_at(touch.share)
 	return touch
@@ -62,6 +64,13 @@ func _touch(i: int) -> Dictionary:
 		joint = body.joint_name(body.contact_joint(i)), object = _object_name(object), node = _scene.node_of(object),
 		share = body.contact_share(i), starts_inside = verdict == 2, undecided = verdict == 3,
 		point = body.contact_point(i), normal = body.contact_normal(i)
+	}
+
+
+func _unknown(at: Transform) -> Dictionary:
+	return {
+		joint = "", object = "", node = null, share = 0.0, starts_inside = false, undecided = true, point = at.origin, normal = Vector3(),
+		place = at
 	}
 
 
