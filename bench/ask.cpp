@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include <fmt/format.h>
-
 #include "articulated/try.h"
 #include "bench/ask/player_shots.h"
 #include "bench/ask/ray_crowd.h"
@@ -19,15 +17,6 @@ namespace {
 bool isAsked(const AskBenchRequest& request, const std::string& part) {
   const auto& parts = request.parts;
   return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end();
-}
-
-std::string namesOf(const WorldCast& cast) {
-  std::string names;
-  for (const SolidActor& actor : cast.actors) {
-    names += fmt::format("{}{} ({} links)", names.empty() ? "" : ", ", actor.name,
-                         actor.avatar.numLinks());
-  }
-  return names;
 }
 
 }  // namespace

@@ -26,15 +26,6 @@ using PartTable = std::function<BenchTable()>;
 /// The judge looks at each triangle of a ring.
 constexpr int kCapsulesPerRing = 10;
 
-std::string namesOf(const WorldCast& cast) {
-  std::string names;
-  for (const SolidActor& actor : cast.actors) {
-    names += fmt::format("{}{} ({} links)", names.empty() ? "" : ", ", actor.name,
-                         actor.avatar.numLinks());
-  }
-  return names;
-}
-
 }  // namespace
 
 Result<WorldBench> measureWorld(const WorldBenchRequest& request) {

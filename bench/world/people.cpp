@@ -3,6 +3,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "tools/inputs/example_folder.h"
@@ -27,6 +29,15 @@ bool isFile(const std::string& path) {
 }
 
 }  // namespace
+
+std::string namesOf(const WorldCast& cast) {
+  std::string names;
+  for (const SolidActor& actor : cast.actors) {
+    names += fmt::format("{}{} ({} links)", names.empty() ? "" : ", ", actor.name,
+                         actor.avatar.numLinks());
+  }
+  return names;
+}
 
 Result<WorldCast> loadWorldCast(const std::string& dataFolder,
                                 const std::vector<std::string>& clips) {

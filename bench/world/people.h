@@ -19,6 +19,9 @@ struct WorldCast {
 [[nodiscard]] Result<WorldCast> loadWorldCast(const std::string& dataFolder,
                                               const std::vector<std::string>& clips);
 
+/// "walk (22 links), jump (22 links)".
+[[nodiscard]] std::string namesOf(const WorldCast& cast);
+
 /// A clip's poses at a rate, about the origin; shared by all people who go through it.
 struct ClipPoses {
   const SolidActor* actor = nullptr;

@@ -111,10 +111,11 @@ void PersonStream::follow(const StreamStep& step) {
   } else {
     // What was waited for does not come.
     if (model_ == MotionModel::CubicLate && numKept_ > 1) sayStep(step, 0);
-    if (step.kind == StepKind::AcrossGap && numKept_ > 0) sayGap(step);
-    numKept_ = 0;
-    notBeforeUs_.clear();
     keep(step);
+    if (step.kind == StepKind::AcrossGap && numKept_ > 1) sayGap(step);
+    std::swap(kept_[0], kept_[(numKept_ - 1) % kept_.size()]);
+    numKept_ = 1;
+    notBeforeUs_.clear();
     if (step.kind == StepKind::First) begin(step);
   }
   if (numSaid_ == 0) begin(step);
@@ -143,6 +144,17 @@ PersonMessage& PersonStream::begin(const StreamStep& step) {
   message.bracketsLeftOut = 0;
   message.broken.clear();
   message.personUs = 0.0;
+  return message;
+}
+
+PersonMessage& PersonStream::begin(const StreamStep& step, StepKind kind, const Kept& from,
+                                   const Kept& to) {
+  PersonMessage& message = begin(step);
+  message.kind = kind;
+  message.sequenceFrom = from.sequence;
+  message.sequenceTo = to.sequence;
+  message.utimeFromUs = from.utimeUs;
+  message.utimeToUs = to.utimeUs;
   return message;
 }
 
@@ -175,30 +187,18 @@ void PersonStream::sayStep(const StreamStep& step, int newer) {
   }
   const auto& bounds = claimed(rateOf(from.utimeUs, to.utimeUs, 1),
                                {&to, before == nullptr ? nullptr : &from, after});
-  PersonMessage& message = begin(step);
-  message.kind = StepKind::Consecutive;
-  message.sequenceFrom = from.sequence;
-  message.sequenceTo = to.sequence;
-  message.utimeFromUs = from.utimeUs;
-  message.utimeToUs = to.utimeUs;
+  PersonMessage& message = begin(step, StepKind::Consecutive, from, to);
   if (query_.answer(posed, model_, bounds, scratch_, brackets_).ok()) take(brackets_, message);
   message.personUs = std::chrono::duration<double, std::micro>(PersonClock::now() - start).count();
 }
 
 void PersonStream::sayGap(const StreamStep& step) {
   const PersonClock::time_point start = PersonClock::now();
-  const Kept from = *back(0);
-  keep(step);
-  const Kept& to = *back(0);
+  const Kept &from = *back(1), &to = *back(0);
   const PosedStep posed = between(from, to);
   const auto& bounds = claimed(rateOf(from.utimeUs, to.utimeUs, stepsAcross(step)), {&to});
-  checkGap(step, bounds);
-  PersonMessage& message = begin(step);
-  message.kind = StepKind::AcrossGap;
-  message.sequenceFrom = from.sequence;
-  message.sequenceTo = to.sequence;
-  message.utimeFromUs = from.utimeUs;
-  message.utimeToUs = to.utimeUs;
+  checkGap(posed, bounds);
+  PersonMessage& message = begin(step, StepKind::AcrossGap, from, to);
   if (query_.answerGap(posed, bounds, scratch_, brackets_).ok()) take(brackets_, message);
   message.personUs = std::chrono::duration<double, std::micro>(PersonClock::now() - start).count();
 }
@@ -296,14 +296,13 @@ void PersonStream::checkAhead(const StreamStep& step) {
 }
 
 /// Whether the person can have come so far.
-void PersonStream::checkGap(const StreamStep& step, const std::vector<LinkBound>& bounds) {
-  const double seconds = static_cast<double>(step.utimeToUs - step.utimeFromUs) / kPersonUsPerS;
+void PersonStream::checkGap(const PosedStep& step, const std::vector<LinkBound>& bounds) {
   placer_.place(*step.from, one_);
   placer_.place(*step.to, other_);
   placer_.differences(one_, other_, apart_);
   for (LinkId link = 0; link < query_.avatar().numLinks(); ++link) {
     const LinkBound& bound = bounds[slotOf(link)];
-    const double most = 2.0 * bound.error + seconds * bound.speed;
+    const double most = 2.0 * bound.error + step.seconds * bound.speed;
     addBroken(BrokenBound::Claim::InGap, link, apart_[slotOf(link)] - most);
   }
 }

@@ -77,13 +77,14 @@ class PersonStream {
   [[nodiscard]] const Kept* back(int i) const;
   const std::vector<LinkBound>& claimed(double rateHz, std::initializer_list<const Kept*> ends);
   PersonMessage& begin(const StreamStep& step);
+  PersonMessage& begin(const StreamStep& step, StepKind kind, const Kept& from, const Kept& to);
   void sayStep(const StreamStep& step, int newer);
   void sayGap(const StreamStep& step);
   void take(const StepBrackets& brackets, PersonMessage& message) const;
   void lookAhead(PersonMessage& message);
   void lower(const LinkBracket& bracket, LinkId link, std::int64_t utimeUs);
   void checkAhead(const StreamStep& step);
-  void checkGap(const StreamStep& step, const std::vector<LinkBound>& bounds);
+  void checkGap(const PosedStep& step, const std::vector<LinkBound>& bounds);
   void addBroken(BrokenBound::Claim claim, LinkId link, double beyond);
 
   std::int32_t id_ = 0;

@@ -9,6 +9,8 @@
 namespace foretouch::tools {
 namespace {
 
+/// An error of 1 is the size of the mesh: the target alone decides.
+constexpr float kAnyError = 1.0f;
 constexpr std::size_t kVertexBytes = 3 * sizeof(float);
 
 using Indices = std::vector<std::uint32_t>;
@@ -119,19 +121,22 @@ Simplifier::Simplifier(const Corners& corners, std::size_t most) : mesh_(indexed
   if (trianglesGiven_ == 0) return;
   scaleM_ = static_cast<double>(
       meshopt_simplifyScale(mesh_.positions.data(), mesh_.vertices(), kVertexBytes));
-  if (trianglesGiven_ > most) mergeTo(most);
+  if (trianglesGiven_ > most) {
+    Simplified made = merged(most, {mesh_.indices, 0.0});
+    mesh_.indices = std::move(made.indices);
+    mergedM_ = made.errorM;
+  }
   if (hasEdges()) orient(mesh_.indices);
 }
 
-void Simplifier::mergeTo(std::size_t target) {
-  constexpr float kAnyError = 1.0f;
+/// Vertices in one cell of a grid become one.
+Simplified Simplifier::merged(std::size_t target, const Simplified& made) const {
   float error = 0.0f;
-  Indices kept(mesh_.indices.size());
-  kept.resize(meshopt_simplifySloppy(kept.data(), mesh_.indices.data(), mesh_.indices.size(),
+  Indices kept(made.indices.size());
+  kept.resize(meshopt_simplifySloppy(kept.data(), made.indices.data(), made.indices.size(),
                                      mesh_.positions.data(), mesh_.vertices(), kVertexBytes,
                                      3 * target, kAnyError, &error));
-  mesh_.indices = std::move(kept);
-  mergedM_ = scaleM_ * static_cast<double>(error);
+  return {std::move(kept), made.errorM + scaleM_ * static_cast<double>(error)};
 }
 
 bool Simplifier::hasEdges() const {
@@ -144,17 +149,10 @@ Simplified Simplifier::within(double errorM) const {
 }
 
 Simplified Simplifier::downTo(std::size_t target) const {
-  // An error of 1 is the size of the mesh: the target alone decides.
-  constexpr float kAnyError = 1.0f;
   Simplified made = hasEdges() ? collapsed(target, kAnyError) : Simplified{mesh_.indices, mergedM_};
   // Edges collapse in bunches: a little more than the target is good enough.
   if (made.triangles() <= target + target / 20) return made;
-  float error = 0.0f;
-  std::vector<std::uint32_t> kept(made.indices.size());
-  kept.resize(meshopt_simplifySloppy(kept.data(), made.indices.data(), made.indices.size(),
-                                     mesh_.positions.data(), mesh_.vertices(), kVertexBytes,
-                                     3 * target, kAnyError, &error));
-  return {std::move(kept), made.errorM + scaleM_ * static_cast<double>(error)};
+  return merged(target, made);
 }
 
 Simplified Simplifier::collapsed(std::size_t target, float error) const {

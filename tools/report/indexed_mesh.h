@@ -45,7 +45,7 @@ class Simplifier {
   [[nodiscard]] std::size_t triangles() const { return trianglesGiven_; }
 
  private:
-  void mergeTo(std::size_t target);
+  [[nodiscard]] Simplified merged(std::size_t target, const Simplified& made) const;
   [[nodiscard]] bool hasEdges() const;
   [[nodiscard]] Simplified collapsed(std::size_t target, float error) const;
 
