@@ -2,11 +2,12 @@
 #include <cstddef>
 #include <foretouch/contacts_t.hpp>
 #include <optional>
-#include <utility>
+#include <tuple>
 
 #include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
+#include "network/wire/wire_fields.h"
 
 namespace foretouch {
 namespace {
@@ -19,8 +20,52 @@ static_assert(static_cast<int>(StepKind::Consecutive) == contacts_t::CONSECUTIVE
 static_assert(static_cast<int>(StepKind::First) == contacts_t::FIRST);
 static_assert(static_cast<int>(StepKind::AcrossGap) == contacts_t::ACROSS_GAP);
 constexpr auto kLastVerdict = static_cast<std::uint8_t>(Verdict::Undecided);
-constexpr auto kLastFeature = static_cast<std::uint8_t>(FeatureKind::Face);
-constexpr auto kLastKind = static_cast<std::int8_t>(StepKind::AcrossGap);
+constexpr int kNumFeatures = static_cast<int>(FeatureKind::Face) + 1;
+
+using wire::field;
+using wire::in;
+
+constexpr auto kContactsHead = std::make_tuple(
+    field(&ContactsMessage::avatar, &contacts_t::avatar, wire::kAny),
+    field(&ContactsMessage::session, &contacts_t::session, wire::kWhole),
+    field(&ContactsMessage::sequenceFrom, &contacts_t::sequence_from, wire::kWhole),
+    field(&ContactsMessage::sequenceTo, &contacts_t::sequence_to, wire::kWhole),
+    field(&ContactsMessage::utimeFromUs, &contacts_t::utime_from, wire::kWhole),
+    field(&ContactsMessage::utimeToUs, &contacts_t::utime_to, wire::kWhole),
+    field(&ContactsMessage::skeletonHash, &contacts_t::skeleton_hash, wire::kAny),
+    field(&ContactsMessage::kind, &contacts_t::kind, wire::codeBelow(kNumStepKinds)),
+    field(&ContactsMessage::lost, &contacts_t::lost, wire::kWhole),
+    field(&ContactsMessage::tolerance, &contacts_t::tolerance, wire::kNotNegative),
+    field(&ContactsMessage::workBudget, &contacts_t::work_budget, wire::kWhole),
+    field(&ContactsMessage::receiveUtimeUs, &contacts_t::receive_utime, wire::kWhole),
+    field(&ContactsMessage::sendUtimeUs, &contacts_t::send_utime, wire::kWhole),
+    field(&ContactsMessage::queryUs, &contacts_t::query_us, wire::kNotNegative));
+
+template <typename Member>
+constexpr auto ofContact(Member member) {
+  return in(&AnsweredContact::contact, member);
+}
+constexpr auto kContact = std::make_tuple(
+    field(ofContact(&LinkContact::link), &contacts_t::links, wire::indexFrom(0)),
+    field(&AnsweredContact::linkName, &contacts_t::link_names, wire::kJointName),
+    field(ofContact(&LinkContact::reason), &contacts_t::reasons,
+          wire::codeBelow(kNumUndecidedReasons)),
+    field(ofContact(&LinkContact::freeUntil), &contacts_t::free_until, wire::kFraction),
+    field(ofContact(&LinkContact::separation), &contacts_t::separation, wire::kNotNegative),
+    field(ofContact(&LinkContact::penetration), &contacts_t::penetration, wire::kNotNegative),
+    field(ofContact(&LinkContact::p_WScene), &contacts_t::point_x, &contacts_t::point_y,
+          &contacts_t::point_z, wire::kFinite),
+    field(ofContact(&LinkContact::p_WLink), &contacts_t::on_link_x, &contacts_t::on_link_y,
+          &contacts_t::on_link_z, wire::kFinite),
+    field(ofContact(&LinkContact::nhat_SL_W), &contacts_t::normal_x, &contacts_t::normal_y,
+          &contacts_t::normal_z, wire::kFinite),
+    field(ofContact(&LinkContact::triangle), &contacts_t::triangles, wire::Whole{-1}),
+    field(&AnsweredContact::objectName, &contacts_t::objects, wire::kAny),
+    field(ofContact(&LinkContact::linkTriangle), &contacts_t::link_triangles, wire::Whole{-1}),
+    field(ofContact(&LinkContact::linkFeature), &contacts_t::link_features,
+          wire::codeBelow(kNumFeatures)),
+    field(ofContact(&LinkContact::sceneFeature), &contacts_t::scene_features,
+          wire::codeBelow(kNumFeatures)));
 
 std::optional<Fidelity> fidelityOf(const std::string& word) {
   for (const Fidelity fidelity : {Fidelity::Link, Fidelity::Exact, Fidelity::Skinned}) {
@@ -30,32 +75,13 @@ std::optional<Fidelity> fidelityOf(const std::string& word) {
 }
 
 Reject readHead(const contacts_t& wire, ContactsMessage& message) {
-  if (!inRange({wire.session, wire.sequence_from, wire.sequence_to, wire.utime_from, wire.utime_to,
-                wire.lost, wire.work_budget, wire.receive_utime, wire.send_utime}) ||
-      wire.sequence_from > wire.sequence_to || wire.utime_from > wire.utime_to) {
-    return Reject::OutOfRange;
-  }
-  if (!allFinite({wire.tolerance, wire.query_us})) return Reject::NonFinite;
+  const Reject reject = wire::read(wire, kContactsHead, message);
   const auto fidelity = fidelityOf(wire.fidelity);
-  if (wire.kind < 0 || wire.kind > kLastKind || wire.tolerance < 0.0 || wire.query_us < 0.0 ||
-      !fidelity) {
+  if (reject != Reject::None) return reject;
+  if (wire.sequence_from > wire.sequence_to || wire.utime_from > wire.utime_to || !fidelity) {
     return Reject::OutOfRange;
   }
-  message.avatar = wire.avatar;
-  message.session = wire.session;
-  message.sequenceFrom = wire.sequence_from;
-  message.sequenceTo = wire.sequence_to;
-  message.utimeFromUs = wire.utime_from;
-  message.utimeToUs = wire.utime_to;
-  message.skeletonHash = wire.skeleton_hash;
-  message.kind = static_cast<StepKind>(wire.kind);
-  message.lost = wire.lost;
-  message.tolerance = wire.tolerance;
   message.fidelity = *fidelity;
-  message.workBudget = wire.work_budget;
-  message.receiveUtimeUs = wire.receive_utime;
-  message.sendUtimeUs = wire.send_utime;
-  message.queryUs = wire.query_us;
   return Reject::None;
 }
 
@@ -80,27 +106,6 @@ bool isNothing(const Eigen::Vector3d& vector) {
   return isNothing(vector.x()) && isNothing(vector.y()) && isNothing(vector.z());
 }
 
-Reject checkCodes(const contacts_t& wire, std::size_t i, Verdict verdict) {
-  const bool undecided = verdict == Verdict::Undecided;
-  if (wire.reasons[i] >= kNumUndecidedReasons || (wire.reasons[i] != 0) != undecided ||
-      wire.link_features[i] > kLastFeature || wire.scene_features[i] > kLastFeature ||
-      wire.triangles[i] < -1 || wire.link_triangles[i] < -1) {
-    return Reject::OutOfRange;
-  }
-  return nameProblem(wire.link_names[i]) ? Reject::BadName : Reject::None;
-}
-
-Reject checkNumbers(const LinkContact& contact) {
-  if (!allFinite({contact.freeUntil, contact.separation, contact.penetration}) ||
-      !contact.p_WScene.allFinite() || !contact.p_WLink.allFinite() ||
-      !contact.nhat_SL_W.allFinite()) {
-    return Reject::NonFinite;
-  }
-  const bool inside = contact.freeUntil >= 0.0 && contact.freeUntil <= 1.0 &&
-                      contact.separation >= 0.0 && contact.penetration >= 0.0;
-  return inside ? Reject::None : Reject::OutOfRange;
-}
-
 /// An undecided link has no contact to describe.
 bool describesNothing(const contacts_t& wire, std::size_t i, const LinkContact& contact) {
   return isNothing(contact.separation) && isNothing(contact.penetration) &&
@@ -109,123 +114,50 @@ bool describesNothing(const contacts_t& wire, std::size_t i, const LinkContact& 
          contact.linkTriangle == -1 && wire.link_features[i] == 0 && wire.scene_features[i] == 0;
 }
 
-Reject readContact(contacts_t& wire, std::size_t i, Verdict verdict, AnsweredContact& answered) {
-  Reject reject = checkCodes(wire, i, verdict);
-  if (reject != Reject::None) return reject;
-  LinkContact contact;
-  contact.link = wire.links[i];
-  contact.verdict = verdict;
-  contact.toi = contact.freeUntil = wire.free_until[i];
-  contact.separation = wire.separation[i];
-  contact.penetration = wire.penetration[i];
-  contact.triangle = wire.triangles[i];
-  contact.p_WScene = {wire.point_x[i], wire.point_y[i], wire.point_z[i]};
-  contact.p_WLink = {wire.on_link_x[i], wire.on_link_y[i], wire.on_link_z[i]};
-  contact.nhat_SL_W = {wire.normal_x[i], wire.normal_y[i], wire.normal_z[i]};
-  contact.linkTriangle = wire.link_triangles[i];
-  reject = checkNumbers(contact);
-  if (reject != Reject::None) return reject;
-  contact.reason = static_cast<UndecidedReason>(wire.reasons[i]);
-  if (verdict == Verdict::Undecided) {
-    if (!describesNothing(wire, i, contact)) return Reject::OutOfRange;
-  } else {
-    contact.linkFeature = static_cast<FeatureKind>(wire.link_features[i]);
-    contact.sceneFeature = static_cast<FeatureKind>(wire.scene_features[i]);
-  }
-  answered.contact = contact;
-  answered.linkName = wire.link_names[i];
-  answered.objectName = wire.objects[i];
-  return Reject::None;
+/// What the row itself does not say; and what may not be said of an undecided link.
+Reject settle(const contacts_t& wire, std::size_t i, LinkContact& contact) {
+  const bool isUndecided = contact.verdict == Verdict::Undecided;
+  if ((contact.reason != UndecidedReason::None) != isUndecided) return Reject::OutOfRange;
+  contact.toi = contact.freeUntil;
+  contact.lss = -1;  // does not travel
+  if (!isUndecided) return Reject::None;
+  const bool isBare = describesNothing(wire, i, contact);
+  contact.linkFeature = LinkContact{}.linkFeature;
+  contact.sceneFeature = LinkContact{}.sceneFeature;
+  return isBare ? Reject::None : Reject::OutOfRange;
 }
 
 /// Requires every link that is not clear once, and no other. Linear in links and contacts.
-Reject readContacts(contacts_t& wire, ContactsMessage& message) {
+Reject readContacts(const contacts_t& wire, ContactsMessage& message) {
   std::size_t notClear = 0;
   Reject reject = readVerdicts(wire, message.verdicts, notClear);
   if (reject != Reject::None) return reject;
-  const auto numContacts = static_cast<std::size_t>(wire.num_contacts);
   std::bitset<static_cast<std::size_t>(kMaxListed)> listed;
-  message.contacts.resize(numContacts);
-  for (std::size_t i = 0; i < numContacts; ++i) {
-    const std::int32_t link = wire.links[i];
-    if (link < 0 || link >= wire.num_links) return Reject::BadIndex;
-    const auto place = slotOf(link);
-    if (listed[place] || message.verdicts[place] == Verdict::Clear) return Reject::BadIndex;
+  const auto settleRow = [&](AnsweredContact& answered, std::size_t i) {
+    LinkContact& contact = answered.contact;
+    if (contact.link >= wire.num_links) return Reject::BadIndex;
+    const auto place = slotOf(contact.link);
+    contact.verdict = message.verdicts[place];
+    if (listed[place] || contact.verdict == Verdict::Clear) return Reject::BadIndex;
     listed.set(place);
-    reject = readContact(wire, i, message.verdicts[place], message.contacts[i]);
-    if (reject != Reject::None) return reject;
-  }
-  return numContacts == notClear ? Reject::None : Reject::BadIndex;
+    return settle(wire, i, contact);
+  };
+  reject = wire::readRows(wire, kContact, &contacts_t::num_contacts, message.contacts, settleRow);
+  if (reject != Reject::None) return reject;
+  return message.contacts.size() == notClear ? Reject::None : Reject::BadIndex;
 }
 
-void writeHead(const ContactsMessage& message, contacts_t& wire) {
-  wire.version = kMessageVersion;
-  wire.avatar = message.avatar;
-  wire.session = message.session;
-  wire.sequence_from = message.sequenceFrom;
-  wire.sequence_to = message.sequenceTo;
-  wire.utime_from = message.utimeFromUs;
-  wire.utime_to = message.utimeToUs;
-  wire.skeleton_hash = message.skeletonHash;
-  wire.kind = static_cast<std::int8_t>(message.kind);
-  wire.lost = message.lost;
-  wire.tolerance = message.tolerance;
-  wire.fidelity = toString(message.fidelity);
-  wire.work_budget = message.workBudget;
-  wire.receive_utime = message.receiveUtimeUs;
-  wire.send_utime = message.sendUtimeUs;
-  wire.query_us = message.queryUs;
-}
-
-void resizeContacts(std::size_t n, contacts_t& wire) {
-  wire.num_contacts = static_cast<std::int32_t>(n);
-  for (auto* const part : {&wire.links, &wire.triangles, &wire.link_triangles}) part->resize(n);
-  for (auto* const part : {&wire.link_names, &wire.objects}) part->resize(n);
-  for (auto* const part : {&wire.reasons, &wire.link_features, &wire.scene_features}) {
-    part->resize(n);
-  }
-  for (auto* const part : {&wire.free_until, &wire.separation, &wire.penetration, &wire.point_x,
-                           &wire.point_y, &wire.point_z, &wire.on_link_x, &wire.on_link_y,
-                           &wire.on_link_z, &wire.normal_x, &wire.normal_y, &wire.normal_z}) {
-    part->resize(n);
-  }
-}
-
-void writeContact(const AnsweredContact& answered, std::size_t i, contacts_t& wire) {
-  const LinkContact& contact = answered.contact;
-  // Without a contact, its fields are 0, -1 or "".
-  const bool described = contact.verdict != Verdict::Undecided;
-  const Eigen::Vector3d nothing = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d& point = described ? contact.p_WScene : nothing;
-  const Eigen::Vector3d& onLink = described ? contact.p_WLink : nothing;
-  const Eigen::Vector3d& normal = described ? contact.nhat_SL_W : nothing;
-  wire.links[i] = contact.link;
-  wire.link_names[i] = answered.linkName;
-  wire.reasons[i] = static_cast<std::uint8_t>(contact.reason);
-  wire.free_until[i] = contact.freeUntil;
-  wire.separation[i] = described ? contact.separation : 0.0;
-  wire.penetration[i] = described ? contact.penetration : 0.0;
-  wire.point_x[i] = point.x();
-  wire.point_y[i] = point.y();
-  wire.point_z[i] = point.z();
-  wire.on_link_x[i] = onLink.x();
-  wire.on_link_y[i] = onLink.y();
-  wire.on_link_z[i] = onLink.z();
-  wire.normal_x[i] = normal.x();
-  wire.normal_y[i] = normal.y();
-  wire.normal_z[i] = normal.z();
-  wire.triangles[i] = described ? contact.triangle : -1;
-  wire.objects[i].clear();
-  if (described) wire.objects[i] = answered.objectName;
-  wire.link_triangles[i] = described ? contact.linkTriangle : -1;
-  wire.link_features[i] = described ? static_cast<std::uint8_t>(contact.linkFeature) : 0;
-  wire.scene_features[i] = described ? static_cast<std::uint8_t>(contact.sceneFeature) : 0;
-}
-
-/// Keeps its memory: every pose has an answer.
-contacts_t& scratch() {
-  static thread_local contacts_t wire;
-  return wire;
+/// Without a contact, its fields are 0, -1 or "".
+AnsweredContact bare(const AnsweredContact& answered) {
+  AnsweredContact row{{}, answered.linkName, {}};
+  row.contact.link = answered.contact.link;
+  row.contact.reason = answered.contact.reason;
+  row.contact.freeUntil = answered.contact.freeUntil;
+  row.contact.separation = row.contact.penetration = 0.0;
+  row.contact.p_WScene = row.contact.p_WLink = row.contact.nhat_SL_W = Eigen::Vector3d::Zero();
+  row.contact.triangle = row.contact.linkTriangle = -1;
+  row.contact.linkFeature = row.contact.sceneFeature = FeatureKind{};
+  return row;
 }
 
 /// Of receive_utime, send_utime and query_us; in a solid_t solid_us.
@@ -234,7 +166,7 @@ constexpr std::size_t kStampBytes = 2 * sizeof(std::int64_t) + sizeof(double);
 }  // namespace
 
 Reject decode(ByteView payload, ContactsMessage& message) {
-  contacts_t& wire = scratch();
+  auto& wire = wire::scratch<contacts_t>();
   Reject reject = fromBytes(PayloadType::Contacts, payload, wire);
   if (reject == Reject::None) reject = readHead(wire, message);
   if (reject == Reject::None) reject = readContacts(wire, message);
@@ -242,16 +174,19 @@ Reject decode(ByteView payload, ContactsMessage& message) {
 }
 
 void encode(const ContactsMessage& message, Bytes& payload) {
-  contacts_t& wire = scratch();
-  writeHead(message, wire);
+  auto& wire = wire::scratch<contacts_t>();
+  wire::write(message, kContactsHead, wire);
+  wire.fidelity = toString(message.fidelity);
   wire.num_links = static_cast<std::int32_t>(message.verdicts.size());
   wire.verdicts.resize(message.verdicts.size());
   for (std::size_t i = 0; i < message.verdicts.size(); ++i) {
     wire.verdicts[i] = static_cast<std::uint8_t>(message.verdicts[i]);
   }
-  resizeContacts(message.contacts.size(), wire);
+  wire::resize(message.contacts.size(), kContact, &contacts_t::num_contacts, wire);
   for (std::size_t i = 0; i < message.contacts.size(); ++i) {
-    writeContact(message.contacts[i], i, wire);
+    const AnsweredContact& answered = message.contacts[i];
+    const bool isUndecided = answered.contact.verdict == Verdict::Undecided;
+    wire::write(isUndecided ? bare(answered) : answered, kContact, wire, i);
   }
   toBytes(PayloadType::Contacts, wire, payload);
 }

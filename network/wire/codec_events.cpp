@@ -1,11 +1,12 @@
 #include <cmath>
 #include <foretouch/events_t.hpp>
-#include <initializer_list>
 #include <limits>
+#include <tuple>
 
 #include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
+#include "network/wire/wire_fields.h"
 #include "network/wire/world_messages.h"
 
 namespace foretouch {
@@ -29,104 +30,95 @@ static_assert(kMaxToldBodies * 13 + kMaxToldUnknown * 25 + kMaxToldEvents * 217 
 /// In messages: neither side weighs anything.
 constexpr double kNoMass = -1.0;
 
-using Vector = Eigen::Vector3d;
+using wire::field;
+using wire::in;
+using wire::indexFrom;
 
-Reject readHead(const events_t& wire, EventsMessage& message) {
-  if (!inRange({wire.timeline, wire.sequence, wire.receive_utime, wire.send_utime}) ||
-      !inRange({wire.window_from, wire.window_to}) || wire.window_from > wire.window_to) {
-    return Reject::OutOfRange;
-  }
-  if (!allFinite({wire.tolerance, wire.world_us})) return Reject::NonFinite;
-  if (wire.tolerance < 0.0 || wire.world_us < 0.0 || (wire.more != 0 && wire.more != 1)) {
-    return Reject::OutOfRange;
-  }
-  if (countOf(wire.num_events) > kMaxToldEvents) return Reject::Limit;
-  message.timeline = wire.timeline;
-  message.sequence = wire.sequence;
-  message.fromUs = wire.window_from;
-  message.toUs = wire.window_to;
-  message.hasMore = wire.more != 0;
-  message.tolerance = wire.tolerance;
-  message.receiveUtimeUs = wire.receive_utime;
-  message.sendUtimeUs = wire.send_utime;
-  message.worldUs = wire.world_us;
-  return Reject::None;
+constexpr auto kEventsHead =
+    std::make_tuple(field(&EventsMessage::timeline, &events_t::timeline, wire::kWhole),
+                    field(&EventsMessage::sequence, &events_t::sequence, wire::kWhole),
+                    field(&EventsMessage::fromUs, &events_t::window_from, wire::kWhole),
+                    field(&EventsMessage::toUs, &events_t::window_to, wire::kWhole),
+                    field(&EventsMessage::hasMore, &events_t::more, wire::kFlag),
+                    field(&EventsMessage::tolerance, &events_t::tolerance, wire::kNotNegative),
+                    field(&EventsMessage::receiveUtimeUs, &events_t::receive_utime, wire::kWhole),
+                    field(&EventsMessage::sendUtimeUs, &events_t::send_utime, wire::kWhole),
+                    field(&EventsMessage::worldUs, &events_t::world_us, wire::kNotNegative));
+
+constexpr auto kToldBody =
+    std::make_tuple(field(&ToldBody::body, &events_t::bodies, indexFrom(0)),
+                    field(&ToldBody::knownUntilUs, &events_t::known_until, wire::Whole{-1}),
+                    field(&ToldBody::isWaitedFor, &events_t::waiting, wire::kFlag));
+
+constexpr auto kUnknownPart = std::make_tuple(
+    field(&UnknownPart::body, &events_t::unknown_bodies, indexFrom(kEveryBody)),
+    field(&UnknownPart::link, &events_t::unknown_links, indexFrom(kEveryLink, kMaxJoints - 1)),
+    field(&UnknownPart::reason, &events_t::unknown_reasons,
+          wire::Whole{1, kNumUndecidedReasons - 1}),
+    field(&UnknownPart::fromUs, &events_t::unknown_from, wire::kWhole),
+    field(&UnknownPart::toUs, &events_t::unknown_to, wire::kWhole));
+
+/// In [0, 1).
+constexpr wire::Real kPartOfMicrosecond{0.0, 0x1.fffffffffffffp-1};
+template <typename Member>
+constexpr auto ofEvent(Member member) {
+  return in(&ToldEvent::event, member);
 }
-
-Reject readBodies(const events_t& wire, EventsMessage& message) {
-  message.bodies.resize(countOf(wire.num_bodies));
-  for (std::size_t i = 0; i < message.bodies.size(); ++i) {
-    ToldBody& told = message.bodies[i];
-    told = {wire.bodies[i], wire.known_until[i], wire.waiting[i] != 0};
-    if (told.body < 0 || (i > 0 && told.body <= message.bodies[i - 1].body)) {
-      return Reject::BadIndex;
-    }
-    if (told.knownUntilUs < -1 || told.knownUntilUs > kMaxWireInteger || wire.waiting[i] > 1) {
-      return Reject::OutOfRange;
-    }
-  }
-  return Reject::None;
+template <typename Member>
+constexpr auto ofA(Member member) {
+  return in(ofEvent(&WorldEvent::a), member);
 }
-
-Reject readUnknown(const events_t& wire, EventsMessage& message) {
-  message.unknown.resize(countOf(wire.num_unknown));
-  for (std::size_t i = 0; i < message.unknown.size(); ++i) {
-    const std::int64_t from = wire.unknown_from[i], to = wire.unknown_to[i];
-    if (wire.unknown_bodies[i] < kEveryBody || wire.unknown_links[i] < kEveryLink ||
-        wire.unknown_links[i] >= kMaxJoints) {
-      return Reject::BadIndex;
-    }
-    const std::uint8_t reason = wire.unknown_reasons[i];
-    if (reason == 0 || reason >= kNumUndecidedReasons || from < wire.window_from || from > to ||
-        to > wire.window_to) {
-      return Reject::OutOfRange;
-    }
-    message.unknown[i] = {wire.unknown_bodies[i], wire.unknown_links[i],
-                          static_cast<UndecidedReason>(reason), from, to};
-  }
-  return Reject::None;
+template <typename Member>
+constexpr auto ofB(Member member) {
+  return in(ofEvent(&WorldEvent::b), member);
 }
+constexpr auto kEvent = std::make_tuple(
+    field(ofEvent(&WorldEvent::kind), &events_t::kinds, wire::codeBelow(kNumEventKinds)),
+    field(&ToldEvent::cause, &events_t::causes, wire::codeBelow(kNumToldCauses)),
+    field(ofEvent(&WorldEvent::reason), &events_t::reasons, wire::codeBelow(kNumUndecidedReasons)),
+    field(ofEvent(&WorldEvent::isAssumed), &events_t::marks, wire::kFlag),
+    field(in(ofEvent(&WorldEvent::time), &WorldTime::us), &events_t::utime, wire::kWhole),
+    field(in(ofEvent(&WorldEvent::time), &WorldTime::fraction), &events_t::fraction,
+          kPartOfMicrosecond),
+    field(in(ofEvent(&WorldEvent::since), &WorldTime::us), &events_t::since_utime, wire::kWhole),
+    field(in(ofEvent(&WorldEvent::since), &WorldTime::fraction), &events_t::since_fraction,
+          kPartOfMicrosecond),
+    field(ofA(&ContactSide::body), &events_t::body_a, indexFrom(kEveryBody)),
+    field(ofA(&ContactSide::link), &events_t::link_a, indexFrom(kEveryLink, kMaxJoints - 1)),
+    field(ofA(&ContactSide::lss), &events_t::lss_a, indexFrom(-1)),
+    field(ofA(&ContactSide::triangle), &events_t::triangle_a, indexFrom(-1)),
+    field(ofA(&ContactSide::p_W), &events_t::point_a_x, &events_t::point_a_y, &events_t::point_a_z,
+          wire::kFinite),
+    field(ofB(&ContactSide::body), &events_t::body_b, indexFrom(kEveryBody)),
+    field(ofB(&ContactSide::link), &events_t::link_b, indexFrom(kEveryLink, kMaxJoints - 1)),
+    field(ofB(&ContactSide::lss), &events_t::lss_b, indexFrom(-1)),
+    field(ofB(&ContactSide::triangle), &events_t::triangle_b, indexFrom(-1)),
+    field(ofB(&ContactSide::p_W), &events_t::point_b_x, &events_t::point_b_y, &events_t::point_b_z,
+          wire::kFinite),
+    field(ofEvent(&WorldEvent::object), &events_t::object, indexFrom(-1)),
+    field(ofEvent(&WorldEvent::nhat_BA_W), &events_t::normal_x, &events_t::normal_y,
+          &events_t::normal_z, wire::kUnit),
+    field(ofEvent(&WorldEvent::separation), &events_t::separation, wire::kFinite),
+    field(ofEvent(&WorldEvent::penetration), &events_t::penetration, wire::kFinite),
+    field(ofEvent(&WorldEvent::velocity_W), &events_t::velocity_x, &events_t::velocity_y,
+          &events_t::velocity_z, wire::kFinite),
+    field(ofEvent(&WorldEvent::approachSpeed), &events_t::approach, wire::kFinite),
+    field(ofEvent(&WorldEvent::approachLower), &events_t::approach_lower, wire::kFinite),
+    field(ofEvent(&WorldEvent::approachUpper), &events_t::approach_upper, wire::kFinite),
+    field(ofEvent(&WorldEvent::effectiveMass), &events_t::effective_mass, wire::kFinite),
+    field(ofEvent(&WorldEvent::numPoints), &events_t::numbers_of_points,
+          wire::Whole{0, kMostPoints, Reject::Limit}));
 
-bool isSide(const ContactSide& side) {
-  return side.body >= kEveryBody && side.link >= kEveryLink && side.link < kMaxJoints &&
-         side.lss >= -1 && side.triangle >= -1;
-}
+constexpr auto kPoint =
+    std::make_tuple(field(&EventPoint::p_WA, &events_t::near_a_x, &events_t::near_a_y,
+                          &events_t::near_a_z, wire::kFinite),
+                    field(&EventPoint::p_WB, &events_t::near_b_x, &events_t::near_b_y,
+                          &events_t::near_b_z, wire::kFinite),
+                    field(&EventPoint::separation, &events_t::near_separation, wire::kFinite));
 
-Reject readSides(const events_t& wire, std::size_t i, WorldEvent& event) {
-  event.a = {wire.body_a[i], wire.link_a[i], wire.lss_a[i], wire.triangle_a[i],
-             Vector(wire.point_a_x[i], wire.point_a_y[i], wire.point_a_z[i])};
-  event.b = {wire.body_b[i], wire.link_b[i], wire.lss_b[i], wire.triangle_b[i],
-             Vector(wire.point_b_x[i], wire.point_b_y[i], wire.point_b_z[i])};
-  event.object = wire.object[i];
-  return isSide(event.a) && isSide(event.b) && event.object >= -1 ? Reject::None : Reject::BadIndex;
-}
-
-Reject readNumbers(const events_t& wire, std::size_t i, WorldEvent& event) {
-  event.nhat_BA_W = {wire.normal_x[i], wire.normal_y[i], wire.normal_z[i]};
-  event.velocity_W = {wire.velocity_x[i], wire.velocity_y[i], wire.velocity_z[i]};
-  event.separation = wire.separation[i];
-  event.penetration = wire.penetration[i];
-  event.approachSpeed = wire.approach[i];
-  event.approachLower = wire.approach_lower[i];
-  event.approachUpper = wire.approach_upper[i];
-  event.effectiveMass = wire.effective_mass[i];
-  if (!event.nhat_BA_W.allFinite() || !event.velocity_W.allFinite() || !event.a.p_W.allFinite() ||
-      !event.b.p_W.allFinite() ||
-      !allFinite({event.separation, event.penetration, event.approachSpeed, event.approachLower,
-                  event.approachUpper, event.effectiveMass})) {
-    return Reject::NonFinite;
-  }
-  constexpr double kMostNormal = 1.0 + 1e-6;
-  if (event.nhat_BA_W.norm() > kMostNormal ||
-      (event.effectiveMass < 0.0 && event.effectiveMass != kNoMass)) {
-    return Reject::OutOfRange;
-  }
-  if (event.effectiveMass < 0.0) event.effectiveMass = std::numeric_limits<double>::infinity();
-  return Reject::None;
-}
-
-bool isTime(std::int64_t us, double fraction) {
-  return us >= 0 && us <= kMaxWireInteger && fraction >= 0.0 && fraction < 1.0;
+Reject checkHead(const events_t& wire) {
+  if (wire.window_from > wire.window_to) return Reject::OutOfRange;
+  return countOf(wire.num_events) <= kMaxToldEvents ? Reject::None : Reject::Limit;
 }
 
 /// Readers of before LeaveCause::Moved know three causes, and refuse others. They look at the
@@ -142,211 +134,90 @@ UndecidedReason wireReasonOf(const ToldEvent& told) {
   return isMoved && isTornApart(told, kReasonOfMoved) ? kReasonOfMoved : told.event.reason;
 }
 
-Reject readWhen(const events_t& wire, std::size_t i, ToldEvent& told) {
-  if (!allFinite({wire.fraction[i], wire.since_fraction[i]})) return Reject::NonFinite;
-  if (wire.kinds[i] >= kNumEventKinds || wire.causes[i] >= kNumToldCauses ||
-      wire.reasons[i] >= kNumUndecidedReasons || wire.marks[i] > 1 ||
-      !isTime(wire.utime[i], wire.fraction[i]) ||
-      !isTime(wire.since_utime[i], wire.since_fraction[i])) {
-    return Reject::OutOfRange;
+/// From what messages say to what the kernel does.
+Reject settle(ToldEvent& told) {
+  WorldEvent& event = told.event;
+  event.cause = told.cause == ToldCause::NotAsked ? LeaveCause::NotAsked : LeaveCause::Apart;
+  if (isTornApart(told, event.reason)) {
+    event.cause = LeaveCause::Moved;
+    event.reason = UndecidedReason::None;
   }
-  told.event.kind = static_cast<EventKind>(wire.kinds[i]);
-  told.cause = static_cast<ToldCause>(wire.causes[i]);
-  told.event.cause = told.cause == ToldCause::NotAsked ? LeaveCause::NotAsked : LeaveCause::Apart;
-  told.event.reason = static_cast<UndecidedReason>(wire.reasons[i]);
-  if (isTornApart(told, told.event.reason)) {
-    told.event.cause = LeaveCause::Moved;
-    told.event.reason = UndecidedReason::None;
-  }
-  told.event.isAssumed = wire.marks[i] != 0;
-  told.event.time = {wire.utime[i], wire.fraction[i]};
-  told.event.since = {wire.since_utime[i], wire.since_fraction[i]};
+  if (event.effectiveMass >= 0.0) return Reject::None;
+  if (event.effectiveMass != kNoMass) return Reject::OutOfRange;
+  event.effectiveMass = std::numeric_limits<double>::infinity();
   return Reject::None;
 }
 
 /// `point`: the first of the event's own, then of the next one's.
-Reject readPoints(const events_t& wire, std::size_t i, std::size_t& point, WorldEvent& event) {
+Reject readPoints(const events_t& wire, std::size_t& point, WorldEvent& event) {
   event.points = {};
-  event.numPoints = wire.numbers_of_points[i];
-  if (event.numPoints > kMostPoints) return Reject::Limit;
   if (point + event.numPoints > countOf(wire.num_points)) return Reject::BadIndex;
   for (std::size_t k = 0; k < event.numPoints; ++k, ++point) {
-    EventPoint& told = event.points[k];
-    told.p_WA = {wire.near_a_x[point], wire.near_a_y[point], wire.near_a_z[point]};
-    told.p_WB = {wire.near_b_x[point], wire.near_b_y[point], wire.near_b_z[point]};
-    told.separation = wire.near_separation[point];
-    if (!told.p_WA.allFinite() || !told.p_WB.allFinite() || !std::isfinite(told.separation)) {
-      return Reject::NonFinite;
-    }
+    const Reject reject = wire::read(wire, kPoint, event.points[k], point);
+    if (reject != Reject::None) return reject;
   }
   return Reject::None;
 }
 
 Reject readEvents(const events_t& wire, EventsMessage& message) {
   std::size_t point = 0;
-  message.events.resize(countOf(wire.num_events));
-  for (std::size_t i = 0; i < message.events.size(); ++i) {
-    ToldEvent& told = message.events[i];
-    Reject reject = readWhen(wire, i, told);
-    if (reject == Reject::None) reject = readSides(wire, i, told.event);
-    if (reject == Reject::None) reject = readNumbers(wire, i, told.event);
-    if (reject == Reject::None) reject = readPoints(wire, i, point, told.event);
-    if (reject != Reject::None) return reject;
-  }
+  const Reject reject = wire::readRows(
+      wire, kEvent, &events_t::num_events, message.events, [&](ToldEvent& told, std::size_t) {
+        const Reject wrong = settle(told);
+        return wrong == Reject::None ? readPoints(wire, point, told.event) : wrong;
+      });
+  if (reject != Reject::None) return reject;
   return point == countOf(wire.num_points) ? Reject::None : Reject::BadIndex;
 }
 
-void writeHead(const EventsMessage& message, events_t& wire) {
-  wire.version = kMessageVersion;
-  wire.timeline = message.timeline;
-  wire.sequence = message.sequence;
-  wire.window_from = message.fromUs;
-  wire.window_to = message.toUs;
-  wire.more = message.hasMore ? 1 : 0;
-  wire.tolerance = message.tolerance;
-  wire.receive_utime = message.receiveUtimeUs;
-  wire.send_utime = message.sendUtimeUs;
-  wire.world_us = message.worldUs;
-}
-
-void writeBodies(const EventsMessage& message, events_t& wire) {
-  FORETOUCH_ASSERT(message.bodies.size() <= kMaxToldBodies);
-  const std::size_t n = message.bodies.size();
-  wire.num_bodies = static_cast<std::int32_t>(n);
-  wire.bodies.resize(n);
-  wire.known_until.resize(n);
-  wire.waiting.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    wire.bodies[i] = message.bodies[i].body;
-    wire.known_until[i] = message.bodies[i].knownUntilUs;
-    wire.waiting[i] = message.bodies[i].isWaitedFor ? 1 : 0;
+void writeEvents(const EventsMessage& message, events_t& wire) {
+  std::size_t numPoints = 0, point = 0;
+  for (const ToldEvent& told : message.events) numPoints += told.event.numPoints;
+  wire::writeRows(message.events, kEvent, &events_t::num_events, wire);
+  wire::resize(numPoints, kPoint, &events_t::num_points, wire);
+  for (std::size_t i = 0; i < message.events.size(); ++i) {
+    const WorldEvent& event = message.events[i].event;
+    wire.reasons[i] = static_cast<std::uint8_t>(wireReasonOf(message.events[i]));
+    if (!std::isfinite(event.effectiveMass)) wire.effective_mass[i] = kNoMass;
+    for (std::size_t k = 0; k < event.numPoints; ++k) {
+      wire::write(event.points[k], kPoint, wire, point++);
+    }
   }
-}
-
-void writeUnknown(const EventsMessage& message, events_t& wire) {
-  FORETOUCH_ASSERT(message.unknown.size() <= kMaxToldUnknown);
-  const std::size_t n = message.unknown.size();
-  wire.num_unknown = static_cast<std::int32_t>(n);
-  wire.unknown_bodies.resize(n);
-  wire.unknown_links.resize(n);
-  wire.unknown_reasons.resize(n);
-  wire.unknown_from.resize(n);
-  wire.unknown_to.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const UnknownPart& part = message.unknown[i];
-    wire.unknown_bodies[i] = part.body;
-    wire.unknown_links[i] = part.link;
-    wire.unknown_reasons[i] = static_cast<std::uint8_t>(part.reason);
-    wire.unknown_from[i] = part.fromUs;
-    wire.unknown_to[i] = part.toUs;
-  }
-}
-
-void resizeEvents(std::size_t n, std::size_t points, events_t& wire) {
-  wire.num_events = static_cast<std::int32_t>(n);
-  wire.num_points = static_cast<std::int32_t>(points);
-  for (auto* const part :
-       {&wire.kinds, &wire.causes, &wire.reasons, &wire.marks, &wire.numbers_of_points}) {
-    part->resize(n);
-  }
-  for (auto* const part : {&wire.utime, &wire.since_utime}) part->resize(n);
-  for (auto* const part : {&wire.body_a, &wire.link_a, &wire.lss_a, &wire.triangle_a, &wire.body_b,
-                           &wire.link_b, &wire.lss_b, &wire.triangle_b, &wire.object}) {
-    part->resize(n);
-  }
-  for (auto* const part :
-       {&wire.fraction,    &wire.since_fraction, &wire.point_a_x,      &wire.point_a_y,
-        &wire.point_a_z,   &wire.point_b_x,      &wire.point_b_y,      &wire.point_b_z,
-        &wire.normal_x,    &wire.normal_y,       &wire.normal_z,       &wire.separation,
-        &wire.penetration, &wire.velocity_x,     &wire.velocity_y,     &wire.velocity_z,
-        &wire.approach,    &wire.approach_lower, &wire.approach_upper, &wire.effective_mass}) {
-    part->resize(n);
-  }
-  for (auto* const part : {&wire.near_a_x, &wire.near_a_y, &wire.near_a_z, &wire.near_b_x,
-                           &wire.near_b_y, &wire.near_b_z, &wire.near_separation}) {
-    part->resize(points);
-  }
-}
-
-void write(const Vector& vector, double& x, double& y, double& z) {
-  x = vector.x();
-  y = vector.y();
-  z = vector.z();
-}
-
-void writeSides(const WorldEvent& event, std::size_t i, events_t& wire) {
-  wire.body_a[i] = event.a.body;
-  wire.link_a[i] = event.a.link;
-  wire.lss_a[i] = event.a.lss;
-  wire.triangle_a[i] = event.a.triangle;
-  write(event.a.p_W, wire.point_a_x[i], wire.point_a_y[i], wire.point_a_z[i]);
-  wire.body_b[i] = event.b.body;
-  wire.link_b[i] = event.b.link;
-  wire.lss_b[i] = event.b.lss;
-  wire.triangle_b[i] = event.b.triangle;
-  write(event.b.p_W, wire.point_b_x[i], wire.point_b_y[i], wire.point_b_z[i]);
-  wire.object[i] = event.object;
-}
-
-void writeEvent(const ToldEvent& told, std::size_t i, std::size_t& point, events_t& wire) {
-  const WorldEvent& event = told.event;
-  wire.kinds[i] = static_cast<std::uint8_t>(event.kind);
-  wire.causes[i] = static_cast<std::uint8_t>(told.cause);
-  wire.reasons[i] = static_cast<std::uint8_t>(wireReasonOf(told));
-  wire.marks[i] = event.isAssumed ? 1 : 0;
-  wire.utime[i] = event.time.us;
-  wire.fraction[i] = event.time.fraction;
-  wire.since_utime[i] = event.since.us;
-  wire.since_fraction[i] = event.since.fraction;
-  writeSides(event, i, wire);
-  write(event.nhat_BA_W, wire.normal_x[i], wire.normal_y[i], wire.normal_z[i]);
-  write(event.velocity_W, wire.velocity_x[i], wire.velocity_y[i], wire.velocity_z[i]);
-  wire.separation[i] = event.separation;
-  wire.penetration[i] = event.penetration;
-  wire.approach[i] = event.approachSpeed;
-  wire.approach_lower[i] = event.approachLower;
-  wire.approach_upper[i] = event.approachUpper;
-  wire.effective_mass[i] = std::isfinite(event.effectiveMass) ? event.effectiveMass : kNoMass;
-  wire.numbers_of_points[i] = static_cast<std::uint8_t>(event.numPoints);
-  for (std::size_t k = 0; k < event.numPoints; ++k, ++point) {
-    const EventPoint& near = event.points[k];
-    write(near.p_WA, wire.near_a_x[point], wire.near_a_y[point], wire.near_a_z[point]);
-    write(near.p_WB, wire.near_b_x[point], wire.near_b_y[point], wire.near_b_z[point]);
-    wire.near_separation[point] = near.separation;
-  }
-}
-
-/// Keeps its memory: a world has hundreds of windows per second.
-events_t& scratch() {
-  static thread_local events_t wire;
-  return wire;
 }
 
 }  // namespace
 
 Reject decode(ByteView payload, EventsMessage& message) {
-  events_t& wire = scratch();
+  auto& wire = wire::scratch<events_t>();
   Reject reject = fromBytes(PayloadType::Events, payload, wire);
-  if (reject == Reject::None) reject = readHead(wire, message);
-  if (reject == Reject::None) reject = readBodies(wire, message);
-  if (reject == Reject::None) reject = readUnknown(wire, message);
-  if (reject == Reject::None) reject = readEvents(wire, message);
-  return reject;
+  if (reject == Reject::None) reject = wire::read(wire, kEventsHead, message);
+  if (reject == Reject::None) reject = checkHead(wire);
+  if (reject != Reject::None) return reject;
+  reject = wire::readRows(wire, kToldBody, &events_t::num_bodies, message.bodies,
+                          [&](const ToldBody& told, std::size_t i) {
+                            const bool isNext = i == 0 || told.body > message.bodies[i - 1].body;
+                            return isNext ? Reject::None : Reject::BadIndex;
+                          });
+  if (reject != Reject::None) return reject;
+  reject = wire::readRows(wire, kUnknownPart, &events_t::num_unknown, message.unknown,
+                          [&](const UnknownPart& part, std::size_t) {
+                            const bool isInside = wire.window_from <= part.fromUs &&
+                                                  part.fromUs <= part.toUs &&
+                                                  part.toUs <= wire.window_to;
+                            return isInside ? Reject::None : Reject::OutOfRange;
+                          });
+  return reject == Reject::None ? readEvents(wire, message) : reject;
 }
 
 void encode(const EventsMessage& message, Bytes& payload) {
   FORETOUCH_ASSERT(message.events.size() <= kMaxToldEvents);
-  events_t& wire = scratch();
-  writeHead(message, wire);
-  writeBodies(message, wire);
-  writeUnknown(message, wire);
-  std::size_t points = 0;
-  for (const ToldEvent& told : message.events) points += told.event.numPoints;
-  resizeEvents(message.events.size(), points, wire);
-  points = 0;
-  for (std::size_t i = 0; i < message.events.size(); ++i) {
-    writeEvent(message.events[i], i, points, wire);
-  }
+  FORETOUCH_ASSERT(message.bodies.size() <= kMaxToldBodies);
+  FORETOUCH_ASSERT(message.unknown.size() <= kMaxToldUnknown);
+  auto& wire = wire::scratch<events_t>();
+  wire::write(message, kEventsHead, wire);
+  wire::writeRows(message.bodies, kToldBody, &events_t::num_bodies, wire);
+  wire::writeRows(message.unknown, kUnknownPart, &events_t::num_unknown, wire);
+  writeEvents(message, wire);
   toBytes(PayloadType::Events, wire, payload);
 }
 

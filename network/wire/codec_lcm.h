@@ -42,7 +42,8 @@ template <typename LcmType>
 }
 
 template <typename LcmType>
-void toBytes(PayloadType type, const LcmType& wire, Bytes& payload) {
+void toBytes(PayloadType type, LcmType& wire, Bytes& payload) {
+  wire.version = kMessageVersion;
   payload.resize(static_cast<std::size_t>(wire.getEncodedSize()));
   const int written = wire.encode(payload.data(), 0, static_cast<int>(payload.size()));
   payload.resize(written > 0 ? countOf(written) : 0);

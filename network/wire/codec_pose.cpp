@@ -1,10 +1,12 @@
 #include <bitset>
 #include <cstddef>
 #include <foretouch/pose_t.hpp>
+#include <tuple>
 
 #include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
+#include "network/wire/wire_fields.h"
 
 namespace foretouch {
 namespace {
@@ -21,124 +23,63 @@ bool insert(std::int32_t joint, JointSet& joints) {
   return true;
 }
 
-Reject readHead(const pose_t& wire, PoseMessage& message) {
-  message.avatar = wire.avatar;
-  message.session = wire.session;
-  message.sequence = wire.sequence;
-  message.utimeUs = wire.utime;
-  message.sendUtimeUs = wire.send_utime;
-  message.skeletonHash = wire.skeleton_hash;
-  return inRange({wire.session, wire.sequence, wire.utime, wire.send_utime}) ? Reject::None
-                                                                             : Reject::OutOfRange;
-}
+using wire::field;
 
-Reject readRotation(const pose_t& wire, std::size_t i, Quaternion& rotation) {
-  rotation =
-      Quaternion(wire.rotation_w[i], wire.rotation_x[i], wire.rotation_y[i], wire.rotation_z[i]);
-  if (!rotation.coeffs().allFinite()) return Reject::NonFinite;
-  return unitQuaternion(rotation) ? Reject::None : Reject::NonUnit;
-}
+constexpr auto kPoseHead =
+    std::make_tuple(field(&PoseMessage::avatar, &pose_t::avatar, wire::kAny),
+                    field(&PoseMessage::session, &pose_t::session, wire::kWhole),
+                    field(&PoseMessage::sequence, &pose_t::sequence, wire::kWhole),
+                    field(&PoseMessage::utimeUs, &pose_t::utime, wire::kWhole),
+                    field(&PoseMessage::sendUtimeUs, &pose_t::send_utime, wire::kWhole),
+                    field(&PoseMessage::skeletonHash, &pose_t::skeleton_hash, wire::kAny));
 
-Reject readJoints(const pose_t& wire, PoseMessage& message, JointSet& listed, JointSet& valid) {
-  message.joints.resize(static_cast<std::size_t>(wire.num_joints));
-  for (std::size_t i = 0; i < message.joints.size(); ++i) {
-    PoseJoint& joint = message.joints[i];
-    joint.joint = wire.joints[i];
-    joint.flags = wire.flags[i];
-    joint.rotation = Quaternion::Identity();
-    if (!insert(joint.joint, listed)) return Reject::BadIndex;
-    if ((joint.flags & ~kKnownFlags) != 0) return Reject::OutOfRange;
-    if ((joint.flags & kJointValid) == 0) continue;
-    valid.set(slotOf(joint.joint));
-    const Reject reject = readRotation(wire, i, joint.rotation);
-    if (reject != Reject::None) return reject;
-  }
-  return Reject::None;
-}
-
-Reject readTranslations(const pose_t& wire, PoseMessage& message, const JointSet& listed,
-                        const JointSet& valid) {
-  JointSet translated;
-  message.translations.resize(static_cast<std::size_t>(wire.num_translations));
-  for (std::size_t i = 0; i < message.translations.size(); ++i) {
-    PoseTranslation& joint = message.translations[i];
-    joint.joint = wire.translated_joints[i];
-    joint.translation.setZero();
-    if (!insert(joint.joint, translated)) return Reject::BadIndex;
-    if (!listed[slotOf(joint.joint)]) return Reject::BadIndex;
-    if (!valid[slotOf(joint.joint)]) continue;
-    joint.translation = {wire.translation_x[i], wire.translation_y[i], wire.translation_z[i]};
-    if (!joint.translation.allFinite()) return Reject::NonFinite;
-    if (joint.translation.cwiseAbs().maxCoeff() > kMaxCoordinate) return Reject::OutOfRange;
-  }
-  return Reject::None;
-}
-
-void writeJoints(const PoseMessage& message, pose_t& wire) {
-  const std::size_t n = message.joints.size();
-  wire.num_joints = static_cast<std::int32_t>(n);
-  wire.joints.resize(n);
-  wire.flags.resize(n);
-  for (auto* const part :
-       {&wire.rotation_w, &wire.rotation_x, &wire.rotation_y, &wire.rotation_z}) {
-    part->resize(n);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const PoseJoint& joint = message.joints[i];
-    wire.joints[i] = joint.joint;
-    wire.flags[i] = joint.flags;
-    wire.rotation_w[i] = joint.rotation.w();
-    wire.rotation_x[i] = joint.rotation.x();
-    wire.rotation_y[i] = joint.rotation.y();
-    wire.rotation_z[i] = joint.rotation.z();
-  }
-}
-
-void writeTranslations(const PoseMessage& message, pose_t& wire) {
-  const std::size_t n = message.translations.size();
-  wire.num_translations = static_cast<std::int32_t>(n);
-  wire.translated_joints.resize(n);
-  for (auto* const part : {&wire.translation_x, &wire.translation_y, &wire.translation_z}) {
-    part->resize(n);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const PoseTranslation& joint = message.translations[i];
-    wire.translated_joints[i] = joint.joint;
-    wire.translation_x[i] = joint.translation.x();
-    wire.translation_y[i] = joint.translation.y();
-    wire.translation_z[i] = joint.translation.z();
-  }
-}
-
-/// Keeps its memory: a stream has a hundred poses per second.
-pose_t& scratch() {
-  static thread_local pose_t wire;
-  return wire;
-}
+constexpr auto kJointNumber =
+    std::make_tuple(field(&PoseJoint::joint, &pose_t::joints, wire::kAny),
+                    field(&PoseJoint::flags, &pose_t::flags, wire::Whole{0, kKnownFlags}));
+constexpr auto kTranslatedNumber =
+    std::make_tuple(field(&PoseTranslation::joint, &pose_t::translated_joints, wire::kAny));
+/// Meaningless unless kJointValid.
+constexpr auto kRotation =
+    std::make_tuple(field(&PoseJoint::rotation, &pose_t::rotation_w, &pose_t::rotation_x,
+                          &pose_t::rotation_y, &pose_t::rotation_z, wire::kTurn));
+constexpr auto kTranslation =
+    std::make_tuple(field(&PoseTranslation::translation, &pose_t::translation_x,
+                          &pose_t::translation_y, &pose_t::translation_z, wire::kCoordinate));
 
 }  // namespace
 
 Reject decode(ByteView payload, PoseMessage& message) {
-  pose_t& wire = scratch();
+  auto& wire = wire::scratch<pose_t>();
   Reject reject = fromBytes(PayloadType::Pose, payload, wire);
-  if (reject == Reject::None) reject = readHead(wire, message);
-  JointSet listed, valid;
-  if (reject == Reject::None) reject = readJoints(wire, message, listed, valid);
-  if (reject == Reject::None) reject = readTranslations(wire, message, listed, valid);
-  return reject;
+  if (reject == Reject::None) reject = wire::read(wire, kPoseHead, message);
+  if (reject != Reject::None) return reject;
+  JointSet listed, valid, translated;
+  const auto readRotation = [&](PoseJoint& joint, std::size_t i) {
+    if (!insert(joint.joint, listed)) return Reject::BadIndex;
+    joint.rotation = Quaternion::Identity();
+    if ((joint.flags & kJointValid) == 0) return Reject::None;
+    valid.set(slotOf(joint.joint));
+    return wire::read(wire, kRotation, joint, i);
+  };
+  const auto readTranslation = [&](PoseTranslation& joint, std::size_t i) {
+    if (!insert(joint.joint, translated)) return Reject::BadIndex;
+    if (!listed[slotOf(joint.joint)]) return Reject::BadIndex;
+    joint.translation.setZero();
+    return valid[slotOf(joint.joint)] ? wire::read(wire, kTranslation, joint, i) : Reject::None;
+  };
+  reject = wire::readRows(wire, kJointNumber, &pose_t::num_joints, message.joints, readRotation);
+  if (reject != Reject::None) return reject;
+  return wire::readRows(wire, kTranslatedNumber, &pose_t::num_translations, message.translations,
+                        readTranslation);
 }
 
 void encode(const PoseMessage& message, Bytes& payload) {
-  pose_t& wire = scratch();
-  wire.version = kMessageVersion;
-  wire.avatar = message.avatar;
-  wire.session = message.session;
-  wire.sequence = message.sequence;
-  wire.utime = message.utimeUs;
-  wire.send_utime = message.sendUtimeUs;
-  wire.skeleton_hash = message.skeletonHash;
-  writeJoints(message, wire);
-  writeTranslations(message, wire);
+  auto& wire = wire::scratch<pose_t>();
+  wire::write(message, kPoseHead, wire);
+  wire::writeRows(message.joints, std::tuple_cat(kJointNumber, kRotation), &pose_t::num_joints,
+                  wire);
+  wire::writeRows(message.translations, std::tuple_cat(kTranslatedNumber, kTranslation),
+                  &pose_t::num_translations, wire);
   toBytes(PayloadType::Pose, wire, payload);
 }
 

@@ -1,12 +1,13 @@
-#include <algorithm>
 #include <cstddef>
 #include <foretouch/solid_t.hpp>
 #include <limits>
+#include <tuple>
 
 #include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
 #include "network/wire/push_fields.h"
+#include "network/wire/wire_fields.h"
 
 namespace foretouch {
 namespace {
@@ -26,7 +27,6 @@ static_assert(static_cast<int>(SolidJointState::Free) == solid_t::JOINT_FREE);
 static_assert(static_cast<int>(SolidJointState::Sliding) == solid_t::JOINT_SLIDING);
 static_assert(static_cast<int>(SolidJointState::Held) == solid_t::JOINT_HELD);
 static_assert(static_cast<int>(SolidJointState::Lost) == solid_t::JOINT_LOST);
-constexpr auto kLastSolidKind = static_cast<std::int8_t>(StepKind::AcrossGap);
 // The largest message fits: poses, joints, contacts with their texts, and the rest.
 static_assert(kMaxSolidPoses * (kMaxSolidJoints * 7 + 1) * sizeof(double) +
                   kMaxSolidJoints * (sizeof(double) + 1) +
@@ -34,65 +34,56 @@ static_assert(kMaxSolidPoses * (kMaxSolidJoints * 7 + 1) * sizeof(double) +
                   1024 <=
               kMaxMessageBytes);
 
-Reject checkHead(const solid_t& wire) {
-  if (!inRange({wire.session, wire.sequence, wire.utime, wire.lost, wire.step_us, wire.work_budget,
-                wire.contacts_left_out, wire.receive_utime, wire.send_utime}) ||
-      !inRange({wire.queries, wire.iterations, wire.features, wire.rows, wire.around_queries,
-                wire.placing_queries, wire.work}) ||
-      std::max({wire.queries, wire.iterations, wire.features, wire.rows, wire.around_queries,
-                wire.placing_queries}) > std::numeric_limits<std::uint32_t>::max() ||
-      wire.snap_in_us < -1 || wire.snap_in_us > kMaxWireInteger) {
-    return Reject::OutOfRange;
-  }
-  const std::initializer_list<double> lengths{wire.skin,      wire.tolerance, wire.catch_up,
-                                              wire.deviation, wire.lift,      wire.clearance,
-                                              wire.solid_us};
-  if (!allFinite(lengths)) return Reject::NonFinite;
-  const bool isInside =
-      std::all_of(lengths.begin(), lengths.end(), [](double x) { return x >= 0; });
-  const bool isKnown =
-      wire.kind >= 0 && wire.kind <= kLastSolidKind && wire.state >= 0 &&
-      wire.state < kNumSolidStates && wire.limit >= 0 && wire.limit < kNumSolidLimits &&
-      (wire.certified == 0 || wire.certified == 1) && (wire.appeared == 0 || wire.appeared == 1);
-  if (!isInside || !isKnown) return Reject::OutOfRange;
+using wire::field;
+using wire::in;
+
+constexpr wire::Whole kCount{0, std::numeric_limits<std::uint32_t>::max()};
+constexpr auto kSolidHead = std::make_tuple(
+    field(&SolidMessage::avatar, &solid_t::avatar, wire::kAny),
+    field(&SolidMessage::session, &solid_t::session, wire::kWhole),
+    field(&SolidMessage::sequence, &solid_t::sequence, wire::kWhole),
+    field(&SolidMessage::utimeUs, &solid_t::utime, wire::kWhole),
+    field(&SolidMessage::kind, &solid_t::kind, wire::codeBelow(kNumStepKinds)),
+    field(&SolidMessage::lost, &solid_t::lost, wire::kWhole),
+    field(&SolidMessage::stepUs, &solid_t::step_us, wire::kWhole),
+    field(&SolidMessage::avatarHash, &solid_t::avatar_hash, wire::kAny),
+    field(&SolidMessage::skin, &solid_t::skin, wire::kNotNegative),
+    field(&SolidMessage::tolerance, &solid_t::tolerance, wire::kNotNegative),
+    field(&SolidMessage::catchUp, &solid_t::catch_up, wire::kNotNegative),
+    field(&SolidMessage::workBudget, &solid_t::work_budget, wire::kWhole),
+    field(&SolidMessage::state, &solid_t::state, wire::codeBelow(kNumSolidStates)),
+    field(&SolidMessage::limit, &solid_t::limit, wire::codeBelow(kNumSolidLimits)),
+    field(&SolidMessage::isCertified, &solid_t::certified, wire::kFlag),
+    field(&SolidMessage::hasAppeared, &solid_t::appeared, wire::kFlag),
+    field(&SolidMessage::deviation, &solid_t::deviation, wire::kNotNegative),
+    field(&SolidMessage::lift, &solid_t::lift, wire::kNotNegative),
+    field(&SolidMessage::clearance, &solid_t::clearance, wire::kNotNegative),
+    field(&SolidMessage::snapInUs, &solid_t::snap_in_us, wire::Whole{-1}),
+    field(&SolidMessage::contactsLeftOut, &solid_t::contacts_left_out, wire::kWhole),
+    field(in(&SolidMessage::counters, &SolidCounters::queries), &solid_t::queries, kCount),
+    field(in(&SolidMessage::counters, &SolidCounters::iterations), &solid_t::iterations, kCount),
+    field(in(&SolidMessage::counters, &SolidCounters::features), &solid_t::features, kCount),
+    field(in(&SolidMessage::counters, &SolidCounters::rows), &solid_t::rows, kCount),
+    field(in(&SolidMessage::counters, &SolidCounters::aroundQueries), &solid_t::around_queries,
+          kCount),
+    field(in(&SolidMessage::counters, &SolidCounters::placingQueries), &solid_t::placing_queries,
+          kCount),
+    field(in(&SolidMessage::counters, &SolidCounters::work), &solid_t::work, wire::kWhole),
+    field(&SolidMessage::receiveUtimeUs, &solid_t::receive_utime, wire::kWhole),
+    field(&SolidMessage::sendUtimeUs, &solid_t::send_utime, wire::kWhole),
+    field(&SolidMessage::solidUs, &solid_t::solid_us, wire::kNotNegative));
+
+constexpr auto kSolidContact = std::tuple_cat(
+    wire::pushFields<solid_t>(&ShownContact::contact, &ShownContact::linkName),
+    std::make_tuple(
+        field(&ShownContact::otherName, &solid_t::objects, wire::kAny),
+        field(in(&ShownContact::contact, &SolidContact::other), &solid_t::others, wire::kAny)));
+
+Reject checkLimits(const solid_t& wire) {
   const bool isWithinLimits = wire.num_joints >= 1 && countOf(wire.num_joints) <= kMaxSolidJoints &&
                               wire.num_poses >= 1 && countOf(wire.num_poses) <= kMaxSolidPoses &&
                               countOf(wire.num_contacts) <= kMaxSolidContacts;
   return isWithinLimits ? Reject::None : Reject::Limit;
-}
-
-void readHead(const solid_t& wire, SolidMessage& message) {
-  message.avatar = wire.avatar;
-  message.session = wire.session;
-  message.sequence = wire.sequence;
-  message.utimeUs = wire.utime;
-  message.kind = static_cast<StepKind>(wire.kind);
-  message.lost = wire.lost;
-  message.stepUs = wire.step_us;
-  message.avatarHash = wire.avatar_hash;
-  message.skin = wire.skin;
-  message.tolerance = wire.tolerance;
-  message.catchUp = wire.catch_up;
-  message.workBudget = wire.work_budget;
-  message.state = static_cast<SolidState>(wire.state);
-  message.limit = static_cast<SolidLimit>(wire.limit);
-  message.isCertified = wire.certified != 0;
-  message.hasAppeared = wire.appeared != 0;
-  message.deviation = wire.deviation;
-  message.lift = wire.lift;
-  message.clearance = wire.clearance;
-  message.snapInUs = wire.snap_in_us;
-  message.contactsLeftOut = wire.contacts_left_out;
-  message.counters.queries = static_cast<std::uint32_t>(wire.queries);
-  message.counters.iterations = static_cast<std::uint32_t>(wire.iterations);
-  message.counters.features = static_cast<std::uint32_t>(wire.features);
-  message.counters.rows = static_cast<std::uint32_t>(wire.rows);
-  message.counters.aroundQueries = static_cast<std::uint32_t>(wire.around_queries);
-  message.counters.placingQueries = static_cast<std::uint32_t>(wire.placing_queries);
-  message.counters.work = static_cast<std::uint64_t>(wire.work);
-  message.receiveUtimeUs = wire.receive_utime;
-  message.sendUtimeUs = wire.send_utime;
-  message.solidUs = wire.solid_us;
 }
 
 Reject readJoints(const solid_t& wire, SolidMessage& message) {
@@ -100,10 +91,9 @@ Reject readJoints(const solid_t& wire, SolidMessage& message) {
   message.joints.resize(n);
   message.linkDeviation = wire.link_deviation;
   for (std::size_t i = 0; i < n; ++i) {
-    if (!std::isfinite(wire.link_deviation[i])) return Reject::NonFinite;
-    if (wire.joint_states[i] >= kNumSolidJointStates || wire.link_deviation[i] < 0.0) {
-      return Reject::OutOfRange;
-    }
+    const Reject reject = wire::kNotNegative(wire.link_deviation[i]);
+    if (reject != Reject::None) return reject;
+    if (wire.joint_states[i] >= kNumSolidJointStates) return Reject::OutOfRange;
     message.joints[i] = static_cast<SolidJointState>(wire.joint_states[i]);
   }
   return Reject::None;
@@ -157,58 +147,6 @@ Reject checkPlace(const SolidContact& contact, std::int32_t numJoints) {
   return isOfScene || isOwn ? Reject::None : Reject::BadIndex;
 }
 
-Reject readContacts(const solid_t& wire, SolidMessage& message) {
-  message.contacts.resize(countOf(wire.num_contacts));
-  for (std::size_t i = 0; i < message.contacts.size(); ++i) {
-    SolidContact contact;
-    readPush(wire, i, contact);
-    contact.other = wire.others[i];
-    Reject reject = checkPlace(contact, wire.num_joints);
-    if (reject == Reject::None) reject = checkPush(contact);
-    if (reject == Reject::None && nameProblem(wire.link_names[i])) reject = Reject::BadName;
-    if (reject != Reject::None) return reject;
-    message.contacts[i].contact = contact;
-    message.contacts[i].linkName = wire.link_names[i];
-    message.contacts[i].otherName = wire.objects[i];
-  }
-  return Reject::None;
-}
-
-void writeHead(const SolidMessage& message, solid_t& wire) {
-  wire.version = kMessageVersion;
-  wire.avatar = message.avatar;
-  wire.session = message.session;
-  wire.sequence = message.sequence;
-  wire.utime = message.utimeUs;
-  wire.kind = static_cast<std::int8_t>(message.kind);
-  wire.lost = message.lost;
-  wire.step_us = message.stepUs;
-  wire.avatar_hash = message.avatarHash;
-  wire.skin = message.skin;
-  wire.tolerance = message.tolerance;
-  wire.catch_up = message.catchUp;
-  wire.work_budget = message.workBudget;
-  wire.state = static_cast<std::int8_t>(message.state);
-  wire.limit = static_cast<std::int8_t>(message.limit);
-  wire.certified = message.isCertified ? 1 : 0;
-  wire.appeared = message.hasAppeared ? 1 : 0;
-  wire.deviation = message.deviation;
-  wire.lift = message.lift;
-  wire.clearance = message.clearance;
-  wire.snap_in_us = message.snapInUs;
-  wire.contacts_left_out = message.contactsLeftOut;
-  wire.queries = message.counters.queries;
-  wire.iterations = message.counters.iterations;
-  wire.features = message.counters.features;
-  wire.rows = message.counters.rows;
-  wire.around_queries = message.counters.aroundQueries;
-  wire.placing_queries = message.counters.placingQueries;
-  wire.work = static_cast<std::int64_t>(message.counters.work);
-  wire.receive_utime = message.receiveUtimeUs;
-  wire.send_utime = message.sendUtimeUs;
-  wire.solid_us = message.solidUs;
-}
-
 void writeJoints(const SolidMessage& message, solid_t& wire) {
   const std::size_t n = message.joints.size();
   FORETOUCH_ASSERT(n == message.linkDeviation.size() && n <= kMaxSolidJoints);
@@ -245,47 +183,29 @@ void writeWay(const SolidMessage& message, solid_t& wire) {
   for (std::size_t i = 0; i < n; ++i) writePose(message.way[i], i, wire);
 }
 
-void writeContacts(const SolidMessage& message, solid_t& wire) {
-  FORETOUCH_ASSERT(message.contacts.size() <= kMaxSolidContacts);
-  const std::size_t n = message.contacts.size();
-  resizePushes(n, wire);
-  wire.objects.resize(n);
-  wire.others.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const SolidContact& contact = message.contacts[i].contact;
-    writePush(contact, i, wire);
-    wire.link_names[i] = message.contacts[i].linkName;
-    wire.objects[i] = message.contacts[i].otherName;
-    wire.others[i] = contact.other;
-  }
-}
-
-/// Keeps its memory: every pose has an answer.
-solid_t& scratch() {
-  static thread_local solid_t wire;
-  return wire;
-}
-
 }  // namespace
 
 Reject decode(ByteView payload, SolidMessage& message) {
-  solid_t& wire = scratch();
+  auto& wire = wire::scratch<solid_t>();
   Reject reject = fromBytes(PayloadType::Solid, payload, wire);
-  if (reject == Reject::None) reject = checkHead(wire);
-  if (reject != Reject::None) return reject;
-  readHead(wire, message);
-  reject = readJoints(wire, message);
+  if (reject == Reject::None) reject = wire::read(wire, kSolidHead, message);
+  if (reject == Reject::None) reject = checkLimits(wire);
+  if (reject == Reject::None) reject = readJoints(wire, message);
   if (reject == Reject::None) reject = readWay(wire, message);
-  if (reject == Reject::None) reject = readContacts(wire, message);
-  return reject;
+  if (reject != Reject::None) return reject;
+  return wire::readRows(wire, kSolidContact, &solid_t::num_contacts, message.contacts,
+                        [&](const ShownContact& shown, std::size_t) {
+                          return checkPlace(shown.contact, wire.num_joints);
+                        });
 }
 
 void encode(const SolidMessage& message, Bytes& payload) {
-  solid_t& wire = scratch();
-  writeHead(message, wire);
+  FORETOUCH_ASSERT(message.contacts.size() <= kMaxSolidContacts);
+  auto& wire = wire::scratch<solid_t>();
+  wire::write(message, kSolidHead, wire);
   writeJoints(message, wire);
   writeWay(message, wire);
-  writeContacts(message, wire);
+  wire::writeRows(message.contacts, kSolidContact, &solid_t::num_contacts, wire);
   toBytes(PayloadType::Solid, wire, payload);
 }
 

@@ -1,32 +1,32 @@
 #include <foretouch/speaker_t.hpp>
+#include <limits>
+#include <tuple>
 
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
+#include "network/wire/wire_fields.h"
 
 namespace foretouch {
+namespace {
+
+constexpr auto kSpeaker =
+    std::make_tuple(wire::field(&SpeakerMessage::avatar, &speaker_t::avatar, wire::kWhole),
+                    wire::field(&SpeakerMessage::utimeUs, &speaker_t::utime, wire::kWhole),
+                    wire::field(&SpeakerMessage::address, &speaker_t::address, wire::kAny),
+                    wire::field(&SpeakerMessage::port, &speaker_t::port,
+                                wire::Whole{0, std::numeric_limits<std::uint16_t>::max()}));
+
+}  // namespace
 
 Reject decode(ByteView payload, SpeakerMessage& message) {
-  constexpr std::int32_t kMostPort = 65535;
-  speaker_t wire;
+  auto& wire = wire::scratch<speaker_t>();
   const Reject reject = fromBytes(PayloadType::Speaker, payload, wire);
-  if (reject != Reject::None) return reject;
-  if (!inRange({wire.avatar, wire.utime, wire.port}) || wire.port > kMostPort) {
-    return Reject::OutOfRange;
-  }
-  message.avatar = wire.avatar;
-  message.utimeUs = wire.utime;
-  message.address = static_cast<std::uint32_t>(wire.address);
-  message.port = static_cast<std::uint16_t>(wire.port);
-  return Reject::None;
+  return reject == Reject::None ? wire::read(wire, kSpeaker, message) : reject;
 }
 
 void encode(const SpeakerMessage& message, Bytes& payload) {
-  speaker_t wire;
-  wire.version = kMessageVersion;
-  wire.avatar = message.avatar;
-  wire.utime = message.utimeUs;
-  wire.address = static_cast<std::int32_t>(message.address);
-  wire.port = message.port;
+  auto& wire = wire::scratch<speaker_t>();
+  wire::write(message, kSpeaker, wire);
   toBytes(PayloadType::Speaker, wire, payload);
 }
 

@@ -128,6 +128,7 @@ enum class StepKind : std::int8_t {
   First = 1,        ///< The first pose of a timeline: an instant, not a motion.
   AcrossGap = 2,    ///< Poses between the two were lost: nothing is clear.
 };
+inline constexpr std::int8_t kNumStepKinds = 3;
 [[nodiscard]] const char* toString(StepKind kind);
 
 /// One link that is not clear.
