@@ -15,8 +15,6 @@ bool sameBytes(ByteView a, ByteView b) {
   return a.size == b.size && std::equal(a.data, a.data + a.size, b.data);
 }
 
-using AnswerKey = std::tuple<std::int32_t, std::int64_t, std::int64_t>;
-
 /// What is said of answers that differ, or that one of the two lacks.
 struct Sayings {
   const char *differs, *isMissingHere, *isMissingThere;
@@ -42,26 +40,6 @@ Sayings sayingsOf(AnswerKind kind) {
           "is told here, and not in the log"};
 }
 
-AnswerKey keyOf(const ContactsMessage& message) {
-  return {message.avatar, message.session, message.sequenceTo};
-}
-
-AnswerKey keyOf(const SolidMessage& message) {
-  return {message.avatar, message.session, message.sequence};
-}
-
-AnswerKey keyOf(const PersonMessage& message) {
-  return {message.avatar, message.session, message.sequence};
-}
-
-AnswerKey keyOf(const PushesMessage& message) {
-  return {message.avatar, message.session, message.sequence};
-}
-
-AnswerKey keyOf(const EventsMessage& message) {
-  return {0, message.timeline, message.sequence};
-}
-
 template <typename Message>
 std::string differenceOfAnswers(ByteView recorded, ByteView replayed) {
   Message before, now;
@@ -71,46 +49,6 @@ std::string differenceOfAnswers(ByteView recorded, ByteView replayed) {
 }
 
 }  // namespace
-
-void JournalCheck::addRecorded(const ContactsMessage& message, ByteView payload) {
-  addRecorded(keyOf(message), payload);
-}
-
-void JournalCheck::addRecorded(const SolidMessage& message, ByteView payload) {
-  addRecorded(keyOf(message), payload);
-}
-
-void JournalCheck::addRecorded(const PersonMessage& message, ByteView payload) {
-  addRecorded(keyOf(message), payload);
-}
-
-void JournalCheck::addReplayed(const ContactsMessage& message, ByteView payload) {
-  addReplayed(keyOf(message), payload);
-}
-
-void JournalCheck::addReplayed(const SolidMessage& message, ByteView payload) {
-  addReplayed(keyOf(message), payload);
-}
-
-void JournalCheck::addReplayed(const PersonMessage& message, ByteView payload) {
-  addReplayed(keyOf(message), payload);
-}
-
-void JournalCheck::addRecorded(const EventsMessage& message, ByteView payload) {
-  addRecorded(keyOf(message), payload);
-}
-
-void JournalCheck::addReplayed(const EventsMessage& message, ByteView payload) {
-  addReplayed(keyOf(message), payload);
-}
-
-void JournalCheck::addRecorded(const PushesMessage& message, ByteView payload) {
-  addRecorded(keyOf(message), payload);
-}
-
-void JournalCheck::addReplayed(const PushesMessage& message, ByteView payload) {
-  addReplayed(keyOf(message), payload);
-}
 
 std::string JournalCheck::nameOf(const Key& key) const {
   const auto& [avatar, session, sequence] = key;

@@ -26,17 +26,15 @@ class JournalCheck {
   explicit JournalCheck(AnswerKind kind = AnswerKind::Contacts) : kind_(kind) {}
 
   /// Adds an answer from the log. `message` is the decoded `payload`.
-  void addRecorded(const ContactsMessage& message, ByteView payload);
-  void addRecorded(const SolidMessage& message, ByteView payload);
-  void addRecorded(const PersonMessage& message, ByteView payload);
-  void addRecorded(const EventsMessage& message, ByteView payload);
-  void addRecorded(const PushesMessage& message, ByteView payload);
+  template <typename Message>
+  void addRecorded(const Message& message, ByteView payload) {
+    addRecorded(keyOf(message), payload);
+  }
   /// Adds an answer of the replay.
-  void addReplayed(const ContactsMessage& message, ByteView payload);
-  void addReplayed(const SolidMessage& message, ByteView payload);
-  void addReplayed(const PersonMessage& message, ByteView payload);
-  void addReplayed(const EventsMessage& message, ByteView payload);
-  void addReplayed(const PushesMessage& message, ByteView payload);
+  template <typename Message>
+  void addReplayed(const Message& message, ByteView payload) {
+    addReplayed(keyOf(message), payload);
+  }
 
   /// The log was cut off: each avatar's replayed answers after its last recorded one are not
   /// missing, but beyond the log's end. Call after all answers are added.
@@ -66,6 +64,17 @@ class JournalCheck {
     std::int64_t order = 0;
     std::string text;
   };
+
+  [[nodiscard]] static Key keyOf(const ContactsMessage& message) {
+    return {message.avatar, message.session, message.sequenceTo};
+  }
+  [[nodiscard]] static Key keyOf(const EventsMessage& message) {
+    return {0, message.timeline, message.sequence};
+  }
+  template <typename Message>
+  [[nodiscard]] static Key keyOf(const Message& message) {
+    return {message.avatar, message.session, message.sequence};
+  }
 
   /// Takes the counterpart of an answer out of `others`, or leaves the answer in `own`.
   std::optional<Bytes> pair(const Key& key, ByteView payload, Queues& own, Queues& others);

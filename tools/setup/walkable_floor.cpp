@@ -35,7 +35,7 @@ constexpr int kMostSpans = (1 << 24) - 1;
 constexpr double kMostLevels = RC_SPAN_MAX_HEIGHT - 1;
 /// A part of a level narrower than this (m) is not worth a look.
 constexpr double kSmallestPart = 4.0;
-constexpr std::chrono::seconds kLongest(20);
+constexpr std::chrono::seconds kLongestSearch(20);
 /// How much lighter an area weighs that lies over other floor, and one that shows its back.
 constexpr double kOverWeighs = 0.1, kBackWeighs = 0.3;
 /// The main floor is on top of a level where it is higher than this above its lowest point, with
@@ -249,7 +249,7 @@ class FloorBuilder {
     constexpr std::size_t kAtOnce = 256;
     for (std::size_t i = 0; i < drawn_.size(); i += kAtOnce) {
       if (!draw(i, std::min(i + kAtOnce, drawn_.size()))) return tooMuch("memory is short");
-      if (std::chrono::steady_clock::now() - begin > kLongest) {
+      if (std::chrono::steady_clock::now() - begin > kLongestSearch) {
         return tooMuch("the scene has too many layers in one place");
       }
     }

@@ -1,6 +1,5 @@
 #include "tools/solid/solid_lines.h"
 
-#include <cmath>
 #include <cstring>
 #include <string_view>
 #include <utility>
@@ -11,36 +10,14 @@
 #include "assets/avatar/avatar_file.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
-#include "tools/contact_json.h"
 #include "tools/replay/results_writer.h"
 #include "tools/settings/file_mark.h"
+#include "tools/solid_json.h"
 
 namespace foretouch::tools {
 namespace {
 
-/// The shortest text that reads back as the same bits: readers of JSON take "-0" for a whole 0.
-void writeBits(double x, JsonWriter& out) {
-  if (x == 0.0 && std::signbit(x)) {
-    out.raw("-0.0");
-  } else {
-    out.value(x);
-  }
-}
-
-void writePose(const Pose& pose, JsonWriter& out) {
-  out.list("rotations", pose.rotations, [&](const Quaternion& q) {
-    out.beginArray();
-    for (const double x : {q.w(), q.x(), q.y(), q.z()}) writeBits(x, out);
-    out.endArray();
-  });
-  out.list("translations", pose.translations, [&](const Eigen::Vector3d& p) {
-    out.beginArray();
-    for (const double x : p) writeBits(x, out);
-    out.endArray();
-  });
-}
-
-void writePose(const char* name, const Pose& pose, JsonWriter& out) {
+void writeNamedPose(const char* name, const Pose& pose, JsonWriter& out) {
   out.key(name);
   out.beginObject();
   writePose(pose, out);
@@ -78,19 +55,6 @@ void writeOptions(const SolidOptions& options, const Avatar& avatar, JsonWriter&
   out.field("around_in_all", options.aroundInAll);
   out.field("placing_reach", options.placingReach);
   out.field("work", options.workBudget);
-  out.endObject();
-}
-
-void writeCounters(const SolidCounters& counters, JsonWriter& out) {
-  out.key("counters");
-  out.beginObject();
-  out.field("queries", counters.queries);
-  out.field("iterations", counters.iterations);
-  out.field("features", counters.features);
-  out.field("rows", counters.rows);
-  out.field("around_queries", counters.aroundQueries);
-  out.field("placing_queries", counters.placingQueries);
-  out.field("work", counters.work);
   out.endObject();
 }
 
@@ -178,7 +142,7 @@ std::string SolidLines::line(const PlayedTick& played) {
   out.field("clearance", played.numPieces() > 0 && answer.isCertified ? answer.clearance : 0.0);
   if (answer.snapInS >= 0.0) out.field("snap_in", answer.snapInS);
   if (const Pose* const start = played.start()) {
-    writePose("start", *start, out);
+    writeNamedPose("start", *start, out);
   } else if (!shownMark_.empty() && played.numPieces() > 0) {
     out.field("from", shownMark_);
   }
@@ -192,7 +156,7 @@ std::string SolidLines::line(const PlayedTick& played) {
   }
   out.endArray();
   if (answer.state == SolidState::Placing || !played.isShownTracked()) {
-    writePose("tracked", played.tracked, out);
+    writeNamedPose("tracked", played.tracked, out);
   }
   out.list("deviations", answer.linkDeviation, [&](double value) { out.value(value); });
   out.key("joints");
@@ -214,17 +178,10 @@ std::string SolidLines::last(const std::string& fields) {
 }
 
 void SolidLines::write(const SolidContact& contact, JsonWriter& out) const {
-  out.beginObject();
-  out.rawField("link", links_[slotOf(contact.link)]);
-  out.field("lss", contact.lss);
-  if (contact.triangle >= 0) {
-    out.rawField("object", objects_[slotOf(inputs_.scene.object(contact.triangle))]);
-    out.field("triangle", contact.triangle);
-  } else if (contact.other >= 0) {
-    out.rawField("other", links_[slotOf(contact.other)]);
-  }
-  writePush(contact, out);
-  out.endObject();
+  const bool isOfScene = contact.triangle >= 0;
+  const std::string& touched = isOfScene ? objects_[slotOf(inputs_.scene.object(contact.triangle))]
+                                         : links_[slotOf(contact.other)];
+  writeSolidContact(contact, links_[slotOf(contact.link)], touched, out);
 }
 
 }  // namespace foretouch::tools

@@ -93,11 +93,7 @@ void writeContacts(const ContactsMessage& message, Stamps stamps, JsonWriter& ou
   out.field("lost", message.lost);
   out.list("contacts", message.contacts,
            [&](const AnsweredContact& answered) { writeAnswered(answered, message, out); });
-  if (stamps == Stamps::With) {
-    out.field("receive_utime", message.receiveUtimeUs);
-    out.field("send_utime", message.sendUtimeUs);
-    out.field("query_us", message.queryUs);
-  }
+  writeStamps(message, "query_us", message.queryUs, stamps, out);
   out.endObject();
 }
 
@@ -150,13 +146,7 @@ void writeStatus(const StatusMessage& message, JsonWriter& out) {
 }
 
 std::string statusLine(const StatusMessage& message) {
-  std::string text;
-  JsonWriter out(text);
-  out.beginObject();
-  out.key("status");
-  writeStatus(message, out);
-  out.endObject();
-  return text + "\n";
+  return jsonLine("status", [&](JsonWriter& out) { writeStatus(message, out); });
 }
 
 std::string statusText(const StatusMessage& message) {

@@ -8,12 +8,9 @@
 
 #include "assets/json_writer.h"
 #include "network/wire/messages.h"
+#include "tools/stream/message_json.h"
 
 namespace foretouch::tools {
-
-/// Whether a line has the arrival of the pose, the query's duration and the time of the answer,
-/// which differ between runs.
-enum class Stamps { With, Without };
 
 /// As text: beyond the range of JSON numbers in some readers.
 [[nodiscard]] std::string hashText(std::int64_t hash);

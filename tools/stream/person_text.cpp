@@ -13,8 +13,12 @@ namespace {
 
 /// Beyond this many avatars, forgets the known ones.
 constexpr std::size_t kMostToldAvatars = 4096;
-constexpr double kUsPerMs = 1e3;
 constexpr double kMmInM = 1e3;
+
+double milliseconds(double us) {
+  constexpr double kUsPerMs = 1e3;
+  return us / kUsPerMs;
+}
 
 void writeTold(const ToldBracket& told, JsonWriter& out) {
   const LinkBracket& bracket = told.bracket;
@@ -41,7 +45,7 @@ std::string touchText(const ToldBracket& told, double stepUs) {
   const LinkBracket& bracket = told.bracket;
   std::string text = inQuotes(told.linkName);
   if (!told.otherName.empty()) text += " on " + inQuotes(told.otherName);
-  const auto ms = [stepUs](double t) { return t * stepUs / kUsPerMs; };
+  const auto ms = [stepUs](double t) { return milliseconds(t * stepUs); };
   if (bracket.verdict == BracketVerdict::Certain && bracket.possibleFrom > 0.0) {
     return text + fmt::format(", from {:.1f} to {:.1f} ms on", ms(bracket.possibleFrom),
                               ms(bracket.certainFrom));
@@ -74,7 +78,7 @@ std::string aheadText(const PersonMessage& message) {
   if (!isClaimed) return "";
   return fmt::format(
       ", nothing for {:.1f} ms",
-      static_cast<double>(std::max<std::int64_t>(0, least - message.utimeUs)) / kUsPerMs);
+      milliseconds(static_cast<double>(std::max<std::int64_t>(0, least - message.utimeUs))));
 }
 
 std::string brokenText(const BrokenBound& broken) {
@@ -86,10 +90,7 @@ std::string brokenText(const BrokenBound& broken) {
 
 void writePerson(const PersonMessage& message, Stamps stamps, JsonWriter& out) {
   out.beginObject();
-  out.field("avatar", message.avatar);
-  out.field("session", message.session);
-  out.field("sequence", message.sequence);
-  out.field("utime", message.utimeUs);
+  writeMessageHead(message, out);
   out.field("between", toString(message.model));
   out.field("bounds_hash", hashText(message.boundsHash));
   out.field("resolution", message.resolution);
@@ -115,22 +116,12 @@ void writePerson(const PersonMessage& message, Stamps stamps, JsonWriter& out) {
     out.field("beyond", broken.beyond);
     out.endObject();
   });
-  if (stamps == Stamps::With) {
-    out.field("receive_utime", message.receiveUtimeUs);
-    out.field("send_utime", message.sendUtimeUs);
-    out.field("person_us", message.personUs);
-  }
+  writeStamps(message, "person_us", message.personUs, stamps, out);
   out.endObject();
 }
 
 std::string personStepLine(const PersonMessage& message, Stamps stamps) {
-  std::string text;
-  JsonWriter out(text);
-  out.beginObject();
-  out.key("person_step");
-  writePerson(message, stamps, out);
-  out.endObject();
-  return text + "\n";
+  return jsonLine("person_step", [&](JsonWriter& out) { writePerson(message, stamps, out); });
 }
 
 std::string personStepText(const PersonMessage& message) {

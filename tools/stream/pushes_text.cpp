@@ -47,10 +47,7 @@ std::string textOf(const ToldCrush& told) {
 
 void writePushes(const PushesMessage& message, JsonWriter& out) {
   out.beginObject();
-  out.field("avatar", message.avatar);
-  out.field("session", message.session);
-  out.field("sequence", message.sequence);
-  out.field("utime", message.utimeUs);
+  writeMessageHead(message, out);
   out.field("step_us", message.stepUs);
   out.field("timeline", message.timeline);
   if (message.isAssumed) out.field("assumed", true);
@@ -58,20 +55,12 @@ void writePushes(const PushesMessage& message, JsonWriter& out) {
   if (message.contactsLeftOut > 0) out.field("contacts_left_out", message.contactsLeftOut);
   out.list("crushes", message.crushes, [&](const ToldCrush& told) { writeCrush(told, out); });
   if (message.crushesLeftOut > 0) out.field("crushes_left_out", message.crushesLeftOut);
-  out.field("receive_utime", message.receiveUtimeUs);
-  out.field("send_utime", message.sendUtimeUs);
-  out.field("tick_us", message.tickUs);
+  writeStamps(message, "tick_us", message.tickUs, Stamps::With, out);
   out.endObject();
 }
 
 std::string pushesLine(const PushesMessage& message) {
-  std::string text;
-  JsonWriter out(text);
-  out.beginObject();
-  out.key("pushes");
-  writePushes(message, out);
-  out.endObject();
-  return text + "\n";
+  return jsonLine("pushes", [&](JsonWriter& out) { writePushes(message, out); });
 }
 
 std::string pushesText(const PushesMessage& message) {

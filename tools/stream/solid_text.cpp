@@ -1,68 +1,18 @@
 #include "tools/stream/solid_text.h"
 
-#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "articulated/quoted.h"
-#include "tools/contact_json.h"
 #include "tools/microseconds.h"
+#include "tools/solid_json.h"
 
 namespace foretouch::tools {
 namespace {
 
 /// Beyond this many avatars, forgets the known ones.
 constexpr std::size_t kMostShownAvatars = 4096;
-
-/// The shortest text that reads back as the same bits: readers of JSON take "-0" for a whole 0.
-void writeAllBits(double x, JsonWriter& out) {
-  x == 0.0 && std::signbit(x) ? out.raw("-0.0") : out.value(x);
-}
-
-void writePoseOnWay(double time, const Pose& pose, JsonWriter& out) {
-  out.beginObject();
-  out.field("t", time);
-  out.list("rotations", pose.rotations, [&](const Quaternion& q) {
-    out.beginArray();
-    for (const double x : {q.w(), q.x(), q.y(), q.z()}) writeAllBits(x, out);
-    out.endArray();
-  });
-  out.list("translations", pose.translations, [&](const Eigen::Vector3d& p) {
-    out.beginArray();
-    for (const double x : p) writeAllBits(x, out);
-    out.endArray();
-  });
-  out.endObject();
-}
-
-void writeShown(const ShownContact& shown, JsonWriter& out) {
-  const SolidContact& contact = shown.contact;
-  out.beginObject();
-  out.field("link", shown.linkName);
-  out.field("lss", contact.lss);
-  if (contact.triangle >= 0) {
-    out.field("object", shown.otherName);
-    out.field("triangle", contact.triangle);
-  } else {
-    out.field("other", shown.otherName);
-  }
-  writePush(contact, out);
-  out.endObject();
-}
-
-void writeWork(const SolidCounters& counters, JsonWriter& out) {
-  out.key("counters");
-  out.beginObject();
-  out.field("queries", counters.queries);
-  out.field("iterations", counters.iterations);
-  out.field("features", counters.features);
-  out.field("rows", counters.rows);
-  out.field("around_queries", counters.aroundQueries);
-  out.field("placing_queries", counters.placingQueries);
-  out.field("work", counters.work);
-  out.endObject();
-}
 
 /// "'LeftHand' on 'table'", each pair once.
 std::string surfacesOf(const SolidMessage& message) {
@@ -84,10 +34,7 @@ std::string surfacesOf(const SolidMessage& message) {
 
 void writeSolid(const SolidMessage& message, Stamps stamps, JsonWriter& out) {
   out.beginObject();
-  out.field("avatar", message.avatar);
-  out.field("session", message.session);
-  out.field("sequence", message.sequence);
-  out.field("utime", message.utimeUs);
+  writeMessageHead(message, out);
   out.field("kind", toString(message.kind));
   out.field("lost", message.lost);
   out.field("step_us", message.stepUs);
@@ -107,31 +54,25 @@ void writeSolid(const SolidMessage& message, Stamps stamps, JsonWriter& out) {
   out.key("way");
   out.beginArray();
   for (std::size_t i = 0; i < message.way.size(); ++i) {
-    writePoseOnWay(message.times[i], message.way[i], out);
+    out.beginObject();
+    out.field("t", message.times[i]);
+    writePose(message.way[i], out);
+    out.endObject();
   }
   out.endArray();
   out.list("deviations", message.linkDeviation, [&](double value) { out.value(value); });
   out.list("joints", message.joints, [&](SolidJointState state) { out.value(toString(state)); });
-  out.list("contacts", message.contacts,
-           [&](const ShownContact& shown) { writeShown(shown, out); });
+  out.list("contacts", message.contacts, [&](const ShownContact& shown) {
+    writeSolidContact(shown.contact, jsonString(shown.linkName), jsonString(shown.otherName), out);
+  });
   if (message.contactsLeftOut > 0) out.field("contacts_left_out", message.contactsLeftOut);
-  writeWork(message.counters, out);
-  if (stamps == Stamps::With) {
-    out.field("receive_utime", message.receiveUtimeUs);
-    out.field("send_utime", message.sendUtimeUs);
-    out.field("solid_us", message.solidUs);
-  }
+  writeCounters(message.counters, out);
+  writeStamps(message, "solid_us", message.solidUs, stamps, out);
   out.endObject();
 }
 
 std::string solidLine(const SolidMessage& message, Stamps stamps) {
-  std::string text;
-  JsonWriter out(text);
-  out.beginObject();
-  out.key("solid");
-  writeSolid(message, stamps, out);
-  out.endObject();
-  return text + "\n";
+  return jsonLine("solid", [&](JsonWriter& out) { writeSolid(message, stamps, out); });
 }
 
 std::string solidText(const SolidMessage& message) {
