@@ -51,14 +51,7 @@ ft_status ended(const Done& done) {
 ft_world_side eventSideOf(const ft_world& world, const ContactSide& side, ObjectId object) {
   const bool hasObjects =
       side.body == kStillScene || (side.body >= 0 && world.bodies[slotOf(side.body)].mesh);
-  ft_world_side c{};
-  c.body = side.body;
-  c.link = side.link;
-  c.lss = side.lss;
-  c.triangle = side.triangle;
-  c.object = hasObjects ? object : -1;
-  Eigen::Map<Eigen::Vector3d>(c.point) = side.p_W;
-  return c;
+  return sideOf(side, hasObjects ? object : -1);
 }
 
 ft_event_point pointOf(const EventPoint& point) {

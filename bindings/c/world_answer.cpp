@@ -26,17 +26,6 @@ std::int32_t objectOf(const ft_world& world, const ContactSide& side) {
   return mesh ? mesh->object(side.triangle) : -1;
 }
 
-ft_world_side sideOf(const ft_world& world, const ContactSide& side) {
-  ft_world_side c{};
-  c.body = side.body;
-  c.link = side.link;
-  c.lss = side.lss;
-  c.triangle = side.triangle;
-  c.object = objectOf(world, side);
-  Eigen::Map<Eigen::Vector3d>(c.point) = side.p_W;
-  return c;
-}
-
 ft_world_contact worldContactOf(const ft_world& world, const WorldContact& contact) {
   ft_world_contact c{};
   c.verdict = static_cast<std::int32_t>(contact.verdict);
@@ -47,8 +36,8 @@ ft_world_contact worldContactOf(const ft_world& world, const WorldContact& conta
   c.separation = contact.separation;
   c.penetration = contact.penetration;
   Eigen::Map<Eigen::Vector3d>(c.normal) = contact.nhat_BA_W;
-  c.a = sideOf(world, contact.a);
-  c.b = sideOf(world, contact.b);
+  c.a = sideOf(contact.a, objectOf(world, contact.a));
+  c.b = sideOf(contact.b, objectOf(world, contact.b));
   return c;
 }
 
@@ -82,6 +71,18 @@ ft_world_counters countersOf(const WorldCounters& counted) {
 }
 
 }  // namespace
+
+ft_world_side sideOf(const ContactSide& side, ObjectId object) {
+  ft_world_side c{};
+  c.body = side.body;
+  c.link = side.link;
+  c.lss = side.lss;
+  c.triangle = side.triangle;
+  c.object = object;
+  Eigen::Map<Eigen::Vector3d>(c.point) = side.p_W;
+  return c;
+}
+
 }  // namespace foretouch::c
 
 using namespace foretouch;
@@ -90,10 +91,9 @@ using namespace foretouch::c;
 ft_status ft_world_answer(ft_world* world, int64_t from_us, int64_t to_us) {
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checked(world); s != FT_OK) return s;
-    if (world->isScratchSuspect) world->scratch.emplace();
-    world->isScratchSuspect = true;
-    const Result<Done> done = world->world.contacts(from_us, to_us, *world->scratch, world->next);
-    world->isScratchSuspect = false;
+    const Result<Done> done = world->withScratch([&](Scratch& scratch) {
+      return world->world.contacts(from_us, to_us, scratch, world->next);
+    });
     FORETOUCH_CHECK_OR(worldFailure, done);
     std::swap(world->answer, world->next);
     world->hasAnswer = true;

@@ -10,6 +10,7 @@
 #include "articulated/try.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/include/foretouch/world.h"
+#include "middleware/ask/flight.h"
 #include "middleware/depth/depth.h"
 #include "middleware/events/world_follower.h"
 #include "middleware/solid_world/solid_world.h"
@@ -62,6 +63,26 @@ struct ft_world {
   bool hasEvents = false;
   foretouch::Triggers triggers;
   foretouch::TriggerEvents triggerEvents;
+
+  /// Questions at an instant and through a time, and the last answers.
+  struct Asked {
+    foretouch::WorldQuestion question;
+    foretouch::WorldAnswer answer, next;
+    foretouch::FlightQuestion flight;
+    foretouch::FlightAnswer flown;
+    std::vector<foretouch::UnknownBody> unknown;  // of the last of both
+    bool hasAnswer = false, hasUnknown = false;
+  };
+  Asked asked;
+
+  template <typename Ask>
+  auto withScratch(const Ask& ask) {
+    if (isScratchSuspect) scratch.emplace();
+    isScratchSuspect = true;
+    auto done = ask(*scratch);
+    isScratchSuspect = false;
+    return done;
+  }
 };
 
 namespace foretouch::c {
@@ -85,6 +106,8 @@ namespace foretouch::c {
 /// Copies the pose of a body, which the world itself checks.
 [[nodiscard]] ft_status copyBodyPose(const ft_world& world, std::int32_t body, const ft_pose* given,
                                      Pose& pose);
+/// `object`: of its triangle; -1: none.
+[[nodiscard]] ft_world_side sideOf(const ContactSide& side, ObjectId object);
 /// An error about an option or argument names it as C does.
 [[nodiscard]] ft_status worldFailure(Error error);
 

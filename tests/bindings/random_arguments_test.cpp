@@ -1,6 +1,7 @@
 // Calls with arguments drawn from what callers get wrong (random_caller.h). Whatever comes, the
 // answer is a status of the list, and a handle where and only where it is FT_OK.
 #include <array>
+#include <foretouch/ask.h>
 #include <foretouch/events.h>
 #include <foretouch/mechanics.h>
 #include <foretouch/solid_world.h>
@@ -416,7 +417,48 @@ class Caller : public test::RandomCaller {
     take(ft_world_silent(world, maybe(silent.data()), kRoom, maybe(&required)));
     take(ft_world_get_counters(world, maybe(&counters)));
     take(ft_world_body_count(maybe(world), maybe(&required)));
+    probe(world, known);
     if (random_.chance(0.1)) take(ft_world_forget_before(world, instant()));
+  }
+  void probe(ft_world* world, std::int64_t known) {
+    const ft_ask_part part{index(), index(), index()};
+    const ft_ask_instant instantOfBody{index(), 0, instant(), number()};
+    ft_ask_whom whom{};
+    take(ft_ask_whom_init(maybe(&whom), sizeOr(sizeof whom)));
+    whom.size = sizeOr(sizeof whom);
+    whom.only = maybe(&part);
+    whom.only_count = static_cast<std::size_t>(random_.below(2));
+    ft_question question{};
+    take(ft_question_init(maybe(&question), sizeOr(sizeof question)));
+    question.size = sizeOr(sizeof question);
+    question.what = random_.chance(0.8) ? random_.below(3) : index();
+    question.which = random_.chance(0.8) ? random_.below(3) : index();
+    for (double& x : question.direction) x = number();
+    question.reach = number();
+    question.shape.radius = random_.chance(0.8) ? 0.1 : number();
+    question.time_us = random_.chance(0.8) ? known : instant();
+    question.whom = maybe(&whom);
+    question.instants = maybe(&instantOfBody);
+    question.instant_count = static_cast<std::size_t>(random_.below(2));
+    ft_flight flight{};
+    flight.size = sizeOr(sizeof flight);
+    flight.shape = question.shape;
+    for (double& x : flight.way) x = number();
+    flight.from_us = instant();
+    flight.to_us = random_.chance(0.8) ? known : instant();
+    flight.whom = question.whom;
+    ft_flight_hit hit{};
+    hit.size = sizeOr(sizeof hit);
+    std::array<ft_world_hit, kRoom> hits{};
+    hits[0].size = sizeOr(sizeof(ft_world_hit));
+    std::array<ft_unknown_body, kRoom> unknown{};
+    unknown[0].size = sizeOr(sizeof(ft_unknown_body));
+    std::int32_t verdict = 0;
+    std::size_t required = 0;
+    take(ft_world_probe(maybe(world), maybe(&question), maybe(&verdict)));
+    take(ft_world_fly(maybe(world), maybe(&flight), maybe(&hit)));
+    take(ft_world_hits(maybe(world), maybe(hits.data()), kRoom, maybe(&required)));
+    take(ft_world_unknown(maybe(world), maybe(unknown.data()), kRoom, maybe(&required)));
   }
 
   void readAnswers(ft_query* query) {

@@ -1,0 +1,168 @@
+/* ask.h: questions to a moving world at an instant, in C99 and C++: what a ray hits, what a moved
+ * sphere or capsule hits first, what a shape overlaps, what is nearest; and what a shape that flies
+ * hits first while the bodies move. At any instant that the world knows, of the past and between
+ * poses too. What they are good for, task by task: docs/ask.md. Units, frames, errors, memory and
+ * sizes of structs are as in foretouch.h; time is as in world.h. */
+#ifndef FORETOUCH_ASK_H
+#define FORETOUCH_ASK_H
+
+#include <foretouch/world.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Whom ---- */
+
+/* In place of an object: every one. */
+#define FT_EVERY_OBJECT (-1)
+
+/* A body, one of its links, or an object of it: of a mesh, or of what is still (FT_STILL_SCENE). */
+typedef struct ft_ask_part {
+  int32_t body;
+  int32_t link;   /* or FT_EVERY_LINK */
+  int32_t object; /* or FT_EVERY_OBJECT */
+} ft_ask_part;
+
+/* A body that is asked about at an instant of its own, with all that carries it: what a player saw,
+ * who sees others late. */
+typedef struct ft_ask_instant {
+  int32_t body;
+  int32_t reserved; /* 0 */
+  int64_t time_us;
+  double time_fraction; /* of one more microsecond, in [0, 1) */
+} ft_ask_instant;
+
+/* Whom a question is about: everybody, unless it says less. */
+typedef struct ft_ask_whom {
+  uint32_t size;
+  uint32_t groups;    /* bit g: bodies of group g; default all */
+  int32_t asks_still; /* 1, the default: what is still as well; 0 */
+  int32_t reserved;   /* 0 */
+  const ft_ask_part* only; /* nothing but these; none: everybody */
+  size_t only_count;
+  const ft_ask_part* without; /* not these */
+  size_t without_count;
+} ft_ask_whom;
+
+FT_API ft_status ft_ask_whom_init(ft_ask_whom* whom, size_t size);
+
+/* ---- At an instant ---- */
+
+enum {
+  FT_ASK_CAST = 0,    /* the shape moves along `direction`, up to `reach`: where does it touch? */
+  FT_ASK_OVERLAP = 1, /* what does the shape touch where it is? */
+  FT_ASK_NEAREST = 2  /* what is near the shape, up to `reach`? */
+};
+
+enum {
+  FT_ASK_CLOSEST = 0, /* the first one along the way, or the nearest one */
+  FT_ASK_ANY = 1,     /* whether there is one: some hit */
+  FT_ASK_ALL = 2      /* each LSS and each triangle that is touched or near, nearest first */
+};
+
+typedef struct ft_question {
+  uint32_t size;
+  int32_t what;     /* FT_ASK_CAST, _OVERLAP or _NEAREST; default FT_ASK_CAST */
+  int32_t which;    /* FT_ASK_CLOSEST, _ANY or _ALL; default FT_ASK_CLOSEST */
+  int32_t reserved; /* 0 */
+  /* Where it begins; solid. Both ends alike: a sphere. No radius either: a point, whose cast is a
+   * ray. */
+  ft_lss shape;
+  double direction[3]; /* of a cast: of any length but zero */
+  double reach;        /* of a cast: how far it moves; of nearest: no farther; up to 1e8 m */
+  int64_t time_us;     /* the instant, */
+  double time_fraction;
+  const ft_ask_whom* whom;         /* NULL: everybody */
+  const ft_ask_instant* instants; /* these bodies at these instants, all others at time_us */
+  size_t instant_count;
+} ft_question;
+
+FT_API ft_status ft_question_init(ft_question* question, size_t size);
+
+enum {
+  FT_ASK_CLEAR = 0,  /* nothing is hit or near, proven */
+  FT_ASK_HIT = 1,    /* something is; what is unknown may be nearer */
+  FT_ASK_UNKNOWN = 2 /* nothing that is known is; of what is unknown nothing is claimed */
+};
+
+/* Answers, and stores FT_ASK_CLEAR, _HIT or _UNKNOWN in *verdict, which may be NULL. Never missed,
+ * never late: what the shape hits, where everything truly is at the instant, has a hit, no farther
+ * than it is, and at most 1e-9 m nearer where doubles resolve it. Questions at the instant of the
+ * last one, while nobody changes the world, are cheapest. Allocates nothing once memory has grown.
+ * Errors name the field: a shape, direction or reach that is not finite, out of range, or without
+ * length; unknown bodies and links; an instant before what was forgotten. After an error the last
+ * answer stays. */
+FT_API ft_status ft_world_probe(ft_world* world, const ft_question* question, int32_t* verdict);
+
+/* An LSS, or a triangle, that was hit or is near. */
+typedef struct ft_world_hit {
+  uint32_t size;
+  int32_t is_assumed;  /* 1: it rests on a body that was silent, and was taken to hold still */
+  ft_world_side what;  /* its point: on its surface */
+  double distance;     /* of a cast: along the way, free before; else how far apart; rounded down */
+  double normal[3];    /* unit, to the shape, W; zero if none is told */
+  double weights[3];   /* of a triangle: the point as a sum of its corners; else zero */
+} ft_world_hit;
+
+/* Of the last ft_world_probe(): by distance, then by body, link, LSS and triangle. In arrays, the
+ * first element's size applies to all. FT_ERROR_NO_STEP before the first answer. O(n). */
+FT_API ft_status ft_world_hits(const ft_world* world, ft_world_hit* hits, size_t capacity,
+                               size_t* required);
+
+enum {
+  FT_ASK_ASSUMED = 0,   /* silent, and taken to hold still: hits of it are assumed */
+  FT_ASK_SILENT = 1,    /* nothing is known after its last pose; it was left out */
+  FT_ASK_NOT_THERE = 2, /* before its first pose; it was left out */
+  FT_ASK_UNRESOLVED = 3 /* of a flight: more triangles, or steps, than are followed in motion */
+};
+
+/* A body that was asked about and is not known then. */
+typedef struct ft_unknown_body {
+  uint32_t size;
+  int32_t body;
+  int32_t why;      /* FT_ASK_ASSUMED to FT_ASK_UNRESOLVED */
+  int32_t reserved; /* 0 */
+} ft_unknown_body;
+
+/* Of the last ft_world_probe() or ft_world_fly(), whichever came last; by body. */
+FT_API ft_status ft_world_unknown(const ft_world* world, ft_unknown_body* bodies, size_t capacity,
+                                  size_t* required);
+
+/* ---- Through a time ---- */
+
+/* A sphere or capsule on its way, at constant speed and without a turn. */
+typedef struct ft_flight {
+  uint32_t size;
+  uint32_t reserved;       /* 0 */
+  ft_lss shape;            /* where it is at from_us */
+  double way[3];           /* to where it is at to_us; zero: it waits */
+  int64_t from_us, to_us;
+  const ft_ask_whom* whom; /* NULL: everybody */
+} ft_flight;
+
+FT_API ft_status ft_flight_init(ft_flight* flight, size_t size);
+
+/* The first hit of all. */
+typedef struct ft_flight_hit {
+  uint32_t size;
+  int32_t verdict;      /* FT_ASK_CLEAR, _HIT or _UNKNOWN: the rest is zero but of FT_ASK_HIT */
+  int64_t time_us;      /* rounded down: nothing is hit before */
+  double time_fraction;
+  int32_t is_assumed;   /* as in ft_world_hit, as all that follows */
+  int32_t reserved;     /* 0 */
+  ft_world_side what;
+  double distance;      /* along the way */
+  double normal[3];
+  double weights[3];
+} ft_flight_hit;
+
+/* The bodies' true motion and the shape's own, not a cast against where they were. Never missed and
+ * never late, in time as in place. Errors: as ft_world_probe(); a time without length. */
+FT_API ft_status ft_world_fly(ft_world* world, const ft_flight* flight, ft_flight_hit* hit);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* FORETOUCH_ASK_H */
