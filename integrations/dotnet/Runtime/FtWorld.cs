@@ -68,5 +68,35 @@ namespace Foretouch {
     public void ForgetBefore(long timeUs) { Ft.Must(FtNative.ft_world_forget_before(this, timeUs)); }
 
     public void Answer(long fromUs, long toUs) { Ft.Must(FtNative.ft_world_answer(this, fromUs, toUs)); }
+
+    /// <summary>FtAsk.Clear, .Hit or .Unknown; then see Hits() and Unknown().</summary>
+    public int Probe(FtQuestion question) {
+      question.size = (uint)sizeof(FtQuestion);
+      int verdict;
+      Ft.Must(FtNative.ft_world_probe(this, &question, out verdict));
+      return verdict;
+    }
+
+    /// <summary>Without these, and some bodies at instants of their own: a shot at what its player saw.</summary>
+    public int Probe(FtQuestion question, ReadOnlySpan<FtAskPart> without, ReadOnlySpan<FtAskInstant> instants = default) {
+      var whom = FtAskWhom.Usual;
+      fixed (FtAskPart* parts = without)
+      fixed (FtAskInstant* seen = instants) {
+        whom.without = parts;
+        whom.withoutCount = (ulong)without.Length;
+        question.whom = &whom;
+        question.instants = seen;
+        question.instantCount = (ulong)instants.Length;
+        return Probe(question);
+      }
+    }
+
+    /// <summary>The first hit of something that flies while the bodies move; see its `verdict`.</summary>
+    public FtFlightHit Fly(FtFlight flight) {
+      flight.size = (uint)sizeof(FtFlight);
+      var hit = new FtFlightHit { size = (uint)sizeof(FtFlightHit) };
+      Ft.Must(FtNative.ft_world_fly(this, &flight, &hit));
+      return hit;
+    }
   }
 }

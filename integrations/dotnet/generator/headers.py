@@ -5,7 +5,7 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
-ORDER = ["foretouch", "mechanics", "person", "robots", "solid", "world", "events", "triggers", "solid_world"]
+ORDER = ["foretouch", "mechanics", "person", "robots", "solid", "world", "events", "triggers", "ask", "solid_world"]
 
 
 class Unknown(Exception):

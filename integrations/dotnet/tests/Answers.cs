@@ -112,9 +112,32 @@ static class Answers {
         dump.One(moving.Depth(new FtDepthQuestion {
           body = body, link = Ft.EveryLink, fromBody = door, fromLink = Ft.EveryLink, timeUs = until - 1000, timeFraction = 0.25
         }));
+        Ask(moving, body, door, until);
         moving.ForgetBefore(until - stride * usPerFrame);
       }
     }
+  }
+
+  static void Ask(FtWorld moving, int body, int door, long until) {
+    var question = FtQuestion.Usual;
+    question.which = FtAsk.All;
+    question.shape = new FtLss(new FtVector(-2, 1, 0.1), new FtVector(-2, 1, 0.1), 0.02);
+    question.direction = new FtVector(1, 0, 0);
+    question.reach = 9;
+    question.timeUs = until - 700;
+    FtAskPart[] without = { new FtAskPart { body = door, link = Ft.EveryLink, @object = -1 } };
+    FtAskInstant[] instants = { new FtAskInstant { body = body, timeUs = until - 900, timeFraction = 0.5 } };
+    moving.Probe(question);
+    dump.Each(moving.Hits());
+    moving.Probe(question, without, instants);
+    dump.Each(moving.Hits());
+    dump.Each(moving.Unknown());
+    var flight = FtFlight.Usual;
+    flight.shape = question.shape;
+    flight.way = new FtVector(3, 0, 0);
+    flight.fromUs = until - 900;
+    flight.toUs = until;
+    dump.One(moving.Fly(flight));
   }
 
   static void SolidWorld() {

@@ -179,6 +179,47 @@ static ft_pose panel_at(int k, double* turn, double* place) {
   return at;
 }
 
+/* A ball cast through the world, at whom its player saw, and one that flies. */
+static void ask(ft_world* moving, int32_t body, int32_t door, int64_t until) {
+  ft_ask_part part = {0, FT_EVERY_LINK, FT_EVERY_OBJECT};
+  ft_ask_instant instant = {0, 0, 0, 0.5};
+  ft_ask_whom whom;
+  ft_question question;
+  ft_flight flight;
+  ft_flight_hit hit;
+  must(ft_ask_whom_init(&whom, sizeof whom));
+  must(ft_question_init(&question, sizeof question));
+  must(ft_flight_init(&flight, sizeof flight));
+  question.which = FT_ASK_ALL;
+  question.shape.a[0] = question.shape.b[0] = -2;
+  question.shape.a[1] = question.shape.b[1] = 1;
+  question.shape.a[2] = question.shape.b[2] = 0.1;
+  question.shape.radius = 0.02;
+  question.direction[0] = 1;
+  question.reach = 9;
+  question.time_us = until - 700;
+  must(ft_world_probe(moving, &question, NULL));
+  EACH(ft_world_hit, ft_world_hits(moving, list, MOST, &count));
+  part.body = door;
+  instant.body = body;
+  instant.time_us = until - 900;
+  whom.without = &part;
+  whom.without_count = 1;
+  question.whom = &whom;
+  question.instants = &instant;
+  question.instant_count = 1;
+  must(ft_world_probe(moving, &question, NULL));
+  EACH(ft_world_hit, ft_world_hits(moving, list, MOST, &count));
+  EACH(ft_unknown_body, ft_world_unknown(moving, list, MOST, &count));
+  flight.shape = question.shape;
+  flight.way[0] = 3;
+  flight.from_us = until - 900;
+  flight.to_us = until;
+  hit.size = sizeof hit;
+  must(ft_world_fly(moving, &flight, &hit));
+  ONE(ft_flight_hit, &hit);
+}
+
 /* The avatar and a panel in a world: contacts, then events, parts and a trigger's. */
 static void world(size_t stride, int64_t us_per_frame) {
   const double half[3] = {0.5, 1, 0.5};
@@ -223,6 +264,7 @@ static void world(size_t stride, int64_t us_per_frame) {
       must(ft_world_depth(moving, &question, &depth));
       ONE(ft_depth, &depth);
     }
+    ask(moving, body, door, until);
     must(ft_world_forget_before(moving, until - (int64_t)stride * us_per_frame));
   }
   ft_world_destroy(moving);

@@ -14,9 +14,6 @@ extern "C" {
 
 /* ---- Whom ---- */
 
-/* In place of an object: every one. */
-#define FT_EVERY_OBJECT (-1)
-
 /* A body, one of its links, or an object of it: of a mesh, or of what is still (FT_STILL_SCENE). */
 typedef struct ft_ask_part {
   int32_t body;
