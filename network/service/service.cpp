@@ -12,15 +12,14 @@
 #include <unordered_map>
 #include <utility>
 
-#include "network/service/held_records.h"
 #include "network/service/mail_room.h"
 #include "network/service/message_seal.h"
 #include "network/service/service_channels.h"
 #include "network/service/service_health.h"
 #include "network/service/service_status.h"
+#include "network/service/stream_desk.h"
 #include "network/service/thread_beat.h"
 #include "network/service/world_desk.h"
-#include "network/stream/bound_stream.h"
 
 namespace foretouch {
 namespace {
@@ -31,25 +30,6 @@ using std::chrono::milliseconds;
 constexpr int kReceiveWaitMs = 100;
 /// Idle threads and the status thread signal this often that they run.
 constexpr milliseconds kBeatEvery{500};
-
-struct ServedStream {
-  BoundStream stream;
-  std::size_t index = 0;
-  PersonStream* person = nullptr;
-  std::uint64_t lost = 0, gaps = 0, vastGaps = 0;  // of the solver's counts, already added up
-  std::vector<std::int64_t> known{}, nowKnown{};   // hashes that the mail room knows of; scratch
-  ReplayGuard skeletons{}, poses{};                // of the receiving thread
-  bool isBroken = false;  // an exception left its state unknown: it answers nothing more
-};
-
-/// One thread's reusable memory.
-struct Desk {
-  ContactsMessage answer;
-  SolidMessage shown;
-  Bytes payload;
-  internal::HeldRecords held;
-  std::unique_ptr<Mail> step = std::make_unique<Mail>();  // for the world
-};
 
 /// `world`: null if there is none.
 std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars, const WorldSolver* world,
@@ -111,12 +91,16 @@ struct Service::Impl final : internal::Outlet {
         threadBeats(static_cast<std::size_t>(chosen.workers) + (parts.world ? 2 : 1)) {
     facts = {shortened(chosen.build), shortened(chosen.scene), solvers.size(), chosen.workers,
              parts.clock->utimeUs()};
+    const internal::StreamSurroundings shared{
+        channels, *parts.clock,   *this,
+        room,     parts.observer, parts.world ? std::optional(solvers.size()) : std::nullopt,
+        counter,  solidCounter,   personCounter};
+    streams.reserve(solvers.size());
     for (StreamSolver& solver : solvers) {
       indexOf.emplace(solver.id(), streams.size());
-      room.know(streams.size(), {});
-      streams.push_back({BoundStream(std::move(solver), chosen.speaker), streams.size()});
+      streams.emplace_back(std::move(solver), chosen.speaker, streams.size(), shared);
     }
-    for (PersonStream& person : parts.persons) streams[indexOf.at(person.id())].person = &person;
+    for (PersonStream& person : parts.persons) streams[indexOf.at(person.id())].sayOf(person);
     if (!parts.world) return;
     world.emplace(std::move(*parts.world), chosen.speaker, chosen.suffix, *parts.clock, *this,
                   solidCounter);
@@ -127,7 +111,7 @@ struct Service::Impl final : internal::Outlet {
   ServiceParts parts;
   const internal::ServiceChannels channels;
   ServiceFacts facts;
-  std::vector<ServedStream> streams;
+  std::vector<internal::StreamDesk> streams;
   std::unordered_map<std::int32_t, std::size_t> indexOf;  // of an avatar's id: its stream
   MailRoom room;
   internal::MessageSeal seal;
@@ -170,7 +154,7 @@ struct Service::Impl final : internal::Outlet {
   // Receiving and answering, in turns.
 
   void serve(ThreadBeat& beat) {
-    Desk desk;
+    internal::StreamMemory memory;
     auto mail = std::make_unique<Mail>();
     std::size_t index = 0;
     for (;;) {
@@ -181,8 +165,9 @@ struct Service::Impl final : internal::Outlet {
       if (taken != MailRoom::Taken::Mail) continue;
       if (index == streams.size()) {
         guarded("the world", [&] { world->take(*mail); });
-      } else {
-        handle(streams[index], *mail, desk);
+      } else if (internal::StreamDesk& stream = streams[index];
+                 !guarded("answering", [&] { stream.take(*mail, memory); })) {
+        stream.abandon(mail->kind);
       }
       room.finish(index);
     }
@@ -263,15 +248,8 @@ struct Service::Impl final : internal::Outlet {
     if (known == indexOf.end()) return reject(kind, Reject::UnknownAvatar);
     const Reject future = sessionFault(session, message.receiveUtimeUs);
     if (future != Reject::None) return reject(kind, future);
-    ServedStream& served = streams[known->second];
-    ReplayGuard& guard = kind == MailKind::Pose ? served.poses : served.skeletons;
-    if (seal.isAsked()) {
-      const Reject old = guard.take(mail->sentUtimeUs, message.receiveUtimeUs);
-      if (old != Reject::None) return reject(kind, old);
-    }
-    if (kind == MailKind::Pose && !served.stream.mayPass(message.sender, message.receiveUtimeUs)) {
-      return reject(kind, Reject::OtherSender);
-    }
+    const Reject refusal = streams[known->second].refusal(*mail, seal.isAsked());
+    if (refusal != Reject::None) return reject(kind, refusal);
     mail->payload.swap(message.payload);
     switch (room.post(known->second, mail)) {
       case MailRoom::Posted::Kept: return;
@@ -283,115 +261,6 @@ struct Service::Impl final : internal::Outlet {
 
   void reject(MailKind kind, Reject reason) {
     kind == MailKind::Pose ? counter.rejectedPose(reason) : counter.rejectedSkeleton(reason);
-  }
-
-  // Answering.
-
-  void handle(ServedStream& stream, const Mail& mail, Desk& desk) {
-    if (stream.isBroken) return reject(mail.kind, Reject::Overrun);
-    bool isCounted = false;
-    const bool done = guarded("answering", [&] {
-      if (mail.kind == MailKind::Pose) return answer(stream, mail, desk, isCounted);
-      internal::HeldStream record(channels, counter, desk.held);
-      const Reject reason = stream.stream.take(heard(mail), mail.skeleton, record);
-      settle(stream, mail, nullptr, desk);
-      tellKnown(stream);
-      if (reason != Reject::None) counter.rejectedSkeleton(reason);
-    });
-    if (done) return;
-    stream.isBroken = true;
-    if (!isCounted) reject(mail.kind, Reject::Overrun);
-  }
-
-  void answer(ServedStream& stream, const Mail& mail, Desk& desk, bool& isCounted) {
-    internal::HeldStream record(channels, counter, desk.held);
-    const Reject reason = stream.stream.take(heard(mail), mail.pose, desk.answer, record);
-    addUp(stream);
-    tellKnown(stream);
-    if (reason != Reject::None) {
-      settle(stream, mail, nullptr, desk);
-      isCounted = true;
-      return counter.rejectedPose(reason);
-    }
-    desk.answer.receiveUtimeUs = mail.receiveUtimeUs;
-    desk.answer.sendUtimeUs = parts.clock->utimeUs();
-    encode(desk.answer, desk.payload);
-    publish(channels.contacts, desk.payload);
-    const std::int64_t sentUtimeUs = parts.clock->utimeUs();
-    desk.held.add(desk.answer.sendUtimeUs, channels.contacts, desk.payload);
-    isCounted = true;
-    counter.answeredPose(static_cast<double>(sentUtimeUs - mail.receiveUtimeUs),
-                         desk.answer.queryUs);
-    SolidStream* const solid = stream.stream.solid();
-    if (solid != nullptr) show(stream, *solid, mail, desk);
-    if (stream.person != nullptr) sayPerson(stream, mail, desk);
-    settle(stream, mail, &stream.stream.solver().lastStep(), desk);
-    StepObserver* const observer = parts.observer;
-    if (observer == nullptr || !observer->wants(stream.index)) return;
-    const StreamStep& step = stream.stream.solver().lastStep();
-    if (solid == nullptr) {
-      observer->observe(stream.index, step, desk.answer, nullptr);
-    } else {
-      const ShownStep shown{solid->shownBefore(), desk.shown};
-      observer->observe(stream.index, step, desk.answer, &shown);
-    }
-  }
-
-  /// Records what the stream said and was answered. Where there is a world, in the order in which
-  /// it is told, by the thread that tells it: no stream waits for it.
-  void settle(ServedStream& stream, const Mail& mail, const StreamStep* step, Desk& desk) {
-    if (!world) return desk.held.flush(*this);
-    Mail& told = *desk.step;
-    told.kind = MailKind::Step;
-    told.receiveUtimeUs = mail.receiveUtimeUs;
-    std::swap(told.step.held, desk.held);
-    told.step.avatar = stream.stream.solver().id();
-    told.step.isAccepted = false;
-    if (step != nullptr) told.step.keep(*step);
-    static_cast<void>(room.post(streams.size(), desk.step));
-  }
-
-  /// After the answer has gone out, so that it waits for nothing new.
-  void show(ServedStream& stream, SolidStream& solid, const Mail& mail, Desk& desk) {
-    solid.follow(stream.stream.solver().lastStep(), desk.shown);
-    desk.shown.receiveUtimeUs = mail.receiveUtimeUs;
-    desk.shown.sendUtimeUs = parts.clock->utimeUs();
-    encode(desk.shown, desk.payload);
-    publish(channels.solid, desk.payload);
-    desk.held.add(desk.shown.sendUtimeUs, channels.solid, desk.payload);
-    solidCounter.shown(desk.shown);
-  }
-
-  void sayPerson(ServedStream& stream, const Mail& mail, Desk& desk) {
-    PersonStream& person = *stream.person;
-    person.follow(stream.stream.solver().lastStep());
-    for (std::size_t i = 0; i < person.numSaid(); ++i) {
-      PersonMessage& said = person.said(i);
-      said.receiveUtimeUs = mail.receiveUtimeUs;
-      said.sendUtimeUs = parts.clock->utimeUs();
-      encode(said, desk.payload);
-      publish(channels.person, desk.payload);
-      desk.held.add(said.sendUtimeUs, channels.person, desk.payload);
-      personCounter.said(said);
-    }
-  }
-
-  void addUp(ServedStream& stream) {
-    const StreamCounts& counts = stream.stream.solver().counts();
-    if (counts.lost == stream.lost && counts.gaps == stream.gaps) return;
-    counter.lostPoses(counts.lost - std::exchange(stream.lost, counts.lost),
-                      counts.gaps - std::exchange(stream.gaps, counts.gaps),
-                      counts.vastGaps - std::exchange(stream.vastGaps, counts.vastGaps));
-  }
-
-  static Heard heard(const Mail& mail) { return {mail.sender, mail.receiveUtimeUs, mail.payload}; }
-
-  /// Poses of skeletons that nobody has said need not wait.
-  void tellKnown(ServedStream& stream) {
-    stream.stream.listKnownHashes(stream.nowKnown);
-    if (stream.known == stream.nowKnown) return;
-    stream.known = stream.nowKnown;
-    room.know(stream.index, stream.known);
   }
 
   // What goes out.

@@ -1,0 +1,86 @@
+// network/service/stream_desk.h: one avatar's stream in a service: its poses are answered, shown
+// where it is solid, and their person told of; the journal and the world hear of all of it. Not
+// installed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "network/service/clock.h"
+#include "network/service/held_records.h"
+#include "network/service/mail_room.h"
+#include "network/service/person_counts.h"
+#include "network/service/service_channels.h"
+#include "network/service/service_counts.h"
+#include "network/service/solid_counts.h"
+#include "network/stream/bound_stream.h"
+#include "network/stream/person_stream.h"
+#include "network/stream/step_observer.h"
+
+namespace foretouch::internal {
+
+/// What a service's streams share. Outlives them.
+struct StreamSurroundings {
+  const ServiceChannels& channels;
+  const Clock& clock;
+  Outlet& outlet;
+  MailRoom& room;
+  StepObserver* observer;               ///< May be none.
+  std::optional<std::size_t> worldBox;  ///< In the room; none: nothing else moves.
+  ServiceCounter& counter;
+  SolidCounter& solids;
+  PersonCounter& persons;
+};
+
+/// One thread's reusable memory.
+struct StreamMemory {
+  ContactsMessage answer;
+  SolidMessage shown;
+  Bytes payload;
+  HeldRecords held;
+  std::unique_ptr<Mail> step = std::make_unique<Mail>();  ///< For the world.
+};
+
+class StreamDesk {
+ public:
+  /// `index`: of its box in the room.
+  StreamDesk(StreamSolver solver, const SpeakerPolicy& policy, std::size_t index,
+             const StreamSurroundings& surroundings);
+  /// Of the same avatar; outlives this.
+  void sayOf(PersonStream& person) { person_ = &person; }
+
+  /// Why mail that just came is not for the box; None: it is. For the receiving thread.
+  [[nodiscard]] Reject refusal(const Mail& mail, bool isSigned);
+  /// Answers. After an exception, see abandon().
+  void take(const Mail& mail, StreamMemory& memory);
+  /// An exception has left the stream's state unknown: it answers nothing more. Refuses the mail,
+  /// unless it is answered already.
+  void abandon(MailKind kind);
+
+ private:
+  void answer(const Mail& mail, StreamMemory& memory, StreamRecord& record);
+  void show(SolidStream& solid, const Mail& mail, StreamMemory& memory);
+  void sayPerson(const Mail& mail, StreamMemory& memory);
+  void settle(const Mail& mail, const StreamStep* step, StreamMemory& memory);
+  void observe(const StreamMemory& memory);
+  void addUp();
+  void tellKnown();
+  void reject(MailKind kind, Reject reason);
+  template <typename Message>
+  void send(const Message& message, const std::string& channel, StreamMemory& memory);
+
+  StreamSurroundings service_;
+  BoundStream stream_;
+  std::size_t index_;
+  PersonStream* person_ = nullptr;
+  StreamCounts added_;                          // of the solver's counts, what is added up already
+  std::vector<std::int64_t> known_, nowKnown_;  // hashes that the room knows of; scratch
+  ReplayGuard skeletons_, poses_;               // of the receiving thread
+  bool isCounted_ = false;                      // the mail at hand
+  bool isBroken_ = false;
+};
+
+}  // namespace foretouch::internal
