@@ -26,7 +26,7 @@ SOURCE, BUILD = PLACE / "source", PLACE / "build"
 # A folder: the programs whose tests cover it, nearest first.
 FOLDERS = {
     "lss": ["lss_tests", "tessellation_tests", "articulated_tests"],
-    "articulated": ["articulated_tests", "tessellation_tests", "assets_tests"],
+    "articulated": ["articulated_tests", "tessellation_tests"],
     "tessellation": ["tessellation_tests"],
     "verify": ["verify_tests"],
     "middleware": ["middleware_tests", "scene_tests", "near_tests", "solid_parts_tests", "world_tests",
