@@ -177,7 +177,7 @@ PlacementCheck onMainFloor(const Walker& walker) {
 /// Whether the body is where a person would stand.
 PlacementCheck levelCheck(const Walker& walker, const Standing& standing) {
   const std::string why = whyNoFloor(walker);
-  if (standing.isOutside && !isWithoutFloor(walker)) {
+  if (standing.isOutside && why.empty()) {
     return {"level", CheckState::Bad, "it stands outside the scene", ""};
   }
   if (!why.empty() && !standing.isOnAsked) {

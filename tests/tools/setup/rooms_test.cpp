@@ -98,6 +98,17 @@ TEST(Rooms, ABodyTallerThanTheRoomIsToldInOneSentence) {
   EXPECT_FALSE(areUsable(answer.checks));
 }
 
+TEST(Rooms, ABodyTallerThanTheRoomIsToldAlsoWhereItStandsBesideIt) {
+  RawScene scene;
+  test::addRectangle(scene, {-0.65, 0, -0.35}, {0, 0, 0.7}, {1.3, 0, 0}, "floor");
+  test::addRectangle(scene, {-0.65, 0.9, -0.35}, {1.3, 0, 0}, {0, 0, 0.7}, "roof");
+  const Room room{"a cupboard", scene, {}, {{2.0, 0, 0}, {2.1, 0, 0}}, false};
+  const Answer answer = answerOf(room);
+  EXPECT_FALSE(areUsable(answer.checks));
+  const std::string text = textNamed(answer, "level");
+  EXPECT_NE(text.find("taller than the room"), std::string::npos) << text;
+}
+
 TEST(Rooms, ARoofOverNoFloorIsLeftForTheOriginAndAsked) {
   const Room room = test::roomOfKind(14, 0);
   const Answer answer = answerOf(room);
