@@ -31,6 +31,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 
+import asked  # noqa: E402
 import bundled  # noqa: E402
 import mathematics  # noqa: E402
 import moving  # noqa: E402
@@ -71,7 +72,7 @@ def arguments():
 def chosen_cases(options, world):
     """Those asked for, and why others of them cannot be run."""
     chosen, skipped = [], {}
-    for case in (*bundled.every_case(), *moving.every_case(), *recordings.every_case()):
+    for case in (*asked.every_case(), *bundled.every_case(), *moving.every_case(), *recordings.every_case()):
         named = options.only is None or fnmatch.fnmatch(case.name, options.only)
         if not named or (options.short and not case.short):
             continue
