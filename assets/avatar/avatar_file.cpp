@@ -26,51 +26,29 @@ enum class Place { Outside, File, Links, Link, LssList, LssEntry, Mesh, Numbers 
 /// The value that may follow a key.
 enum class Kind { Format, Version, Links, Name, Parent, Three, Four, LssList, Mesh, Text, Radius };
 
-struct Field {
-  Place place;
-  const char* key;
-  Kind kind;
-  bool required;
-};
-
-constexpr std::array<Field, 14> kFields = {{
-    {Place::File, "format", Kind::Format, true},
-    {Place::File, "version", Kind::Version, true},
-    {Place::File, "links", Kind::Links, true},
-    {Place::Link, "name", Kind::Name, true},
-    {Place::Link, "parent", Kind::Parent, true},
-    {Place::Link, "offset", Kind::Three, true},
-    {Place::Link, "rotation", Kind::Four, false},
-    {Place::Link, "lss", Kind::LssList, true},
-    {Place::Link, "mesh", Kind::Mesh, false},
-    {Place::LssEntry, "a", Kind::Three, true},
-    {Place::LssEntry, "b", Kind::Three, true},
-    {Place::LssEntry, "radius", Kind::Radius, true},
-    {Place::Mesh, "file", Kind::Text, true},
-    {Place::Mesh, "node", Kind::Text, true},
+using AvatarField = internal::JsonField<Place, Kind>;
+constexpr char kThree[] = "an array of 3 numbers", kFour[] = "an array of 4 numbers (w, x, y, z)";
+constexpr std::array<AvatarField, 14> kFields = {{
+    {Place::File, "format", Kind::Format, "the text \"foretouch-avatar\""},
+    {Place::File, "version", Kind::Version, "the number 1, the only version there is"},
+    {Place::File, "links", Kind::Links, "an array of links"},
+    {Place::Link, "name", Kind::Name, "a name"},
+    {Place::Link, "parent", Kind::Parent, "the name of an earlier link, or null for a root"},
+    {Place::Link, "offset", Kind::Three, kThree},
+    {Place::Link, "rotation", Kind::Four, kFour, false},
+    {Place::Link, "lss", Kind::LssList, "an array of LSS"},
+    {Place::Link, "mesh", Kind::Mesh, "an object with \"file\" and \"node\"", false},
+    {Place::LssEntry, "a", Kind::Three, kThree},
+    {Place::LssEntry, "b", Kind::Three, kThree},
+    {Place::LssEntry, "radius", Kind::Radius, "a number"},
+    {Place::Mesh, "file", Kind::Text, "a text"},
+    {Place::Mesh, "node", Kind::Text, "a text"},
 }};
 
-const char* expectation(Kind kind) {
-  switch (kind) {
-    case Kind::Format: return "the text \"foretouch-avatar\"";
-    case Kind::Version: return "the number 1, the only version there is";
-    case Kind::Links: return "an array of links";
-    case Kind::Name: return "a name";
-    case Kind::Parent: return "the name of an earlier link, or null for a root";
-    case Kind::Three: return "an array of 3 numbers";
-    case Kind::Four: return "an array of 4 numbers (w, x, y, z)";
-    case Kind::LssList: return "an array of LSS";
-    case Kind::Mesh: return "an object with \"file\" and \"node\"";
-    case Kind::Text: return "a text";
-    case Kind::Radius: return "a number";
-  }
-  return "";
-}
-
 /// Fills raw links from the parser's events.
-class AvatarSax final : public internal::MarkedSax {
+class AvatarSax final : public internal::TableSax<Place, Kind> {
  public:
-  using MarkedSax::MarkedSax;
+  AvatarSax(std::string_view text, const std::string& file) : TableSax(text, file, kFields) {}
 
   [[nodiscard]] Result<Avatar> build();
 
@@ -79,37 +57,21 @@ class AvatarSax final : public internal::MarkedSax {
     joint().parent = kNoParent;
     return valueDone();
   }
-  bool boolean(bool) override { return unexpected("true or false"); }
-  bool number_integer(number_integer_t v) override { return number(static_cast<double>(v)); }
-  bool number_unsigned(number_unsigned_t v) override { return number(static_cast<double>(v)); }
-  bool number_float(number_float_t v, const string_t&) override { return number(v); }
   bool string(string_t& text) override;
-  bool binary(binary_t&) override { return unexpected("binary data"); }  // not in JSON text
   bool start_object(std::size_t) override;
-  bool key(string_t& key) override;
-  bool end_object() override;
   bool start_array(std::size_t) override;
   bool end_array() override;
 
  private:
-  [[nodiscard]] Place place() const { return places_.empty() ? Place::Outside : places_.back(); }
-  [[nodiscard]] bool expects(Kind kind) const { return field_ != nullptr && field_->kind == kind; }
   [[nodiscard]] RawJoint& joint() { return raw_.joints.back(); }
 
-  bool number(double value);
+  bool number(double value) override;
+  bool takeObject() override;
+  [[nodiscard]] const char* elementOf(Place place) const override;
   bool parent(const std::string& name);
-  bool enter(Place place);
-  bool valueDone() {
-    field_ = nullptr;
-    return true;
-  }
   bool fail(ErrorCode code, const std::string& message) override;
-  bool unexpected(const std::string& found);
   [[nodiscard]] Error located(Error error) const;
 
-  std::vector<Place> places_;
-  std::vector<unsigned> seen_;  // per open object: which of kFields it has had
-  const Field* field_ = nullptr;
   std::vector<double> numbers_;
 
   RawSkeleton raw_;
@@ -125,7 +87,7 @@ bool AvatarSax::fail(ErrorCode code, const std::string& message) {
   error.file = file();
   error.line = line();
   error.message = message;
-  if (!raw_.joints.empty() && places_.size() > 2) {  // inside a link
+  if (!raw_.joints.empty() && depth() > 2) {  // inside a link
     error.index = static_cast<std::int64_t>(raw_.joints.size()) - 1;
     error.message =
         "link " + std::to_string(error.index) + " " + inQuotes(joint().name) + ": " + error.message;
@@ -133,16 +95,9 @@ bool AvatarSax::fail(ErrorCode code, const std::string& message) {
   return stop(std::move(error));
 }
 
-bool AvatarSax::unexpected(const std::string& found) {
-  std::string expected = "one avatar object";
-  if (field_ != nullptr) {
-    expected = std::string(expectation(field_->kind)) + " for \"" + field_->key + "\"";
-  } else if (place() == Place::Links) {
-    expected = "an object that is a link";
-  } else if (place() == Place::LssList) {
-    expected = "an object that is an LSS";
-  }
-  return fail(ErrorCode::Syntax, "expected " + expected + ", found " + found);
+const char* AvatarSax::elementOf(Place place) const {
+  if (place == Place::Links) return "an object that is a link";
+  return place == Place::LssList ? "an object that is an LSS" : "one avatar object";
 }
 
 bool AvatarSax::number(double value) {
@@ -172,7 +127,7 @@ bool AvatarSax::string(string_t& text) {
     return parent(text);
   } else if (expects(Kind::Text)) {
     MeshReference& mesh = meshes_.back();
-    (std::string_view(field_->key) == "file" ? mesh.file : mesh.node) = text;
+    (keyAtHand() == "file" ? mesh.file : mesh.node) = text;
   } else {
     return unexpected("a text");
   }
@@ -187,16 +142,6 @@ bool AvatarSax::parent(const std::string& name) {
   }
   joint().parent = found->second;
   return valueDone();
-}
-
-bool AvatarSax::enter(Place next) {
-  places_.push_back(next);
-  field_ = nullptr;
-  if (next == Place::File || next == Place::Link || next == Place::LssEntry ||
-      next == Place::Mesh) {
-    seen_.push_back(0);
-  }
-  return true;
 }
 
 bool AvatarSax::start_object(std::size_t) {
@@ -222,40 +167,14 @@ bool AvatarSax::start_object(std::size_t) {
   return unexpected("an object");
 }
 
-bool AvatarSax::key(string_t& key) {
-  std::string known;
-  for (std::size_t i = 0; i < kFields.size(); ++i) {
-    if (kFields[i].place != place()) continue;
-    known += (known.empty() ? "" : ", ") + std::string(kFields[i].key);
-    if (key != kFields[i].key) continue;
-    const unsigned bit = 1u << i;
-    if ((seen_.back() & bit) != 0) {
-      return fail(ErrorCode::DuplicateName, "the key " + inQuotes(key) + " appears twice");
-    }
-    seen_.back() |= bit;
-    field_ = &kFields[i];
-    return true;
-  }
-  return fail(ErrorCode::UnknownName,
-              "unknown key " + inQuotes(key) + "; expected one of " + known);
-}
-
-bool AvatarSax::end_object() {
-  for (std::size_t i = 0; i < kFields.size(); ++i) {
-    if (kFields[i].place != place() || !kFields[i].required) continue;
-    if ((seen_.back() & (1u << i)) == 0) {
-      return fail(ErrorCode::Syntax, fmt::format("the key '{}' is missing", kFields[i].key));
-    }
-  }
+bool AvatarSax::takeObject() {
   if (place() == Place::Mesh && meshes_.back().file.empty()) {
     return fail(ErrorCode::Empty, "expected the path of a mesh for \"file\", found an empty text");
   }
   if (place() == Place::Link) {
     byName_.emplace(joint().name, static_cast<JointId>(raw_.joints.size()) - 1);
   }
-  places_.pop_back();
-  seen_.pop_back();
-  return valueDone();
+  return true;
 }
 
 bool AvatarSax::start_array(std::size_t) {
@@ -264,8 +183,7 @@ bool AvatarSax::start_array(std::size_t) {
   if (expects(Kind::LssList)) return enter(Place::LssList);
   if (!expects(Kind::Three) && !expects(Kind::Four)) return unexpected("an array");
   numbers_.clear();
-  places_.push_back(Place::Numbers);  // the field stays: it selects the numbers' destination
-  return true;
+  return enter(Place::Numbers, true);  // the key selects the numbers' destination
 }
 
 bool AvatarSax::end_array() {
@@ -276,14 +194,13 @@ bool AvatarSax::end_array() {
       joint().rotation = Quaternion(v[0], v[1], v[2], v[3]);
     } else {
       const Eigen::Vector3d point(v[0], v[1], v[2]);
-      const std::string_view key = field_->key;
+      const std::string_view key = keyAtHand();
       if (key == "offset") joint().offset = point;
       if (key == "a") lss_.back().back().a = point;
       if (key == "b") lss_.back().back().b = point;
     }
   }
-  places_.pop_back();
-  return valueDone();
+  return leave();
 }
 
 Error AvatarSax::located(Error error) const {

@@ -33,47 +33,29 @@ enum class PairsPlace { Outside, File, LeftOut, Pair, Radii, Radius };
 /// The value that may follow a key.
 enum class PairsKind { Format, Version, LeftOut, Radii, Link, Reason, Index, Metres };
 
-struct PairsField {
-  PairsPlace place;
-  const char* key;
-  PairsKind kind;
-  bool required;
-};
-
+using PairsField = internal::JsonField<PairsPlace, PairsKind>;
+constexpr char kLinkName[] = "the name of a link", kLssNumber[] = "the number of an LSS, from 0";
 constexpr std::array<PairsField, 12> kPairsFields = {{
-    {PairsPlace::File, "format", PairsKind::Format, true},
-    {PairsPlace::File, "version", PairsKind::Version, true},
-    {PairsPlace::File, "left_out", PairsKind::LeftOut, true},
-    {PairsPlace::File, "radii", PairsKind::Radii, false},
-    {PairsPlace::Pair, "a", PairsKind::Link, true},
-    {PairsPlace::Pair, "b", PairsKind::Link, true},
-    {PairsPlace::Pair, "reason", PairsKind::Reason, true},
-    {PairsPlace::Radius, "a", PairsKind::Link, true},
-    {PairsPlace::Radius, "lss_a", PairsKind::Index, true},
-    {PairsPlace::Radius, "b", PairsKind::Link, true},
-    {PairsPlace::Radius, "lss_b", PairsKind::Index, true},
-    {PairsPlace::Radius, "radius", PairsKind::Metres, true},
+    {PairsPlace::File, "format", PairsKind::Format, "the text \"foretouch-pairs\""},
+    {PairsPlace::File, "version", PairsKind::Version, "the number 1, the only version there is"},
+    {PairsPlace::File, "left_out", PairsKind::LeftOut, "an array of pairs"},
+    {PairsPlace::File, "radii", PairsKind::Radii, "an array of radii", false},
+    {PairsPlace::Pair, "a", PairsKind::Link, kLinkName},
+    {PairsPlace::Pair, "b", PairsKind::Link, kLinkName},
+    {PairsPlace::Pair, "reason", PairsKind::Reason,
+     R"("adjacent", "rest-overlap", "always" or "user")"},
+    {PairsPlace::Radius, "a", PairsKind::Link, kLinkName},
+    {PairsPlace::Radius, "lss_a", PairsKind::Index, kLssNumber},
+    {PairsPlace::Radius, "b", PairsKind::Link, kLinkName},
+    {PairsPlace::Radius, "lss_b", PairsKind::Index, kLssNumber},
+    {PairsPlace::Radius, "radius", PairsKind::Metres, "a number of metres"},
 }};
 
-const char* expectedFor(PairsKind kind) {
-  switch (kind) {
-    case PairsKind::Format: return "the text \"foretouch-pairs\"";
-    case PairsKind::Version: return "the number 1, the only version there is";
-    case PairsKind::LeftOut: return "an array of pairs";
-    case PairsKind::Radii: return "an array of radii";
-    case PairsKind::Link: return "the name of a link";
-    case PairsKind::Reason: return R"("adjacent", "rest-overlap", "always" or "user")";
-    case PairsKind::Index: return "the number of an LSS, from 0";
-    case PairsKind::Metres: return "a number of metres";
-  }
-  return "";
-}
-
 /// Fills the pairs from the parser's events.
-class PairsSax final : public internal::MarkedSax {
+class PairsSax final : public internal::TableSax<PairsPlace, PairsKind> {
  public:
   PairsSax(std::string_view text, const std::string& file, const Avatar& avatar)
-      : MarkedSax(text, file), avatar_(avatar), reasons_(avatar) {
+      : TableSax(text, file, kPairsFields), avatar_(avatar), reasons_(avatar) {
     for (LinkId link = 0; link < avatar.numLinks(); ++link) {
       byName_.emplace(avatar.skeleton().name(link), link);
     }
@@ -81,51 +63,27 @@ class PairsSax final : public internal::MarkedSax {
 
   [[nodiscard]] Result<PairRules> build();
 
-  bool null() override { return unexpected("null"); }
-  bool boolean(bool) override { return unexpected("true or false"); }
-  bool number_integer(number_integer_t v) override { return number(static_cast<double>(v)); }
-  bool number_unsigned(number_unsigned_t v) override { return number(static_cast<double>(v)); }
-  bool number_float(number_float_t v, const string_t&) override { return number(v); }
-  bool binary(binary_t&) override { return unexpected("binary data"); }  // not in JSON text
   bool string(string_t& text) override;
   bool start_object(std::size_t) override;
-  bool key(string_t& key) override;
-  bool end_object() override;
   bool start_array(std::size_t) override;
-  bool end_array() override;
 
  private:
-  [[nodiscard]] PairsPlace place() const {
-    return places_.empty() ? PairsPlace::Outside : places_.back();
-  }
-  [[nodiscard]] bool expects(PairsKind kind) const {
-    return field_ != nullptr && field_->kind == kind;
-  }
   [[nodiscard]] std::string nameOf(LinkId link) const {
     return inQuotes(avatar_.skeleton().name(link));
   }
 
-  bool number(double value);
+  bool number(double value) override;
+  bool takeObject() override;
+  [[nodiscard]] const char* elementOf(PairsPlace place) const override;
   bool linkName(const std::string& name);
   bool reason(const std::string& word);
   bool endPair();
-  bool endRadius();
-  bool enter(PairsPlace next);
-  bool valueDone() {
-    field_ = nullptr;
-    return true;
-  }
   bool fail(ErrorCode code, const std::string& message) override;
-  bool unexpected(const std::string& found);
 
   const Avatar& avatar_;
   PairReasonCheck reasons_;
   std::unordered_map<std::string, LinkId> byName_;
 
-  std::vector<PairsPlace> places_;
-  unsigned seen_ = 0,
-           seenOfFile_ = 0;  // which of kPairsFields the object at hand has had, and the file
-  const PairsField* field_ = nullptr;
   PairRadius at_;  // the pair or radius at hand
   PairReason reason_ = PairReason::User;
 
@@ -142,16 +100,9 @@ bool PairsSax::fail(ErrorCode code, const std::string& message) {
   return stop(Error::inLine(file(), line(), code, where + message));
 }
 
-bool PairsSax::unexpected(const std::string& found) {
-  std::string expected = "one object of pair rules";
-  if (field_ != nullptr) {
-    expected = std::string(expectedFor(field_->kind)) + " for \"" + field_->key + "\"";
-  } else if (place() == PairsPlace::LeftOut) {
-    expected = "an object with \"a\", \"b\" and \"reason\"";
-  } else if (place() == PairsPlace::Radii) {
-    expected = "an object that is a radius";
-  }
-  return fail(ErrorCode::Syntax, "expected " + expected + ", found " + found);
+const char* PairsSax::elementOf(PairsPlace place) const {
+  if (place == PairsPlace::LeftOut) return R"(an object with "a", "b" and "reason")";
+  return place == PairsPlace::Radii ? "an object that is a radius" : "one object of pair rules";
 }
 
 bool PairsSax::number(double value) {
@@ -163,7 +114,7 @@ bool PairsSax::number(double value) {
       return unexpected(fmt::format("{}", value));
     }
     const auto index = static_cast<std::int32_t>(value);
-    (std::string_view(field_->key) == "lss_a" ? at_.lssA : at_.lssB) = index;
+    (keyAtHand() == "lss_a" ? at_.lssA : at_.lssB) = index;
   } else if (!expects(PairsKind::Version)) {
     return unexpected("a number");
   } else if (value != kPairsFormatVersion) {
@@ -186,15 +137,15 @@ bool PairsSax::linkName(const std::string& name) {
     std::vector<std::string> names;
     for (const auto& [known, unused] : byName_) names.push_back(known);
     return fail(ErrorCode::UnknownName, "expected a link of the avatar for \"" +
-                                            std::string(field_->key) + "\", found " +
+                                            std::string(keyAtHand()) + "\", found " +
                                             inQuotes(name) + didYouMean(name, names));
   }
   if (avatar_.lss(found->second).empty()) {
-    return fail(ErrorCode::Mismatch, "expected a link with LSS for \"" + std::string(field_->key) +
+    return fail(ErrorCode::Mismatch, "expected a link with LSS for \"" + std::string(keyAtHand()) +
                                          "\"; " + inQuotes(name) +
                                          " of this avatar has none, so no pair of it is asked");
   }
-  (std::string_view(field_->key) == "a" ? at_.a : at_.b) = found->second;
+  (keyAtHand() == "a" ? at_.a : at_.b) = found->second;
   return valueDone();
 }
 
@@ -209,14 +160,6 @@ bool PairsSax::reason(const std::string& word) {
   return unexpected(inQuotes(word) + didYouMean(word, words));
 }
 
-bool PairsSax::enter(PairsPlace next) {
-  if (place() == PairsPlace::File) seenOfFile_ = seen_;
-  places_.push_back(next);
-  field_ = nullptr;
-  seen_ = 0;
-  return true;
-}
-
 bool PairsSax::start_object(std::size_t) {
   at_ = {};
   if (place() == PairsPlace::Outside) return enter(PairsPlace::File);
@@ -225,35 +168,13 @@ bool PairsSax::start_object(std::size_t) {
   return unexpected("an object");
 }
 
-bool PairsSax::key(string_t& key) {
-  std::string known;
-  for (std::size_t i = 0; i < kPairsFields.size(); ++i) {
-    if (kPairsFields[i].place != place()) continue;
-    known += (known.empty() ? "" : ", ") + std::string(kPairsFields[i].key);
-    if (key != kPairsFields[i].key) continue;
-    const unsigned bit = 1u << i;
-    if ((seen_ & bit) != 0) {
-      return fail(ErrorCode::DuplicateName, "the key " + inQuotes(key) + " appears twice");
-    }
-    seen_ |= bit;
-    field_ = &kPairsFields[i];
-    return true;
+bool PairsSax::takeObject() {
+  if (place() == PairsPlace::Pair) return endPair();
+  if (place() == PairsPlace::Radius) {
+    radii_.push_back(at_);
+    radiusLines_.push_back(line());
   }
-  return fail(ErrorCode::UnknownName,
-              "unknown key " + inQuotes(key) + "; expected one of " + known);
-}
-
-bool PairsSax::end_object() {
-  for (std::size_t i = 0; i < kPairsFields.size(); ++i) {
-    if (kPairsFields[i].place != place() || !kPairsFields[i].required) continue;
-    if ((seen_ & (1u << i)) == 0) {
-      return fail(ErrorCode::Syntax, fmt::format("the key '{}' is missing", kPairsFields[i].key));
-    }
-  }
-  if (place() == PairsPlace::Pair && !endPair()) return false;
-  if (place() == PairsPlace::Radius && !endRadius()) return false;
-  places_.pop_back();
-  return valueDone();
+  return true;
 }
 
 bool PairsSax::endPair() {
@@ -277,22 +198,10 @@ bool PairsSax::endPair() {
   return true;
 }
 
-bool PairsSax::endRadius() {
-  radii_.push_back(at_);
-  radiusLines_.push_back(line());
-  return true;
-}
-
 bool PairsSax::start_array(std::size_t) {
   if (expects(PairsKind::LeftOut)) return enter(PairsPlace::LeftOut);
   if (expects(PairsKind::Radii)) return enter(PairsPlace::Radii);
   return unexpected("an array");
-}
-
-bool PairsSax::end_array() {
-  places_.pop_back();
-  seen_ = seenOfFile_;
-  return valueDone();
 }
 
 Result<PairRules> PairsSax::build() {
