@@ -1,5 +1,6 @@
 // A robot's configurations as poses, and which pairs of its links are asked. Expected values are
 // closed forms.
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -44,6 +45,21 @@ Robot foldable() {
                        turning(RobotJointKind::Revolute, 2.0, 4.0),
                        turning(RobotJointKind::Continuous, 0, 0)})
       .value();
+}
+
+TEST(Robot, NamesTheLimitThatAConfigurationBreaks) {
+  const Robot robot = foldable();  // coordinates: of the arm, the fold and the cuff
+  const std::array<double, 3> within{0.1, 2.0, 50.0};
+  EXPECT_FALSE(robot.breachOf(within.data()).isAny());
+  const std::array<double, 3> low{0.0, 1.5, 0.0};
+  const LimitBreach breach = robot.breachOf(low.data());
+  EXPECT_EQ(breach.coordinate, 1);
+  EXPECT_EQ(breach.joint, kFold);
+  EXPECT_EQ(breach.value, 1.5);
+  EXPECT_EQ(breach.lower, 2.0);
+  EXPECT_EQ(breach.upper, 4.0);
+  const std::array<double, 3> high{0.2, 5.0, 0.0};
+  EXPECT_EQ(robot.breachOf(high.data()).joint, kArm) << "the first of two";
 }
 
 TEST(RobotPairRules, LookAtConfigurationsWithinTheLimitsAndNotAtZero) {

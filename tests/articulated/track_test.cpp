@@ -73,6 +73,7 @@ TEST(Track, RefusesByNameWhatDoesNotFollow) {
   ASSERT_TRUE(track.push(200, at(1)).ok());
   expectRefused(track, 200, at(2), ErrorCode::OutOfRange, "after the last one, at 200 us");
   expectRefused(track, 150, at(2), ErrorCode::OutOfRange, "found one at 150 us");
+  EXPECT_EQ(track.push(150, at(2)).error().index, 1) << "the last knot";
   expectRefused(track, 201 + kLongestPieceUs, at(2), ErrorCode::LimitExceeded, "at most");
   expectRefused(track, kNoKnot, at(2), ErrorCode::OutOfRange, "of zero");
   Pose bad = at(2);

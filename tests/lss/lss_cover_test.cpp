@@ -185,6 +185,21 @@ TEST(HullVolume, OfFlatPointsIsZero) {
   EXPECT_EQ(hullVolume(plane), 0.0);
 }
 
+TEST(HullVolume, KnowsFlatFromThinAtEverySize) {
+  test::Random random(3);
+  for (const double size : {1e-5, 1e-2, 1e2, 1e5}) {
+    const auto turn = random.rotation();
+    std::vector<Vector3d> plane, sheet;
+    for (int i = 0; i < 30; ++i) {
+      const Vector3d p = random.inBox(size);
+      plane.push_back(turn * Vector3d(p.x(), p.y(), 0.0));
+      sheet.push_back(turn * Vector3d(p.x(), p.y(), 1e-6 * p.z()));
+    }
+    EXPECT_EQ(hullVolume(plane), 0.0) << size;
+    EXPECT_GT(hullVolume(sheet), 1e-7 * size * size * size) << size;
+  }
+}
+
 /// Tetrahedra summed over every four points would count overlaps, so the oracle is Monte Carlo: the
 /// share of a box's points that no plane through three of the hull's points cuts off.
 TEST(HullVolume, AgreesWithCountedPoints) {

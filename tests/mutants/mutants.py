@@ -3,9 +3,11 @@
 runs the tests that cover its file, nearest first: what no test notices is listed, to be judged.
 
   mutants.py [--count N] [--seed S] [--folders lss,articulated,...] [--from K] [--out FILE]
+  mutants.py --again | --table [--out FILE]
 
 The tree is a clean copy of HEAD in build/mutants; nothing of the working tree changes. FILE gets a
-line of JSON per mutant; a run with --from goes on there. judged.txt lists survivors that a person
+line of JSON per mutant; a run with --from goes on there, one with --again tries those that
+survived anew, by the tests as they are now. judged.txt lists survivors that a person
 has looked at, with the reason why no test can notice them."""
 import argparse
 import json
@@ -108,19 +110,36 @@ def fate_of(mutant, usual):
         path.write_text(source)
 
 
+def mutants_in(folder):
+    for path in sorted((SOURCE / folder).rglob("*")):
+        if path.suffix in (".cpp", ".h"):
+            yield from mutants_of(str(path.relative_to(SOURCE)), path.read_text())
+
+
 def drawn(folders, seed):
     """All mutants in an order of chance, each folder as often as the others."""
     chance = random.Random(seed)
     lists = []
     for folder in folders:
-        found = []
-        for path in sorted((SOURCE / folder).rglob("*")):
-            if path.suffix in (".cpp", ".h"):
-                found += mutants_of(str(path.relative_to(SOURCE)), path.read_text())
+        found = list(mutants_in(folder))
         chance.shuffle(found)
         lists.append(found)
     for same_place in zip(*lists):
         yield from same_place
+
+
+def survivors(results):
+    """Those of `results` that survived, in the sources as they are now."""
+    keys = {result["key"] for result in results.values() if result["fate"] == "survived"}
+    for folder in sorted({result["path"].split("/")[0] for result in results.values()}):
+        yield from (mutant for mutant in mutants_in(folder) if mutant.key in keys)
+
+
+def read_results(path):
+    """The last word on each mutant."""
+    if not path.exists():
+        return {}
+    return {result["key"]: result for result in map(json.loads, path.read_text().splitlines())}
 
 
 def judged():
@@ -150,6 +169,7 @@ def main():
     arguments.add_argument("--folders", default="lss,articulated,tessellation,verify")
     arguments.add_argument("--from", type=int, default=0, dest="first", help="passes over so many of the draw")
     arguments.add_argument("--out", type=Path, default=PLACE / "mutants.jsonl")
+    arguments.add_argument("--again", action="store_true", help="tries those of FILE that survived")
     arguments.add_argument("--table", action="store_true", help="only the table of what FILE holds")
     given = arguments.parse_args()
     folders = given.folders.split(",")
@@ -158,8 +178,9 @@ def main():
     if not given.table:
         usual = prepare(folders)
         done = 0
+        chosen = list(survivors(read_results(given.out))) if given.again else drawn(folders, given.seed)
         with given.out.open("a") as out:
-            for place, mutant in enumerate(drawn(folders, given.seed)):
+            for place, mutant in enumerate(chosen):
                 if place < given.first:
                     continue
                 if done == given.count:
@@ -172,7 +193,7 @@ def main():
                                       "operator": mutant.operator, "key": mutant.key, "fate": fate}) + "\n")
                 out.flush()
                 print(f"{done}/{given.count} {fate}: {mutant.name}", file=sys.stderr, flush=True)
-    results = {result["key"]: result for result in map(json.loads, given.out.read_text().splitlines())}
+    results = read_results(given.out)
     equivalent = judged()
     table(results.values(), equivalent)
     for result in results.values():
