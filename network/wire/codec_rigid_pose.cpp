@@ -38,7 +38,10 @@ constexpr auto kPlace =
                           &rigid_pose_t::position_y, &rigid_pose_t::position_z, wire::kCoordinate));
 
 /// Of thousands of bodies, in the time of sorting them.
-bool areDifferent(std::vector<std::int32_t> bodies) {
+bool areDifferent(const std::vector<BodyPose>& told) {
+  std::vector<BodyNumber> bodies;
+  bodies.reserve(told.size());
+  for (const BodyPose& pose : told) bodies.push_back(pose.body);
   std::sort(bodies.begin(), bodies.end());
   return std::adjacent_find(bodies.begin(), bodies.end()) == bodies.end();
 }
@@ -55,7 +58,7 @@ Reject decode(ByteView payload, RigidPoseMessage& message) {
     return (told.flags & kJointValid) == 0 ? Reject::None : wire::read(wire, kPlace, told, i);
   };
   reject = wire::readRows(wire, kBodyNumber, &rigid_pose_t::num_bodies, message.bodies, readPlace);
-  if (reject == Reject::None && !areDifferent(wire.bodies)) reject = Reject::BadIndex;
+  if (reject == Reject::None && !areDifferent(message.bodies)) reject = Reject::BadIndex;
   return reject;
 }
 

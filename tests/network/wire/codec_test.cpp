@@ -775,5 +775,20 @@ TEST(DecodeStatus, RefusesLatenciesThatAreNone) {
   }
 }
 
+TEST(DecodeRigidPose, RefusesABodyTwiceAndForgetsItInTheNextMessage) {
+  RigidPoseMessage message, read;
+  message.bodies = {{1, kJointValid | kJointTracked, {}}, {2, 0, {}}};
+  Bytes bytes;
+  encode(message, bytes);
+  EXPECT_EQ(decode(bytes, read), Reject::None);
+  message.bodies[1].body = 1;
+  encode(message, bytes);
+  EXPECT_EQ(decode(bytes, read), Reject::BadIndex);
+  message.bodies.clear();
+  encode(message, bytes);
+  EXPECT_EQ(decode(bytes, read), Reject::None) << "the decoder of LCM leaves arrays of no length";
+  EXPECT_TRUE(read.bodies.empty());
+}
+
 }  // namespace
 }  // namespace foretouch
