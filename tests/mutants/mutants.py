@@ -3,11 +3,11 @@
 runs the tests that cover its file, nearest first: what no test notices is listed, to be judged.
 
   mutants.py [--count N] [--seed S] [--folders lss,articulated,...] [--from K] [--out FILE]
-  mutants.py --again | --table [--out FILE]
+  mutants.py --again | --table [--out FILE] [--record]
 
 The tree is a clean copy of HEAD in build/mutants; nothing of the working tree changes. FILE gets a
 line of JSON per mutant; a run with --from goes on there, one with --again tries those that
-survived anew, by the tests as they are now. judged.txt lists survivors that a person
+survived anew, by the tests as they are now; --record keeps the table in docs/measurements. judged.txt lists survivors that a person
 has looked at, with the reason why no test can notice them."""
 import argparse
 import json
@@ -147,7 +147,11 @@ def judged():
     return {line for line in lines if line and not line.startswith(("#", " "))}
 
 
-def table(results, equivalent):
+COLUMNS = {"folder": "folder", "mutants": "mutants", "killed": "killed", "equivalent": "equivalent",
+           "survived": "survived"}
+
+
+def rows_of(results, equivalent):
     folders = Counter()
     for result in results:
         folder = result["path"].split("/")[0]
@@ -155,11 +159,20 @@ def table(results, equivalent):
         if fate == "survived" and result["key"] in equivalent:
             fate = "equivalent"
         folders[folder, fate] += 1
-    print("| folder | mutants | killed | equivalent | survived | killed of the rest % |\n|---|---|---|---|---|---|")
     for folder in sorted({folder for folder, _ in folders}):
-        killed, same, alive = (folders[folder, fate] for fate in ("killed", "equivalent", "survived"))
-        share = 100 * killed / (killed + alive) if killed + alive else 100
-        print(f"| {folder} | {killed + same + alive} | {killed} | {same} | {alive} | {share:.1f} |")
+        counts = [folders[folder, fate] for fate in ("killed", "equivalent", "survived")]
+        yield dict(zip(COLUMNS, [folder, sum(counts), *counts]))
+
+
+def record(rows):
+    figures = {
+        "format": "foretouch-figures", "version": 1, "title": "Mutants",
+        "tables": [{"name": "kernel", "title": "What tests notice", "command": "./run mutants",
+                    "date": time.strftime("%Y-%m-%d"),
+                    "columns": [{"key": key, "title": title} for key, title in COLUMNS.items()],
+                    "rows": rows}]}
+    path = ROOT / "docs/measurements/mutants.json"
+    path.write_text(json.dumps(figures, indent=1) + "\n")
 
 
 def main():
@@ -170,6 +183,7 @@ def main():
     arguments.add_argument("--from", type=int, default=0, dest="first", help="passes over so many of the draw")
     arguments.add_argument("--out", type=Path, default=PLACE / "mutants.jsonl")
     arguments.add_argument("--again", action="store_true", help="tries those of FILE that survived")
+    arguments.add_argument("--record", action="store_true", help="the table into docs/measurements")
     arguments.add_argument("--table", action="store_true", help="only the table of what FILE holds")
     given = arguments.parse_args()
     folders = given.folders.split(",")
@@ -195,7 +209,11 @@ def main():
                 print(f"{done}/{given.count} {fate}: {mutant.name}", file=sys.stderr, flush=True)
     results = read_results(given.out)
     equivalent = judged()
-    table(results.values(), equivalent)
+    rows = list(rows_of(results.values(), equivalent))
+    for row in [COLUMNS, dict.fromkeys(COLUMNS, "---"), *rows]:
+        print("| " + " | ".join(str(value) for value in row.values()) + " |")
+    if given.record:
+        record(rows)
     for result in results.values():
         if result["fate"] == "survived" and result["key"] not in equivalent:
             print(f"survived: {result['key']} (line {result['line']}, {result['operator']})")
