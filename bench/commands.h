@@ -7,7 +7,6 @@ namespace foretouch::tools {
 
 [[nodiscard]] Command askBenchCommand();
 [[nodiscard]] Command bodyCommand();
-[[nodiscard]] Command cageCommand();
 [[nodiscard]] Command compareCommand();
 [[nodiscard]] Command deadlineCommand();
 [[nodiscard]] Command extremesCommand();
@@ -23,9 +22,7 @@ namespace foretouch::tools {
 [[nodiscard]] Command streamCommand();
 [[nodiscard]] Command tradeCommand();
 [[nodiscard]] Command treesCommand();
-[[nodiscard]] Command trustCommand();
 [[nodiscard]] Command tuneCommand();
-[[nodiscard]] Command viewBenchCommand();
 [[nodiscard]] Command worldBenchCommand();
 
 void addBenchCommands(CLI::App& program, ExitCode& exit);

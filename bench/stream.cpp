@@ -135,8 +135,7 @@ struct SoakMemory {
   OpenFiles filesFirst, filesLast;  // of each half
 };
 
-}  // namespace
-
+/// Numbered from 1.
 std::vector<LoadSender> sendersOf(const std::vector<StreamCrowd>& crowds) {
   std::vector<LoadSender> senders;
   for (const StreamCrowd& crowd : crowds) {
@@ -147,17 +146,18 @@ std::vector<LoadSender> sendersOf(const std::vector<StreamCrowd>& crowds) {
   return senders;
 }
 
-std::vector<std::string> serviceArguments(const BenchFiles& files, std::size_t avatars, int workers,
-                                          const std::string& logPath) {
+/// For `foretouch serve` with these senders.
+std::vector<std::string> serviceArguments(const BenchFiles& files, std::size_t avatars,
+                                          int workers) {
   std::vector<std::string> arguments = {"--scene", files.scenePath, "--workers",
                                         std::to_string(workers)};
   for (std::size_t i = 1; i <= avatars; ++i) {
     arguments.insert(arguments.end(), {"--avatar", std::to_string(i) + "=" + files.avatarPath});
   }
-  if (!logPath.empty()) arguments.insert(arguments.end(), {"--log", logPath});
   return arguments;
 }
 
+/// The facts that the figures depend on.
 std::vector<BenchFact> streamFacts(const BenchInputs& inputs, int workers) {
   namespace fs = std::filesystem;
   return {{"scene",
@@ -171,6 +171,7 @@ std::vector<BenchFact> streamFacts(const BenchInputs& inputs, int workers) {
           {"workers", std::to_string(workers)}};
 }
 
+/// The clip as its senders send it, one pose per frame.
 Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place) {
   const StepSelection everyFrame{1, static_cast<std::int64_t>(inputs.clip.frames.size()) - 1};
   SenderOptions options;
@@ -187,24 +188,23 @@ Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place) {
   return track;
 }
 
-Result<StreamBench> measureStream(const StreamRequest& request) {
+}  // namespace
+
+Result<BenchReport> measureStream(const StreamRequest& request) {
   FORETOUCH_TRY(const auto inputs, loadBenchInputs(request.files));
   FORETOUCH_TRY(const auto track, loadTrack(inputs, request.place));
-  StreamBench bench;
   BenchTable table = streamTable();
   for (const StreamCrowd& crowd : request.crowds) {
     LoadRequest load;
     load.senders = sendersOf({crowd});
     load.durationS = request.durationS;
-    FORETOUCH_TRY(auto service,
-                  ServiceProcess::start(serviceArguments(inputs.files, load.senders.size(),
-                                                         request.workers, std::string())));
+    FORETOUCH_TRY(auto service, ServiceProcess::start(serviceArguments(
+                                    inputs.files, load.senders.size(), request.workers)));
     FORETOUCH_TRY(const auto outcome, runLoad(track, load));
     service.stop();
     table.rows.push_back(streamRow(crowd, outcome));
-    bench.lost += outcome.unanswered;
   }
-  BenchReport& report = bench.report;
+  BenchReport report;
   report.kind = "stream";
   report.title = "The stream: pose sent to verdict received, over multicast";
   report.command = request.command;
@@ -222,7 +222,7 @@ Result<StreamBench> measureStream(const StreamRequest& request) {
       "hand-over, less the query.",
       "Lost: poses without an answer, by sequence. Sent late: more than a period after they were "
       "due, which is this machine's doing."};
-  return bench;
+  return report;
 }
 
 double slopeOf(const std::vector<double>& times, const std::vector<double>& values) {
@@ -309,7 +309,7 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
                                request.diskPath.empty() ? folder.path() : request.diskPath,
                                !request.diskPath.empty()};
   auto arguments = serviceArguments(inputs.files, load.senders.size() + (request.isCalm ? 0 : 1),
-                                    request.workers, std::string());
+                                    request.workers);
   if (request.moving.props > 0) {
     FORETOUCH_TRY(const auto world, writeLoadWorld(folder, inputs.files, load.senders.size(),
                                                    request.moving.isFurnished));

@@ -32,8 +32,7 @@ struct AskedSoak {
 ExitCode run(AskedStream& asked) {
   asked.request.command = ownCommandLine();
   FORETOUCH_CHECK_OR(failed, enterPrivateNetwork());
-  FORETOUCH_TRY_OR(failed, const auto bench, measureStream(asked.request));
-  const BenchReport& report = bench.report;
+  FORETOUCH_TRY_OR(failed, const auto report, measureStream(asked.request));
   FORETOUCH_CHECK_OR(failed, writeReport(report, asked.json, report.tables.front(), asked.csv));
   printOut(reportText(report));
   return ExitCode::Done;
