@@ -4,7 +4,7 @@ namespace foretouch::tools {
 
 void addBenchCommands(CLI::App& program, ExitCode& exit) {
   for (const auto command :
-       {latencyCommand, scalingCommand, performanceCommand, instructionsCommand, memoryCommand,
+       {latencyCommand, scalingCommand, reportCommand, instructionsCommand, memoryCommand,
         compareCommand, leafCommand, peersCommand, extremesCommand, streamCommand, soakCommand,
         deadlineCommand, treesCommand, tradeCommand, solidBenchCommand, worldBenchCommand,
         tuneCommand, bodyCommand, askBenchCommand}) {

@@ -15,7 +15,7 @@ namespace foretouch::tools {
 [[nodiscard]] Command leafCommand();
 [[nodiscard]] Command memoryCommand();
 [[nodiscard]] Command peersCommand();
-[[nodiscard]] Command performanceCommand();  ///< `report`.
+[[nodiscard]] Command reportCommand();
 [[nodiscard]] Command scalingCommand();
 [[nodiscard]] Command soakCommand();
 [[nodiscard]] Command solidBenchCommand();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -21,6 +20,7 @@
 #include "bench/timing.h"
 #include "lss/index.h"
 #include "network/wire/messages.h"
+#include "tools/report/document_parts.h"
 #include "tools/stream/clip_sender.h"
 
 namespace foretouch::tools {
@@ -159,15 +159,12 @@ std::vector<std::string> serviceArguments(const BenchFiles& files, std::size_t a
 
 /// The facts that the figures depend on.
 std::vector<BenchFact> streamFacts(const BenchInputs& inputs, int workers) {
-  namespace fs = std::filesystem;
-  return {{"scene",
-           fmt::format("{}, {} triangles", fs::path(inputs.files.scenePath).filename().string(),
-                       inputs.scene.numTriangles())},
-          {"avatar", fmt::format("{}, {} links with {} LSS",
-                                 fs::path(inputs.files.avatarPath).filename().string(),
+  return {{"scene", fmt::format("{}, {} triangles", fileName(inputs.files.scenePath),
+                                inputs.scene.numTriangles())},
+          {"avatar", fmt::format("{}, {} links with {} LSS", fileName(inputs.files.avatarPath),
                                  inputs.avatar.numLinks(), inputs.avatar.numLss())},
-          {"clip", fmt::format("{}, a pose a frame, forth and back",
-                               fs::path(inputs.files.motionPath).filename().string())},
+          {"clip",
+           fmt::format("{}, a pose a frame, forth and back", fileName(inputs.files.motionPath))},
           {"workers", std::to_string(workers)}};
 }
 
@@ -204,12 +201,8 @@ Result<BenchReport> measureStream(const StreamRequest& request) {
     service.stop();
     table.rows.push_back(streamRow(crowd, outcome));
   }
-  BenchReport report;
-  report.kind = "stream";
-  report.title = "The stream: pose sent to verdict received, over multicast";
-  report.command = request.command;
-  report.date = dateNow();
-  report.machine = machineFacts();
+  BenchReport report =
+      startedReport("stream", "The stream: pose sent to verdict received, over multicast");
   report.workload = streamFacts(inputs, request.workers);
   report.tables.push_back(std::move(table));
   report.notes = {
@@ -381,11 +374,7 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   row("round trip p99.9 us", valueAtRank(trips, 0.999));
   row("round trip max us", trips.empty() ? 0.0 : trips.back());
   row("service's exit code", soak.exitCode);
-  soak.report.kind = "soak";
-  soak.report.title = "The stream, soaked";
-  soak.report.command = request.command;
-  soak.report.date = dateNow();
-  soak.report.machine = machineFacts();
+  soak.report = startedReport("soak", "The stream, soaked");
   soak.report.workload = streamFacts(inputs, request.workers);
   if (request.moving.props > 0 && !request.moving.isFurnished) {
     soak.report.workload.front() = {"scene", "a hall, 10 triangles"};

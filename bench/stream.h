@@ -24,7 +24,6 @@ struct StreamRequest {
   std::vector<StreamCrowd> crowds;
   double durationS = 10.0;  ///< Of each crowd.
   int workers = 1;
-  std::string command;  ///< As typed in.
 };
 
 /// Every crowd against a service of its own. Precondition: enterPrivateNetwork() was called.
@@ -42,7 +41,6 @@ struct SoakRequest {
   bool isCalm = false;   ///< Without what bench/soak_trouble.h does.
   std::string diskPath;  ///< A folder on a small disk of its own, for the service's log: it is
                          ///< filled and emptied. Empty: the log goes to a folder that is not.
-  std::string command;
 };
 
 struct SoakOutcome {
