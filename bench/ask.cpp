@@ -1,55 +1,63 @@
-#include "bench/ask.h"
-
-#include <algorithm>
+// bench/ask.cpp: `foretouch-bench ask`: what questions to a world at an instant cost, beside
+// Embree's rays, and what a server's other ways to look at the past miss and invent.
+#include <cstdint>
 #include <iterator>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "articulated/result.h"
 #include "articulated/try.h"
 #include "bench/ask/player_shots.h"
 #include "bench/ask/ray_crowd.h"
 #include "bench/ask/ray_scene.h"
 #include "bench/ask/shots.h"
+#include "bench/commands.h"
 #include "bench/machine.h"
+#include "bench/options.h"
+#include "bench/report.h"
 #include "bench/world/people.h"
+#include "tools/settings/lists.h"
 
 namespace foretouch::tools {
 namespace {
 
-bool isAsked(const AskBenchRequest& request, const std::string& part) {
-  const auto& parts = request.parts;
-  return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end();
-}
+constexpr const char* kAskParts[] = {"crowd", "players", "scene", "shots"};
 
-}  // namespace
+struct AskBenchRequest {
+  std::string dataFolder;          ///< With mocap/; without clips in it, the bundled dancer.
+  std::vector<std::string> clips;  ///< By name or path; empty: six.
+  std::vector<std::string> parts;  ///< Of kAskParts; empty: all.
+  std::vector<int> avatars{1, 10, 100, 1000};
+  int questions = 5000;     ///< Of each kind.
+  int shots = 2000;         ///< Per row.
+  int triangles = 300'000;  ///< Of the scene of rays.
+  std::uint64_t seed = 1;
+  FigureFiles figures;
+};
 
-Result<AskBench> measureAsk(const AskBenchRequest& request) {
-  FORETOUCH_TRY(const auto cast, loadWorldCast(request.dataFolder, request.clips));
+/// One thread. Errors name a file, or the part of the input.
+Result<JudgedReport> measureAsk(const AskBenchRequest& request) {
+  FORETOUCH_TRY(const auto cast, loadActors(request.dataFolder, request.clips));
   if (clipPosesOf(cast, kShotRateHz).size() < cast.actors.size()) {
     return Error::in("--clips", ErrorCode::Empty, "expected clips of half a second or more");
   }
-  AskBench bench;
+  JudgedReport bench{startedReport("ask", "Questions to a world at an instant")};
   BenchReport& report = bench.report;
-  report.kind = "ask";
-  report.title = "Questions to a world at an instant";
-  report.command = request.command;
-  report.date = dateNow();
-  report.machine = machineFacts();
   report.workload = {{"clips", namesOf(cast)}};
-  if (isAsked(request, "crowd")) {
+  if (isAsked(request.parts, "crowd")) {
     report.tables.push_back(rayCrowdTable(cast, request.avatars, request.questions, request.seed));
   }
-  if (isAsked(request, "players")) {
-    auto players = playersTable(cast, request.questions, request.seed);
-    bench.violations += players.violations;
-    report.tables.push_back(std::move(players.table));
+  if (isAsked(request.parts, "players")) {
+    bench.add(playersTable(cast, request.questions, request.seed));
   }
-  if (isAsked(request, "scene")) {
+  if (isAsked(request.parts, "scene")) {
     FORETOUCH_TRY(auto table, raySceneTable(request.triangles, request.questions, request.seed));
     report.tables.push_back(std::move(table));
   }
-  if (isAsked(request, "shots")) {
-    auto shots = shotsTable(cast, request.shots, request.seed);
-    bench.violations += shots.violations;
-    report.tables.push_back(std::move(shots.table));
+  if (isAsked(request.parts, "shots")) {
+    bench.add(shotsTable(cast, request.shots, request.seed));
   }
   report.notes = {
       "One thread. Each question is timed by itself; what reading the clock takes is subtracted. "
@@ -65,6 +73,38 @@ Result<AskBench> measureAsk(const AskBenchRequest& request) {
       "A world has these poses. The other ways have a snapshot per tick. Missed: the truth hits. "
       "Invented: it does not. Latency: of the shooter, beside two ticks of interpolation."};
   return bench;
+}
+
+ExitCode run(const AskBenchRequest& request) {
+  FORETOUCH_TRY_OR(failed, const auto bench, measureAsk(request));
+  return finished(bench, "answers are not the judge's", request.figures);
+}
+
+}  // namespace
+
+Command askBenchCommand() {
+  constexpr int kMostAvatars = 10'000, kMost = 10'000'000, kMostSeed = 1'000'000'000;
+  const auto asked = std::make_shared<AskBenchRequest>();
+  AskBenchRequest& request = *asked;
+  Settings settings;
+  addData(settings, request.dataFolder, "With mocap/; $FORETOUCH_DATA says another");
+  addWords(settings, "--clips", "NAME,...", request.clips, {},
+           "Of mocap/, or paths; six if not given, or the bundled dancer where these are absent");
+  addWords(
+      settings, "--parts", "NAME,...", request.parts, {std::begin(kAskParts), std::end(kAskParts)},
+      "crowd, players (of a server), scene (beside Embree), shots (at who is seen late); all if "
+      "not given");
+  addCounts(settings, "--avatars", "N,...", request.avatars, kMostAvatars, "Of each crowd");
+  settings.whole("--questions", "N", request.questions, 1, kMost, "Of each kind");
+  settings.whole("--shots", "N", request.shots, 1, kMost, "Per row");
+  settings.whole("--triangles", "N", request.triangles, 1, kMost, "Of the room of rays");
+  settings.whole("--seed", "N", request.seed, 1, kMostSeed, "Of the questions");
+  addFigures(settings, request.figures, "Also write the first table to a file");
+  Command command{
+      "ask", "What questions to a world cost, and what other ways to look at the past miss",
+      "Example:\n  foretouch-bench ask --parts shots --shots 1000", std::move(settings)};
+  command.run = [asked](const Settings&) { return run(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

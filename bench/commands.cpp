@@ -4,11 +4,10 @@ namespace foretouch::tools {
 
 void addBenchCommands(CLI::App& program, ExitCode& exit) {
   for (const auto command :
-       {latencyCommand, scalingCommand,   performanceCommand, instructionsCommand, memoryCommand,
-        compareCommand, leafCommand,      peersCommand,       extremesCommand,     streamCommand,
-        soakCommand,    viewBenchCommand, deadlineCommand,    cageCommand,         treesCommand,
-        trustCommand,   tradeCommand,     solidBenchCommand,  worldBenchCommand,   tuneCommand,
-        bodyCommand,    askBenchCommand}) {
+       {latencyCommand, scalingCommand, reportCommand, instructionsCommand, memoryCommand,
+        compareCommand, leafCommand, peersCommand, extremesCommand, streamCommand, soakCommand,
+        deadlineCommand, treesCommand, tradeCommand, solidBenchCommand, worldBenchCommand,
+        tuneCommand, bodyCommand, askBenchCommand}) {
     addCommand(program, command(), exit);
   }
 }

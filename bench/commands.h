@@ -7,7 +7,6 @@ namespace foretouch::tools {
 
 [[nodiscard]] Command askBenchCommand();
 [[nodiscard]] Command bodyCommand();
-[[nodiscard]] Command cageCommand();
 [[nodiscard]] Command compareCommand();
 [[nodiscard]] Command deadlineCommand();
 [[nodiscard]] Command extremesCommand();
@@ -16,16 +15,14 @@ namespace foretouch::tools {
 [[nodiscard]] Command leafCommand();
 [[nodiscard]] Command memoryCommand();
 [[nodiscard]] Command peersCommand();
-[[nodiscard]] Command performanceCommand();  ///< `report`.
+[[nodiscard]] Command reportCommand();
 [[nodiscard]] Command scalingCommand();
 [[nodiscard]] Command soakCommand();
 [[nodiscard]] Command solidBenchCommand();
 [[nodiscard]] Command streamCommand();
 [[nodiscard]] Command tradeCommand();
 [[nodiscard]] Command treesCommand();
-[[nodiscard]] Command trustCommand();
 [[nodiscard]] Command tuneCommand();
-[[nodiscard]] Command viewBenchCommand();
 [[nodiscard]] Command worldBenchCommand();
 
 void addBenchCommands(CLI::App& program, ExitCode& exit);

@@ -1,25 +1,90 @@
-#include "bench/compare.h"
-
-#include <algorithm>
+// bench/compare.cpp: the same steps as three models see them: the product, a check of the two poses
+// alone, and rigid links that know only their own two poses; and, at exact fidelity, the links'
+// LSS.
+#include <chrono>
 #include <cstdint>
-#include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "articulated/result.h"
 #include "articulated/try.h"
-#include "bench/fidelity_comparison.h"
+#include "bench/commands.h"
 #include "bench/machine.h"
+#include "bench/options.h"
+#include "bench/report.h"
 #include "bench/rigid_comparison.h"
 #include "tools/console.h"
+#include "tools/inputs/policy_rules.h"
+#include "tools/inputs/replay_inputs.h"
 #include "tools/progress.h"
+#include "tools/report/document_parts.h"
+#include "tools/results_output.h"
 
 namespace foretouch::tools {
 namespace {
 
-std::string nameOf(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
+/// Counts of links over one step or many: whose LSS touch (contact, or from the start).
+struct FidelityCounts {
+  std::int64_t lssContacts = 0;
+  std::int64_t refuted = 0;    ///< Of these, the mesh is clear.
+  std::int64_t later = 0;      ///< The mesh touches later.
+  std::int64_t broken = 0;     ///< The mesh touches and the LSS do not, or earlier: always 0, or a
+                               ///< bug.
+  std::int64_t undecided = 0;  ///< By either: not compared.
+  double lssUs = 0.0;          ///< Cost of the LSS' answer.
+
+  void add(const FidelityCounts& other) {
+    lssContacts += other.lssContacts;
+    refuted += other.refuted;
+    later += other.later;
+    broken += other.broken;
+    undecided += other.undecided;
+    lssUs += other.lssUs;
+  }
+};
+
+bool touches(const LinkContact& contact) {
+  return contact.verdict == Verdict::Contact || contact.verdict == Verdict::StartsInContact;
+}
+
+/// The same question at link fidelity.
+Result<Query> askLinks(const Query& exact) {
+  QueryOptions coarser = exact.options();
+  coarser.fidelity = Fidelity::Link;
+  // Compared is each link's first contact with the scene, which is the same in both scopes.
+  if (coarser.scope == Scope::EveryObject) coarser.scope = Scope::EveryLink;
+  coarser.self.reset();
+  for (LinkPolicy& policy : coarser.linkPolicies) policy.fidelity = Fidelity::Link;
+  return Query::build(exact.avatar(), exact.scene(), coarser);
+}
+
+/// Compares `exact`, the answer to `motion`, with that of the LSS alone: how many contacts
+/// exactness refutes.
+FidelityCounts compareWithLink(const Query& link, const ChainMotion& motion,
+                               const StepContacts& exact, Scratch& scratch) {
+  const auto start = std::chrono::steady_clock::now();
+  const StepContacts coarse = link.answer(motion, scratch);
+  const std::chrono::duration<double, std::micro> elapsed =
+      std::chrono::steady_clock::now() - start;
+  FidelityCounts counts;
+  counts.lssUs = elapsed.count();
+  for (std::size_t i = 0; i < exact.links.size(); ++i) {
+    const LinkContact& mesh = exact.links[i];
+    const LinkContact& lss = coarse.links[i];
+    if (mesh.verdict == Verdict::Undecided || lss.verdict == Verdict::Undecided) {
+      ++counts.undecided;
+      continue;
+    }
+    if (touches(lss)) ++counts.lssContacts;
+    if (touches(lss) && !touches(mesh)) ++counts.refuted;
+    if (touches(mesh) && (!touches(lss) || mesh.toi < lss.toi)) ++counts.broken;
+    if (touches(mesh) && touches(lss) && mesh.toi > lss.toi) ++counts.later;
+  }
+  return counts;
 }
 
 struct Compared {
@@ -111,18 +176,13 @@ BenchTable linkTable(const FidelityCounts& counts, std::int64_t steps) {
 }
 
 BenchReport reportOf(const ReplayInputs& inputs, const Compared& counts) {
-  BenchReport report;
-  report.kind = "compare";
-  report.title = "The same steps as other models see them";
-  report.command = ownCommandLine();
-  report.date = dateNow();
-  report.machine = machineFacts();
-  report.workload = {{"scene", fmt::format("{}, {} triangles", nameOf(inputs.request.scenePath),
+  BenchReport report = startedReport("compare", "The same steps as other models see them");
+  report.workload = {{"scene", fmt::format("{}, {} triangles", fileName(inputs.request.scenePath),
                                            inputs.scene.numTriangles())},
-                     {"avatar", fmt::format("{}, {} links", nameOf(inputs.request.avatarPath),
+                     {"avatar", fmt::format("{}, {} links", fileName(inputs.request.avatarPath),
                                             inputs.avatar.numLinks())},
                      {"clip", fmt::format("{}, {} steps at {:.5g} poses a second",
-                                          nameOf(inputs.request.motionPath), inputs.steps.count,
+                                          fileName(inputs.request.motionPath), inputs.steps.count,
                                           rateTaken(inputs.steps, inputs.clip.frameTimeS))},
                      {"fidelity", toString(inputs.query.fidelity)},
                      {"tolerance", fmt::format("{:g} m", inputs.query.tolerance)}};
@@ -135,8 +195,7 @@ BenchReport reportOf(const ReplayInputs& inputs, const Compared& counts) {
   return report;
 }
 
-}  // namespace
-
+/// Every step of the clip, on one thread. Errors name the file or option.
 Result<BenchReport> measureComparison(const ReplayRequest& request) {
   FORETOUCH_TRY(const auto inputs, loadReplayInputs(request));
   for (const std::string& remark : remarksOn(inputs)) printNote(remark);
@@ -147,6 +206,52 @@ Result<BenchReport> measureComparison(const ReplayRequest& request) {
     progress.advanceTo(step + 1);
   }
   return reportOf(inputs, comparison.counts());
+}
+
+struct AskedComparison {
+  ReplayRequest request;
+  FigureFiles figures;  ///< Without lines for a CSV.
+};
+
+ExitCode run(AskedComparison& asked) {
+  ReplayRequest& request = asked.request;
+  if (request.budgetUs > 0) {
+    return failed(Error::in("--budget-us", ErrorCode::Mismatch,
+                            "expected none: what is undecided has nothing to compare"));
+  }
+  FORETOUCH_CHECK_OR(failed, readPolicies(request));
+  if (const std::string& json = asked.figures.json; !json.empty()) {
+    FORETOUCH_CHECK_OR(failed,
+                       checkOutput(json, {request.scenePath, request.avatarPath, request.motionPath,
+                                          request.mapPath, request.robotPath, request.policyPath}));
+  }
+  FORETOUCH_TRY_OR(failed, const auto report, measureComparison(request));
+  return finished(report, {}, asked.figures);
+}
+
+}  // namespace
+
+Command compareCommand() {
+  const auto asked = std::make_shared<AskedComparison>();
+  Settings settings;
+  addSceneSettings(settings, asked->request);
+  settings.of("--scene").required();
+  addAvatarSetting(settings, asked->request).required();
+  addMotionSetting(settings, asked->request, "--motion", "CLIP").required();
+  addRateSetting(settings, asked->request);
+  addClipSettings(settings, asked->request);
+  addQuerySettings(settings, asked->request);
+  settings.of("--fidelity").only({"link", "exact"});
+  settings.path("--policy", "FILE", asked->request.policyPath, "As of replay: [[policy]] tables");
+  settings.output("--json", "FILE", asked->figures.json, "Also write the figures to a file");
+  Command command{"compare",
+                  "What a check of the poses, rigid links and, at exact fidelity, LSS make of a "
+                  "clip's contacts",
+                  "Example:\n  foretouch-bench compare --scene kitchen.ply --scene-up z --avatar "
+                  "man.avatar.json --motion kick.bvh --clip-scale 0.01 --rate 10",
+                  std::move(settings)};
+  command.run = [asked](const Settings&) { return run(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

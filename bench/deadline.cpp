@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "bench/commands.h"
 #include "bench/machine.h"
+#include "bench/options.h"
 #include "bench/timing.h"
 #include "tools/progress.h"
+#include "tools/settings/lists.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 namespace {
@@ -133,7 +138,7 @@ std::int64_t unsoundLinks(const StepContacts& answer, const StepContacts& touch)
   return unsound;
 }
 
-Result<DeadlineBench> measureDeadlines(const DeadlineRequest& request) {
+Result<JudgedReport> measureDeadlines(const DeadlineRequest& request) {
   FORETOUCH_TRY(const auto inputs, loadBenchInputs(request.options.files));
   FORETOUCH_TRY(const auto scene, refinedScene(inputs, request.triangles));
   FORETOUCH_TRY(const auto body, bodyOf(inputs, request.links));
@@ -172,19 +177,14 @@ Result<DeadlineBench> measureDeadlines(const DeadlineRequest& request) {
     progress.advanceTo(pass + 1);
   }
 
-  DeadlineBench bench;
+  JudgedReport bench{startedReport("deadline", "Deadlines and work budgets")};
   BenchReport& report = bench.report;
-  report.kind = "deadline";
-  report.title = "Deadlines and work budgets";
-  report.command = request.options.command;
-  report.date = dateNow();
-  report.machine = machineFacts();
   report.workload = workloadFacts(inputs, scene, avatar, query.value(), request.options.reference);
   report.workload.emplace_back("steps", describe(workload));
   report.workload.emplace_back("tolerance", fmt::format("{:g} m", request.tolerance));
   BenchTable table = deadlineTable();
   for (Limit& limit : limits) {
-    bench.unsound += limit.unsound;
+    bench.violations += static_cast<std::uint64_t>(limit.unsound);
     table.rows.push_back(rowOf(limit));
   }
   report.tables.push_back(std::move(table));
@@ -196,6 +196,42 @@ Result<DeadlineBench> measureDeadlines(const DeadlineRequest& request) {
       "machine, took beyond it. Work is counted in evaluations in lanes and overruns nothing but "
       "the clock."};
   return bench;
+}
+
+namespace {
+
+constexpr int kMaxWork = 1'000'000'000, kMaxAsks = 100'000'000;
+
+ExitCode run(DeadlineRequest& request) {
+  FORETOUCH_CHECK_OR(failed, complete(request.options));
+  FORETOUCH_TRY_OR(failed, const auto bench, measureDeadlines(request));
+  return finished(bench, "links were said to be free beyond their touch", request.options.figures);
+}
+
+}  // namespace
+
+Command deadlineCommand() {
+  const auto request = std::make_shared<DeadlineRequest>();
+  request->deadlinesUs = {5, 10, 20, 50};
+  request->workBudgets = {500, 1000, 2000, 5000};
+  Settings settings;
+  addNumbers(settings, "--deadlines", "US,...", request->deadlinesUs, kAboveZero,
+             "By the clock, microseconds");
+  addCounts(settings, "--work", "N,...", request->workBudgets, kMaxWork,
+            "By work: evaluations in lanes");
+  settings.whole("--asks", "N", request->asks, 1, kMaxAsks, "Queries of each");
+  settings.number("--rate", "HZ", request->options.workload.rateHz, kAboveZero, "Poses per second");
+  settings.number("--tolerance", "M", request->tolerance, kToleranceRange, "Tolerance (m)");
+  addLinks(settings, "--links", request->links);
+  addTriangles(settings, "--triangles", request->triangles);
+  addBenchOptions(settings, request->options);
+  Command command{"deadline",
+                  "Queries that may cost only so much; exit code 1 where one claims too much",
+                  "Example, feet that graze the floor:\n"
+                  "  foretouch-bench deadline --lift 0.0012 --choice mix --asks 250000",
+                  std::move(settings)};
+  command.run = [request](const Settings&) { return run(*request); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -21,14 +21,9 @@ struct DeadlineRequest {
   std::int64_t asks = 100'000;  ///< Of each of them, at least; whole passes over the steps.
 };
 
-struct DeadlineBench {
-  BenchReport report;
-  std::int64_t unsound = 0;  ///< Answers that claimed to be free beyond the touch.
-};
-
-/// Compares every answer with the same step's touch: the scalar form at kTouchTolerance. One
-/// thread.
-[[nodiscard]] Result<DeadlineBench> measureDeadlines(const DeadlineRequest& request);
+/// Compares every answer with the same step's touch: the scalar form at kTouchTolerance. A
+/// violation claims to be free beyond the touch. One thread.
+[[nodiscard]] Result<JudgedReport> measureDeadlines(const DeadlineRequest& request);
 
 /// Metres: counts as touching in judging an answer.
 inline constexpr double kTouchTolerance = 1e-7;

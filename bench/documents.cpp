@@ -4,11 +4,16 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "articulated/try.h"
 #include "assets/text_file.h"
+#include "bench/commands.h"
 
 namespace foretouch::tools {
 namespace {
@@ -49,28 +54,11 @@ std::vector<std::string> quantitiesOf(const BenchReport& report) {
   return names;
 }
 
-constexpr char kOpening[] = R"(# Performance
-
-Made by `./run bench` from the files in `docs/measurements/`; not written by hand. Microseconds depend on the
-machine and on who else uses it; ratios within one run, and counts, do not. A ray-set is the yardstick: 16 occlusion
-rays (`rtcOccluded1`) along the links' ways, in the same scene and process.
-
-)";
-
 }  // namespace
 
 Result<BenchReport> readReport(const std::string& path) {
   FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxReportBytes));
   return parseReport(text, path);
-}
-
-std::string performanceDocument(const std::vector<BenchReport>& reports) {
-  std::string text = kOpening;
-  for (const BenchReport& report : reports) text += reportMarkdown(report);
-  while (text.size() > 1 && text[text.size() - 1] == '\n' && text[text.size() - 2] == '\n') {
-    text.pop_back();
-  }
-  return text;
 }
 
 Result<std::int64_t> callgrindInstructions(const std::string& text, const std::string& name) {
@@ -141,6 +129,73 @@ BenchTable movedTable(const BenchReport& recorded, const BenchReport& now) {
     table.rows.push_back({name, before, after, moved});
   }
   return table;
+}
+
+namespace {
+
+/// A callgrind file of this program has a few megabytes.
+constexpr std::size_t kMaxCallgrindBytes = std::size_t{1} << 30;
+
+ExitCode runReport(const std::vector<std::string>& files) {
+  for (const std::string& path : files) {
+    FORETOUCH_TRY_OR(failed, const auto report, readReport(path));
+    printOut(reportText(report) + "\n");
+  }
+  return ExitCode::Done;
+}
+
+struct AskedInstructions {
+  std::string callgrind, latency, recorded;
+  bool record = false;
+};
+
+Result<BenchReport> countedNow(const AskedInstructions& asked) {
+  FORETOUCH_TRY(const auto profile, readWholeFile(asked.callgrind, kMaxCallgrindBytes));
+  FORETOUCH_TRY(const auto instructions, callgrindInstructions(profile, asked.callgrind));
+  FORETOUCH_TRY(const auto latency, readReport(asked.latency));
+  auto now = instructionReport(latency, instructions);
+  if (!now.ok()) return inFile(now.error(), asked.latency);
+  return now;
+}
+
+ExitCode runInstructions(const AskedInstructions& asked) {
+  FORETOUCH_TRY_OR(failed, const auto now, countedNow(asked));
+  if (asked.record) {
+    FORETOUCH_CHECK_OR(failed, writeText(asked.recorded, reportJson(now)));
+    printOut(reportText(now));
+    return ExitCode::Done;
+  }
+  FORETOUCH_TRY_OR(failed, const auto recorded, readReport(asked.recorded));
+  printOut(tableText(movedTable(recorded, now)));
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Command reportCommand() {
+  const auto files = std::make_shared<std::vector<std::string>>();
+  Settings settings;
+  settings.list("files", "FILE...", *files, "Files that --json wrote")
+      .required("files that --json wrote");
+  Command command{"report", "Print files of --json as tables",
+                  "Example:\n  foretouch-bench report docs/measurements/world.json",
+                  std::move(settings)};
+  command.run = [files](const Settings&) { return runReport(*files); };
+  return command;
+}
+
+Command instructionsCommand() {
+  const auto asked = std::make_shared<AskedInstructions>();
+  Settings settings;
+  settings.path("--callgrind", "FILE", asked->callgrind, "callgrind.out of the run").required();
+  settings.path("--latency", "FILE", asked->latency, "What --json wrote in the run").required();
+  settings.path("--recorded", "FILE", asked->recorded, "The record").required();
+  settings.flag("--record", asked->record, "Write the record instead of comparing");
+  Command command{"instructions",
+                  "Compare callgrind's count of a latency run with the recorded one",
+                  "`./run instructions` does the whole.", std::move(settings)};
+  command.run = [asked](const Settings&) { return runInstructions(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -1,9 +1,8 @@
-// bench/documents.h: documents made from benchmark files: docs/performance.md, and the changes
-// since the recorded instruction counts.
+// bench/documents.h: what is made of benchmark files: the counts of instructions, and how they have
+// moved since they were recorded.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "articulated/result.h"
 #include "bench/report.h"
@@ -13,9 +12,6 @@ namespace foretouch::tools {
 inline constexpr std::size_t kMaxReportBytes = std::size_t{64} << 20;
 
 [[nodiscard]] Result<BenchReport> readReport(const std::string& path);
-
-/// docs/performance.md: one section per report, in the given order.
-[[nodiscard]] std::string performanceDocument(const std::vector<BenchReport>& reports);
 
 /// The "totals" or "summary" line of a callgrind file: the instructions collected.
 [[nodiscard]] Result<std::int64_t> callgrindInstructions(const std::string& text,

@@ -3,15 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "articulated/try.h"
+#include "bench/commands.h"
+#include "bench/extremes/case_json.h"
 #include "bench/extremes/float_mode.h"
 #include "bench/machine.h"
+#include "bench/options.h"
 #include "lss/index.h"
 #include "tools/progress.h"
+#include "tools/settings/lists.h"
 
 namespace foretouch::tools {
 namespace {
@@ -128,11 +136,7 @@ class Campaign {
 
   void describe(BenchTable table) {
     BenchReport& report = bench_.report;
-    report.kind = "extremes";
-    report.title = "Extremes";
-    report.command = request_.command;
-    report.date = dateNow();
-    report.machine = machineFacts();
+    report = startedReport("extremes", "Extremes");
     report.workload = {
         {"cases a family", fmt::format("{}, seeds from {}", request_.cases, request_.seed)},
         {"asked", fmt::format("both backtrackings, every width, both cullers, each fidelity, "
@@ -158,10 +162,7 @@ class Campaign {
 Result<ExtremesBench> measureExtremes(const ExtremesRequest& request) {
   std::vector<const Family*> chosen;
   for (const Family& family : families()) {
-    if (request.only.empty() ||
-        std::find(request.only.begin(), request.only.end(), family.name) != request.only.end()) {
-      chosen.push_back(&family);
-    }
+    if (isAsked(request.only, family.name)) chosen.push_back(&family);
   }
   for (const std::string& name : request.only) {
     const bool isOne = std::any_of(families().begin(), families().end(),
@@ -181,6 +182,60 @@ std::string familiesText() {
         fmt::format("{:<14} {} ({} members)\n", family.name, family.about, family.members.size());
   }
   return text;
+}
+
+namespace {
+
+constexpr int kMostCases = 10'000'000, kMostSeed = 2'000'000'000, kMostCoincident = 10'000'000;
+
+struct AskedExtremes {
+  ExtremesRequest request;
+  FigureFiles figures;
+  std::string dump;
+  bool lists = false;
+};
+
+ExitCode run(AskedExtremes& asked) {
+  if (asked.lists) {
+    printOut(familiesText());
+    return ExitCode::Done;
+  }
+  FORETOUCH_TRY_OR(failed, const auto bench, measureExtremes(asked.request));
+  FORETOUCH_CHECK_OR(failed, writeText(asked.dump, extremes::casesJson(bench.worst)));
+  return finished(
+      bench.report, bench.report.tables.front(), asked.figures,
+      bench.isSound ? "" : "answers are unsound or faulty: see the notes below the table");
+}
+
+constexpr char kFooter[] =
+    R"(Case i of a family has the seed --seed + i: --only FAMILY --seed S --cases 1 replays it.
+Examples:
+  foretouch-bench extremes --cases 20
+  foretouch-bench extremes --only far,grazing --cases 1000 --json extremes.json
+  foretouch-bench extremes --only denormals --seed 42 --cases 1 --dump case.json)";
+
+}  // namespace
+
+Command extremesCommand() {
+  const auto asked = std::make_shared<AskedExtremes>();
+  ExtremesRequest& request = asked->request;
+  Settings settings;
+  settings.whole("--cases", "N", request.cases, 1, kMostCases,
+                 "Of each family; costly families take a share of it");
+  settings.whole("--seed", "S", request.seed, 1, kMostSeed, "Of each family's first case");
+  addWords(settings, "--only", "FAMILY,...", request.only, {}, "These families (--list)");
+  settings.whole("--coincident", "N", request.sizes.coincident, 1, kMostCoincident,
+                 "Triangles in one place");
+  addFigures(settings, asked->figures, "Also write the table to a file");
+  settings.output("--dump", "FILE", asked->dump,
+                  "Also write the worst and the faulty inputs to a file");
+  settings.flag("--list", asked->lists, "Show the families");
+  Command command{"extremes",
+                  "Inputs at the edge of what is legal, against an oracle of fifty digits; exit "
+                  "code 1 on any unsound or faulty answer",
+                  kFooter, std::move(settings)};
+  command.run = [asked](const Settings&) { return run(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -17,7 +17,6 @@ struct ExtremesRequest {
   std::uint64_t seed = 1;         ///< Of each family's first case; the next case has the next seed.
   std::vector<std::string> only;  ///< Families; empty: all.
   extremes::ExtremeSizes sizes;
-  std::string command;  ///< As typed in.
 };
 
 struct ExtremesBench {

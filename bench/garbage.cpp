@@ -4,7 +4,6 @@
 #include <arpa/inet.h>
 #include <array>
 #include <chrono>
-#include <ctime>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <utility>
@@ -95,20 +94,6 @@ std::vector<Bytes> noiseDatagrams(std::uint64_t seed) {
   return datagrams;
 }
 
-std::vector<Bytes> strangersPoses(const PoseMessage& given, std::uint64_t seed) {
-  PortableRandom random(seed);
-  PoseMessage pose = given;
-  std::vector<Bytes> datagrams;
-  Bytes payload;
-  for (std::size_t i = 0; i < kKinds; ++i) {
-    pose.skeletonHash = static_cast<std::int64_t>(random.uniform(1.0, 1e15));
-    pose.sequence = static_cast<std::int64_t>(i);
-    encode(pose, payload);
-    datagrams.push_back(datagramsOf(kPoseChannel, payload, static_cast<std::uint32_t>(i)).front());
-  }
-  return datagrams;
-}
-
 Flood::Flood(const UdpmUrl& url, std::vector<Bytes> datagrams, double perSecond, double seconds)
     : socket_(url),
       datagrams_(std::move(datagrams)),
@@ -119,7 +104,7 @@ Flood::~Flood() {
   if (thread_.joinable()) thread_.join();
 }
 
-Flood::Sent Flood::wait() {
+std::int64_t Flood::wait() {
   if (thread_.joinable()) thread_.join();
   return sent_;
 }
@@ -131,21 +116,15 @@ void Flood::run(double perSecond, double seconds) {
   std::size_t next = 0;
   for (double now = 0.0; (now = since()) < seconds && !stop_;) {
     const auto due = static_cast<std::int64_t>(now * perSecond);
-    if (sent_.datagrams >= due) {
+    if (sent_ >= due) {
       std::this_thread::sleep_for(std::chrono::microseconds(200));
       continue;
     }
-    const auto owed = static_cast<std::size_t>(due - sent_.datagrams);
+    const auto owed = static_cast<std::size_t>(due - sent_);
     const std::size_t sent = socket_.send(datagrams_, next, owed);
-    sent_.datagrams += static_cast<std::int64_t>(sent);
+    sent_ += static_cast<std::int64_t>(sent);
     next = (next + sent) % datagrams_.size();
   }
-  sent_.perSecond = static_cast<double>(sent_.datagrams) / since();
-  timespec ran{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ran);
-  const double ranUs =
-      1e6 * static_cast<double>(ran.tv_sec) + 1e-3 * static_cast<double>(ran.tv_nsec);
-  if (sent_.datagrams > 0) sent_.processorUs = ranUs / static_cast<double>(sent_.datagrams);
 }
 
 }  // namespace foretouch::tools

@@ -47,8 +47,6 @@ class Garbage {
 
 /// Short noise.
 [[nodiscard]] std::vector<Bytes> noiseDatagrams(std::uint64_t seed);
-/// Poses of an avatar, right in form, each of a skeleton that nobody has said.
-[[nodiscard]] std::vector<Bytes> strangersPoses(const PoseMessage& pose, std::uint64_t seed);
 
 /// Sends datagrams, again and again in order, from a thread of its own.
 class Flood {
@@ -59,20 +57,15 @@ class Flood {
   Flood& operator=(const Flood&) = delete;
   ~Flood();  ///< Stops it.
 
-  /// Waits for its end: how many went out, and how many a second.
-  struct Sent {
-    std::int64_t datagrams = 0;
-    double perSecond = 0.0;
-    double processorUs = 0.0;  ///< Of the thread per datagram, delivery in this machine included.
-  };
-  [[nodiscard]] Sent wait();
+  /// Waits for its end: how many went out.
+  [[nodiscard]] std::int64_t wait();
 
  private:
   void run(double perSecond, double seconds);
 
   GroupSocket socket_;
   std::vector<Bytes> datagrams_;
-  Sent sent_;
+  std::int64_t sent_ = 0;
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

@@ -1,13 +1,19 @@
 #include "bench/latency.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "bench/commands.h"
 #include "bench/machine.h"
+#include "bench/options.h"
 #include "middleware/query_counters.h"
+#include "tools/report/document_parts.h"
+#include "tools/settings/lists.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 namespace {
@@ -254,17 +260,13 @@ Result<PairRules> rulesFor(const Avatar& avatar, const std::vector<StepPoses>& s
   return PairRules::derive(avatar, options);
 }
 
-BenchReport startedReport(const LatencyRequest& request, const BenchInputs& inputs,
+BenchReport latencyReport(const LatencyRequest& request, const BenchInputs& inputs,
                           const Scene& scene, const Avatar& avatar, const QueryOptions& query) {
-  BenchReport report;
-  report.kind = "latency";
-  report.title = fmt::format("Latency of a step: {} in {} triangles, {} links, {} fidelity",
-                             std::filesystem::path(inputs.files.scenePath).filename().string(),
-                             scene.numTriangles(), avatar.numLinks(),
-                             fidelityWord(query.fidelity, request.options.reference));
-  report.command = request.options.command;
-  report.date = dateNow();
-  report.machine = machineFacts();
+  BenchReport report = startedReport(
+      "latency",
+      fmt::format("Latency of a step: {} in {} triangles, {} links, {} fidelity",
+                  fileName(inputs.files.scenePath), scene.numTriangles(), avatar.numLinks(),
+                  fidelityWord(query.fidelity, request.options.reference)));
   report.workload = workloadFacts(inputs, scene, avatar, query, request.options.reference);
   report.tables = {latencyTable(), ratiosTable(), countersTable()};
   return report;
@@ -278,7 +280,7 @@ Result<MeasuredBench> measureLatency(const LatencyRequest& request) {
   FORETOUCH_TRY(const auto body, bodyOf(inputs, request.links));
   FORETOUCH_TRY(const auto query, queryFor(inputs, body, request.options));
 
-  MeasuredBench bench{startedReport(request, inputs, scene, body.avatar, query), rawTable()};
+  MeasuredBench bench{latencyReport(request, inputs, scene, body.avatar, query), rawTable()};
   BenchReport& report = bench.report;
   double overheadUs = 0.0;
   for (const double rateHz : request.ratesHz) {
@@ -305,6 +307,41 @@ Result<MeasuredBench> measureLatency(const LatencyRequest& request) {
   if (report.tables[1].rows.empty()) report.tables.erase(report.tables.begin() + 1);
   report.notes = notesOn(request.options.timing, overheadUs);
   return bench;
+}
+
+namespace {
+
+ExitCode run(LatencyRequest& request) {
+  FORETOUCH_CHECK_OR(failed, complete(request.options));
+  FORETOUCH_TRY_OR(failed, const auto bench, measureLatency(request));
+  return finished(bench.report, bench.raw, request.options.figures);
+}
+
+}  // namespace
+
+Command latencyCommand() {
+  constexpr int kMaxColdMb = 1024;
+  const auto request = std::make_shared<LatencyRequest>();
+  request->ratesHz = {5, 10, 30};
+  request->tolerances = {1e-3, 1e-5};
+  Settings settings;
+  addNumbers(settings, "--rate", "HZ,...", request->ratesHz, kAboveZero, "Poses a second");
+  addNumbers(settings, "--tolerance", "M,...", request->tolerances, kToleranceRange,
+             "Tolerances (m)");
+  addSimds(settings, "--simd", request->widths, "Vector instructions: their names, all or widest");
+  addLinks(settings, "--links", request->links);
+  addTriangles(settings, "--triangles", request->triangles);
+  settings.whole("--cold-mb", "MB", request->options.timing.coldMb, 0, kMaxColdMb,
+                 "Streamed through the caches before a cold step; 0: none");
+  settings.flag("--self", request->self,
+                "Also with the avatar's own links, by rules from these steps' poses");
+  addBenchOptions(settings, request->options);
+  Command command{
+      "latency", "How long a step takes, and how many sets of 16 rays that is",
+      "Example:\n  foretouch-bench latency --triangles 300000 --links 16 --json latency.json",
+      std::move(settings)};
+  command.run = [request](const Settings&) { return run(*request); };
+  return command;
 }
 
 }  // namespace foretouch::tools

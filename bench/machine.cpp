@@ -7,6 +7,11 @@
 #include <iterator>
 #include <sched.h>
 #include <thread>
+#include <utility>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 #include <fmt/format.h>
 
@@ -45,8 +50,7 @@ bool isPlain(const std::string& word) {
   });
 }
 
-}  // namespace
-
+/// Processor, cores, vector widths, compiler, build type, version and load.
 std::vector<BenchFact> machineFacts() {
 #ifdef __clang__
   const std::string compiler = "clang " __clang_version__;
@@ -62,12 +66,38 @@ std::vector<BenchFact> machineFacts() {
           {"load", loadNow()}};
 }
 
+/// UTC, "2026-01-31 12:00".
 std::string dateNow() {
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
   ::gmtime_r(&now, &utc);
   char text[32];
   return {text, std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &utc)};
+}
+
+std::string ownCommandLine() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  const std::string all{std::istreambuf_iterator<char>(file), {}};
+  std::vector<std::string> words;
+  for (std::size_t start = 0; start < all.size();) {
+    const std::size_t end = std::min(all.find('\0', start), all.size());
+    words.push_back(all.substr(start, end - start));
+    start = end + 1;
+  }
+  if (!words.empty()) words.erase(words.begin());
+  return commandLine(words);
+}
+
+}  // namespace
+
+BenchReport startedReport(std::string kind, std::string title) {
+  BenchReport report;
+  report.kind = std::move(kind);
+  report.title = std::move(title);
+  report.command = ownCommandLine();
+  report.date = dateNow();
+  report.machine = machineFacts();
+  return report;
 }
 
 std::string commandLine(const std::vector<std::string>& arguments) {
@@ -87,25 +117,22 @@ std::string commandLine(const std::vector<std::string>& arguments) {
   return line;
 }
 
-std::string ownCommandLine() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  const std::string all{std::istreambuf_iterator<char>(file), {}};
-  std::vector<std::string> words;
-  for (std::size_t start = 0; start < all.size();) {
-    const std::size_t end = std::min(all.find('\0', start), all.size());
-    words.push_back(all.substr(start, end - start));
-    start = end + 1;
-  }
-  if (!words.empty()) words.erase(words.begin());
-  return commandLine(words);
-}
-
 bool pinToProcessor(int processor) {
   cpu_set_t set;
   CPU_ZERO(&set);
   if (processor < 0 || processor >= CPU_SETSIZE) return false;
   CPU_SET(static_cast<std::size_t>(processor), &set);
   return ::sched_setaffinity(0, sizeof set, &set) == 0;
+}
+
+double heapMiB() {
+#if defined(__GLIBC__)
+  constexpr double kBytesAMiB = 1024.0 * 1024.0;
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd) / kBytesAMiB;
+#else
+  return 0.0;
+#endif
 }
 
 double threadTimeUs() {

@@ -8,21 +8,18 @@
 
 namespace foretouch::tools {
 
-/// Processor, cores, vector widths, compiler, build type, version and the machine's load now.
-[[nodiscard]] std::vector<BenchFact> machineFacts();
+/// An empty report of this process: its command line, the time and the machine as it is now.
+[[nodiscard]] BenchReport startedReport(std::string kind, std::string title);
 
-/// Now, UTC, "2026-01-31 12:00".
-[[nodiscard]] std::string dateNow();
-
-/// The words of a command line, quoted for a shell, the program as "foretouch" and files by their
-/// names, without their folders, which do not concern readers.
+/// The words of a command line, quoted for a shell, the program as "foretouch-bench" and files by
+/// their names, without their folders, which do not concern readers.
 [[nodiscard]] std::string commandLine(const std::vector<std::string>& arguments);
-
-/// This process' own command line.
-[[nodiscard]] std::string ownCommandLine();
 
 /// Keeps the calling thread on one processor; false if the system refuses.
 [[nodiscard]] bool pinToProcessor(int processor);
+
+/// What the program has allocated and not freed (glibc's count; else 0).
+[[nodiscard]] double heapMiB();
 
 /// Processor time of this thread (us): other work on the machine does not count.
 [[nodiscard]] double threadTimeUs();

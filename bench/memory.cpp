@@ -1,24 +1,33 @@
-#include "bench/memory.h"
-
+// bench/memory.cpp: `foretouch-bench memory`: the time and memory of a scene and an avatar before
+// the first answer, stage by stage.
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
-
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
 
 #include <fmt/format.h>
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
+#include "bench/commands.h"
+#include "bench/machine.h"
+#include "bench/report.h"
 #include "tools/console.h"
+#include "tools/inputs/policy_rules.h"
 #include "tools/inputs/replay_inputs.h"
+#include "tools/settings/words.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 namespace {
+
+/// A scene to load, and an avatar in it.
+struct MemoryRequest : WorldRequest {
+  std::string avatarPath;
+};
 
 /// Of /proc/self/status, in MiB; nothing if there is no such line.
 std::optional<double> statusMiB(const std::string& key) {
@@ -31,10 +40,11 @@ std::optional<double> statusMiB(const std::string& key) {
   return std::nullopt;
 }
 
+/// A row per stage: how long it took, and this process's memory after it, as the system counts it
+/// (without the import child). Peak: since the process began. Now: with freed memory that is kept
+/// for later. Heap: of it, allocated and not freed.
 class Stages {
  public:
-  explicit Stages(MemoryBench& bench) : bench_(bench) {}
-
   Result<Done> end(const std::string& name) {
     const auto now = Clock::now();
     const auto peak = statusMiB("VmHWM"), resident = statusMiB("VmRSS");
@@ -43,78 +53,92 @@ class Stages {
                        "expected lines VmHWM and VmRSS");
     }
     const std::chrono::duration<double, std::milli> elapsed = now - begin_;
-    bench_.stages.push_back({name, elapsed.count(), *peak, *resident, heapMiB()});
+    table_.rows.push_back({name, elapsed.count(), *peak, *resident, heapMiB()});
     begin_ = Clock::now();
     return Done{};
+  }
+  [[nodiscard]] BenchTable table(std::string title) const {
+    BenchTable table = table_;
+    table.title = std::move(title);
+    return table;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  MemoryBench& bench_;
+  BenchTable table_{"stages",
+                    "",
+                    {{"stage", "stage"},
+                     {"ms", "ms", 2},
+                     {"peak_mib", "peak MiB", 1},
+                     {"now_mib", "now MiB", 1},
+                     {"heap_mib", "heap MiB", 1}},
+                    {}};
   Clock::time_point begin_ = Clock::now();
 };
 
-void count(const QueryOptions& query, MemoryBench& bench) {
-  if (!query.surface) return;
-  bench.surfaceTriangles = query.surface->numTriangles();
-  for (LinkId link = 0; link < bench.links; ++link) {
-    bench.exactLinks += query.surface->triangles(link).empty() ? 0 : 1;
+std::string describe(const Scene& scene, const Avatar& avatar, const QueryOptions& query) {
+  std::size_t exactLinks = 0, triangles = 0;
+  if (query.surface) {
+    triangles = query.surface->numTriangles();
+    for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+      exactLinks += query.surface->triangles(link).empty() ? 0 : 1;
+    }
   }
+  return fmt::format(
+      "{} triangles in the scene; {} links, {} of them with {} triangles of their own",
+      scene.numTriangles(), avatar.numLinks(), exactLinks, triangles);
+}
+
+/// Loads the request's files, as a replay does, and queries the rest pose twice. Errors name the
+/// file or option, or say that the system does not report a process's memory.
+Result<BenchTable> measureMemory(const MemoryRequest& request) {
+  Stages stages;
+  FORETOUCH_CHECK(stages.end("program"));
+  FORETOUCH_TRY(const auto scene, loadScene(request));
+  FORETOUCH_CHECK(stages.end("scene"));
+  FORETOUCH_TRY(const auto avatar, readAvatarFile(request.avatarPath));
+  FORETOUCH_TRY(const auto options, queryOptionsFor(request, request.avatarPath, avatar, scene));
+  FORETOUCH_TRY(const auto query, Query::build(avatar, scene, options));
+  FORETOUCH_CHECK(stages.end("avatar"));
+  const Pose rest = restPose(avatar.skeleton());
+  const ChainMotion still(avatar.skeleton(), rest, rest);
+  Scratch scratch;
+  for (const char* const name : {"first query", "second query"}) {
+    static_cast<void>(query.answer(still, scratch));
+    FORETOUCH_CHECK(stages.end(name));
+  }
+  return stages.table(describe(scene, avatar, options));
+}
+
+ExitCode run(MemoryRequest request) {
+  FORETOUCH_CHECK_OR(failed, readPolicies(request));
+  FORETOUCH_TRY_OR(failed, const auto table, measureMemory(request));
+  printOut(tableText(table));
+  return ExitCode::Done;
 }
 
 }  // namespace
 
-double heapMiB() {
-#if defined(__GLIBC__)
-  constexpr double kBytesAMiB = 1024.0 * 1024.0;
-  const struct mallinfo2 info = mallinfo2();
-  return static_cast<double>(info.uordblks + info.hblkhd) / kBytesAMiB;
-#else
-  return 0.0;
-#endif
-}
-
-Result<MemoryBench> measureMemory(const MemoryRequest& request) {
-  MemoryBench bench;
-  Stages stages(bench);
-  auto done = stages.end("program");
-  if (!done.ok()) return done.error();
-  const auto scene = loadScene(request);
-  if (!scene.ok()) return scene.error();
-  bench.sceneTriangles = scene.value().numTriangles();
-  done = stages.end("scene");
-  if (!done.ok()) return done.error();
-  const auto avatar = readAvatarFile(request.avatarPath);
-  if (!avatar.ok()) return avatar.error();
-  bench.links = avatar.value().numLinks();
-  FORETOUCH_TRY(const auto options,
-                queryOptionsFor(request, request.avatarPath, avatar.value(), scene.value()));
-  count(options, bench);
-  FORETOUCH_TRY(const auto query, Query::build(avatar.value(), scene.value(), options));
-  done = stages.end("avatar");
-  if (!done.ok()) return done.error();
-  const Pose rest = restPose(avatar.value().skeleton());
-  const ChainMotion still(avatar.value().skeleton(), rest, rest);
-  Scratch scratch;
-  for (const char* const name : {"first query", "second query"}) {
-    static_cast<void>(query.answer(still, scratch));
-    done = stages.end(name);
-    if (!done.ok()) return done.error();
-  }
-  return bench;
-}
-
-std::string memoryTable(const MemoryBench& bench) {
-  std::string text = fmt::format(
-      "{} triangles in the scene; {} links, {} of them with {} triangles of their own\n"
-      "{:<14}{:>10}{:>12}{:>12}{:>12}\n",
-      bench.sceneTriangles, bench.links, bench.exactLinks, bench.surfaceTriangles, "stage", "ms",
-      "peak MiB", "now MiB", "heap MiB");
-  for (const MemoryStage& stage : bench.stages) {
-    text += fmt::format("{:<14}{:>10.2f}{:>12.1f}{:>12.1f}{:>12.1f}\n", stage.name, stage.ms,
-                        stage.peakMiB, stage.residentMiB, stage.heapMiB);
-  }
-  return text;
+Command memoryCommand() {
+  const auto request = std::make_shared<MemoryRequest>();
+  Settings settings;
+  addSceneSettings(settings, *request);
+  settings.of("--scene").required();
+  settings.path("--avatar", "FILE", request->avatarPath, "Avatar file (see foretouch avatar)")
+      .required();
+  settings
+      .word("--fidelity", "link|exact", request->query.fidelity, fidelityWords(),
+            "What touches, where no policy says more")
+      .only({"link", "exact"});
+  settings.path("--policy", "FILE", request->policyPath, "As of replay: [[policy]] tables");
+  Command command{"memory",
+                  "What a scene and an avatar cost in time and memory before the first answer",
+                  "Example:\n  foretouch-bench memory --scene kitchen.ply --scene-up z --avatar "
+                  "man.avatar.json "
+                  "--fidelity exact",
+                  std::move(settings)};
+  command.run = [request](const Settings&) { return run(*request); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -1,7 +1,7 @@
 #include "bench/options.h"
 
+#include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +14,7 @@
 #include "bench/surface.h"
 #include "lss/index.h"
 #include "tools/inputs/skin_file.h"
+#include "tools/report/document_parts.h"
 #include "tools/settings/clip_settings.h"
 #include "tools/settings/frame_settings.h"
 #include "tools/settings/words.h"
@@ -29,10 +30,6 @@ Words<Value> wordsOf(std::initializer_list<Value> values) {
   Words<Value> words;
   for (const Value value : values) words.emplace_back(toString(value), value);
   return words;
-}
-
-std::string nameOf(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
 }
 
 bool hasMeshes(const Avatar& avatar) {
@@ -119,9 +116,9 @@ void addBenchFiles(Settings& settings, BenchFiles& files) {
       .formerly("--up");
 }
 
-void addFigures(Settings& settings, std::string& json, std::string& csv, const char* inCsv) {
-  settings.output("--json", "FILE", json, "Also write the figures to a file");
-  settings.output("--csv", "FILE", csv, inCsv);
+void addFigures(Settings& settings, FigureFiles& files, const char* inCsv) {
+  settings.output("--json", "FILE", files.json, "Also write the figures to a file");
+  settings.output("--csv", "FILE", files.csv, inCsv);
 }
 
 void addFloor(Settings& settings, WorkloadRequest& workload) {
@@ -181,11 +178,10 @@ void addBenchOptions(Settings& settings, BenchOptions& options) {
   addWays(settings, options.reference);
   settings.whole("--surface-triangles", "N", options.surfaceTriangles, 1, kMaxBenchTriangles,
                  "Of an avatar without meshes, at exact fidelity: the skins of its LSS");
-  addFigures(settings, options.jsonPath, options.csvPath, "Also write one line per step to a file");
+  addFigures(settings, options.figures, "Also write one line per step to a file");
 }
 
 Result<Done> complete(BenchOptions& options) {
-  options.command = ownCommandLine();
   takeTouching(options);
   if ((options.fidelity == Fidelity::Skinned) == options.skinPath.empty()) {
     return Error::in("--skin", ErrorCode::Mismatch,
@@ -194,9 +190,29 @@ Result<Done> complete(BenchOptions& options) {
   return keepTo(options.processor);
 }
 
-std::string usualData() {
+ExitCode finished(const BenchReport& report, const BenchTable& raw, const FigureFiles& files,
+                  const std::string& fault) {
+  FORETOUCH_CHECK_OR(failed, writeReport(report, raw, files));
+  printOut(reportText(report));
+  if (fault.empty()) return ExitCode::Done;
+  printError(fault);
+  return ExitCode::CheckSaysNo;
+}
+
+ExitCode finished(const JudgedReport& bench, const std::string& fault, const FigureFiles& files) {
+  const bool isSound = bench.violations == 0;
+  return finished(bench.report, bench.report.tables.front(), files,
+                  isSound ? std::string() : fmt::format("{} {}", bench.violations, fault));
+}
+
+bool isAsked(const std::vector<std::string>& named, const std::string& one) {
+  return named.empty() || std::find(named.begin(), named.end(), one) != named.end();
+}
+
+void addData(Settings& settings, std::string& folder, const char* help) {
   const char* const fromEnvironment = std::getenv("FORETOUCH_DATA");
-  return fromEnvironment != nullptr ? fromEnvironment : "../shared/data";
+  folder = fromEnvironment != nullptr ? fromEnvironment : "../shared/data";
+  settings.path("--data", "FOLDER", folder, help);
 }
 
 Result<QueryOptions> queryFor(const BenchInputs& inputs, const BenchBody& body,
@@ -240,13 +256,13 @@ std::vector<BenchFact> workloadFacts(const BenchInputs& inputs, const Scene& sce
                                      const Avatar& avatar, const QueryOptions& query,
                                      const ReferenceOptions& reference) {
   const std::string madeOf =
-      inputs.files.avatarPath.empty() ? "made of the clip" : nameOf(inputs.files.avatarPath);
+      inputs.files.avatarPath.empty() ? "made of the clip" : fileName(inputs.files.avatarPath);
   std::vector<BenchFact> facts = {
-      {"scene", fmt::format("{}, {} triangles (the file has {})", nameOf(inputs.files.scenePath),
+      {"scene", fmt::format("{}, {} triangles (the file has {})", fileName(inputs.files.scenePath),
                             scene.numTriangles(), inputs.raw.triangles.size())},
       {"avatar", fmt::format("{}, {} links with {} LSS (of its own {} links)", madeOf,
                              avatar.numLinks(), avatar.numLss(), inputs.avatar.numLinks())},
-      {"clip", fmt::format("{}, {} frames at {:.4g} Hz", nameOf(inputs.files.motionPath),
+      {"clip", fmt::format("{}, {} frames at {:.4g} Hz", fileName(inputs.files.motionPath),
                            inputs.clip.frames.size(), 1.0 / inputs.clip.frameTimeS)},
       {"fidelity", fidelityWord(query.fidelity, reference)}};
   if (reference.descent == Descent::ByNeed) facts.back().second += ", descent by need";

@@ -11,6 +11,7 @@
 #include "bench/workload.h"
 #include "middleware/query/query.h"
 #include "tests/reference/reference_query.h"
+#include "tools/console.h"
 #include "tools/settings/settings.h"
 
 namespace foretouch::tools {
@@ -26,8 +27,7 @@ struct BenchOptions {
   std::size_t surfaceTriangles = 20'000;
   std::string skinPath;  ///< Not empty at skinned fidelity.
   std::optional<int> processor;
-  std::string jsonPath, csvPath;
-  std::string command;  ///< As typed in.
+  FigureFiles figures;
 };
 
 inline constexpr int kMaxBenchSteps = 1'000'000, kMaxBenchRepeats = 10'000;
@@ -35,13 +35,13 @@ inline constexpr int kMaxBenchTriangles = 50'000'000, kMaxBenchAvatars = 10'000;
 
 /// All of them; `options` outlives the settings. Then complete() them.
 void addBenchOptions(Settings& settings, BenchOptions& options);
-/// Fills in the command line and keeps to the processor. Errors name the option.
+/// Takes apart what touches, and keeps to the processor. Errors name the option.
 [[nodiscard]] Result<Done> complete(BenchOptions& options);
 
 /// --scene, --motion, --avatar, --map, and their units and axes.
 void addBenchFiles(Settings& settings, BenchFiles& files);
 /// --json and --csv.
-void addFigures(Settings& settings, std::string& json, std::string& csv, const char* inCsv);
+void addFigures(Settings& settings, FigureFiles& files, const char* inCsv);
 /// --floor and --lift.
 void addFloor(Settings& settings, WorkloadRequest& workload);
 /// --processor; then keepTo() it.
@@ -51,8 +51,18 @@ void addProcessor(Settings& settings, std::optional<int>& processor);
 void addLinks(Settings& settings, const char* option, int& links);
 void addTriangles(Settings& settings, const char* option, std::size_t& triangles);
 
-/// $FORETOUCH_DATA, else ../shared/data.
-[[nodiscard]] std::string usualData();
+/// The end of a command: its report in files and on the terminal. `fault`: what the benchmark found
+/// wrong, in words; empty: nothing.
+[[nodiscard]] ExitCode finished(const BenchReport& report, const BenchTable& raw,
+                                const FigureFiles& files, const std::string& fault = {});
+/// The same, its first table as CSV, of a judge's findings: how many, then `fault`.
+[[nodiscard]] ExitCode finished(const JudgedReport& bench, const std::string& fault,
+                                const FigureFiles& files);
+/// Is it among those that were named? Each is, if none was.
+[[nodiscard]] bool isAsked(const std::vector<std::string>& named, const std::string& one);
+
+/// --data: the folder of clips and scenes, by default $FORETOUCH_DATA, else ../shared/data.
+void addData(Settings& settings, std::string& folder, const char* help);
 
 /// The options of a body's query for the fidelity: at exact fidelity with its triangles, from the
 /// avatar file if the body is that avatar and it has some, else the skins of its LSS; at skinned

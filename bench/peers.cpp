@@ -1,17 +1,33 @@
 #include "bench/peers.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "assets/import/scene_import.h"
+#include "assets/text_file.h"
+#include "bench/commands.h"
+#include "bench/inputs.h"
 #include "bench/judged.h"
+#include "bench/machine.h"
+#include "bench/options.h"
 #include "bench/peers/foretouch_solvers.h"
-#ifdef FORETOUCH_HAS_PEERS
 #include "bench/peers/peer_solvers.h"
-#endif
+#include "bench/report.h"
+#include "bench/scene.h"
+#include "lss/index.h"
+#include "tools/inputs/example_folder.h"
+#include "tools/progress.h"
+#include "tools/report/document_parts.h"
+#include "tools/results_output.h"
+#include "tools/settings/frame_settings.h"
+#include "tools/settings/lists.h"
 
 namespace foretouch::tools {
 namespace {
@@ -186,6 +202,125 @@ std::size_t brokenPromises(const std::vector<ComparedSet>& sets) {
     }
   }
   return broken;
+}
+
+namespace {
+
+constexpr int kMostMotions = 1'000'000, kMostRounds = 1'000, kMostTriangles = 5'000'000;
+
+struct PeersRequest {
+  PeersPlan plan;
+  std::vector<std::string> sets;  ///< Empty: all.
+  std::string scenePath;
+  double sceneScale = 1.0;
+  UpAxis sceneUp = UpAxis::Y;
+  std::size_t triangles = 330'000;
+  FigureFiles figures;
+};
+
+std::vector<std::string> setNames() {
+  std::vector<std::string> names;
+  for (const MotionSetKind& kind : kMotionSets) names.emplace_back(kind.name);
+  return names;
+}
+
+Result<Done> complete(PeersRequest& request) {
+  for (const std::string& output : {request.figures.json, request.figures.csv}) {
+    FORETOUCH_CHECK(checkIsNoInput(output, {request.scenePath}));
+  }
+  for (const MotionSetKind& kind : kMotionSets) {
+    if (isAsked(request.sets, kind.name)) request.plan.sets.push_back(kind);
+  }
+  if (!request.scenePath.empty()) return Done{};
+  FORETOUCH_TRY(const auto folder, exampleFolder());
+  request.scenePath = folder + "/room.obj";
+  return Done{};
+}
+
+Result<Scene> loadScene(const PeersRequest& request) {
+  FORETOUCH_TRY(auto imported,
+                importScene(request.scenePath, importOf(request.sceneScale, request.sceneUp)));
+  auto scene = Scene::build(subdivided(std::move(imported.scene), request.triangles));
+  if (!scene.ok()) return inFile(scene.error(), request.scenePath);
+  return scene;
+}
+
+BenchReport reportOf(const PeersRequest& request, const Scene& scene,
+                     const std::vector<ComparedSet>& sets) {
+  BenchReport report =
+      startedReport("peers", "Foretouch and its peers: motions of one link in one scene");
+  report.workload = {
+      {"scene", fmt::format("{}, {} triangles", fileName(request.scenePath), scene.numTriangles())},
+      {"motions a set", fmt::format("{}", request.plan.motions)},
+      {"seed", fmt::format("{}", request.plan.seed)},
+      {"rounds of Foretouch", fmt::format("{}", request.plan.rounds.own)},
+      {"rounds of peers", fmt::format("{}", request.plan.rounds.peers)},
+      {"peers", builtInPeers()}};
+  report.tables = peerTables(sets);
+  report.notes = peerNotes(sets);
+  return report;
+}
+
+ExitCode run(PeersRequest& request) {
+  if (!hasPeers()) {
+    printError(
+        "bench peers: this program was built without FCL and Bullet; install libfcl-dev and "
+        "libbullet-dev and build again with -DFORETOUCH_PEERS=ON");
+    return ExitCode::BadInput;
+  }
+  FORETOUCH_CHECK_OR(failed, complete(request));
+  FORETOUCH_TRY_OR(failed, const auto scene, loadScene(request));
+  std::unique_ptr<ProgressBar> bar;
+  const auto sets = comparePeers(scene, request.plan, [&](std::int64_t done, std::int64_t total) {
+    if (!bar) bar = std::make_unique<ProgressBar>("peers", total);
+    bar->advanceTo(done);
+  });
+  bar.reset();
+  if (!sets.ok()) return failed(inFile(sets.error(), request.scenePath));
+  const std::size_t broken = brokenPromises(sets.value());
+  return finished(
+      reportOf(request, scene, sets.value()), rawPeerTable(sets.value()), request.figures,
+      broken == 0 ? "" : fmt::format("Foretouch missed or reported late {} contacts", broken));
+}
+
+Settings settingsOf(PeersRequest& request) {
+  Settings settings;
+  settings.path("--scene", "FILE", request.scenePath, "Scene instead of the bundled room");
+  settings.number("--scene-scale", "M", request.sceneScale, kMetresPerUnit,
+                  "Metres per unit of the scene");
+  settings
+      .word("--scene-up", "y|z", request.sceneUp, {{"y", UpAxis::Y}, {"z", UpAxis::Z}},
+            "Which axis of the scene is up")
+      .formerly("--up");
+  settings.whole("--triangles", "N", request.triangles, 1, kMostTriangles,
+                 "Split the scene's longest edges until it has so many");
+  addWords(settings, "--sets", "NAME,...", request.sets, setNames(),
+           "Sets of motions; all if not given: S1 a forearm that moves and turns, S2 one that only "
+           "moves, S5 a finger that moves and turns");
+  settings.whole("--motions", "N", request.plan.motions, 1, kMostMotions,
+                 "Motions of a set, half of them colliding");
+  settings.whole("--seed", "S", request.plan.seed, 0, std::numeric_limits<std::int64_t>::max(),
+                 "Of the motions");
+  settings.whole("--rounds", "N", request.plan.rounds.own, 1, kMostRounds,
+                 "Rounds of Foretouch; a motion's median time counts");
+  settings.whole("--peer-rounds", "N", request.plan.rounds.peers, 1, kMostRounds,
+                 "The same of the peers, which are slower");
+  addFigures(settings, request.figures, "Also write every motion and solver to a file");
+  return settings;
+}
+
+}  // namespace
+
+Command peersCommand() {
+  const auto request = std::make_shared<PeersRequest>();
+  Command command{
+      "peers",
+      "Foretouch beside FCL and Bullet on the same motions; exit code 1 where Foretouch misses a "
+      "contact or reports it late",
+      "Takes a few minutes.\nExample:\n  foretouch-bench peers --json peers.json --csv peers.csv",
+      settingsOf(*request)};
+  command.run = [request](const Settings&) { return run(*request); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -1,30 +1,59 @@
-#include "bench/person.h"
-
+// bench/person.cpp: `foretouch-bench body`: what brackets say of persons whose poses are held back,
+// by rate and model, judged; and what they cost beside a plain step.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "articulated/motion_model.h"
+#include "articulated/result.h"
 #include "articulated/try.h"
+#include "assets/bounds/bounds_file.h"
+#include "bench/commands.h"
 #include "bench/machine.h"
+#include "bench/options.h"
 #include "bench/person/ahead_trial.h"
 #include "bench/person/pair_trial.h"
 #include "bench/person/person_trial.h"
+#include "bench/report.h"
 #include "bench/solid/busy_places.h"
 #include "bench/solid/cast.h"
 #include "bench/solid/cells.h"
 #include "bench/timing.h"
 #include "tools/person/learn_bounds.h"
 #include "tools/progress.h"
+#include "tools/settings/lists.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 namespace {
+
+struct PersonBenchRequest {
+  std::string dataFolder;  ///< With mocap/ and scenes/; empty: the bundled room and dancer alone.
+  std::vector<std::string> scenes, clips;                    ///< As loadCast() takes them.
+  std::vector<double> ratesHz{60.0, 30.0, 15.0, 10.0, 5.0};  ///< Of given poses.
+  std::vector<MotionModel> models{MotionModel::ConstantRate, MotionModel::Cubic,
+                                  MotionModel::CubicLate};
+  int places = 1;           ///< Per clip and scene.
+  double seconds = 4.0;     ///< At each.
+  int instants = 3;         ///< That the judge looks at per frame.
+  double boundShare = 1.0;  ///< Of the bounds that hold: below 1 to see them found out.
+  std::uint64_t seed = 1;   ///< Of the places.
+  /// Above 0: bounds are learned at this quantile, on all clips of other makers than the judged
+  /// one's; touches that are missed or invented are then counted, and no violation.
+  double learned = 0.0;
+  double aheadS = 0.0;  ///< Above 0: instead, what is said of this long after each pose.
+  FigureFiles figures;
+};
 
 /// Rates that leave less than one frame out judge nothing.
 constexpr double kMostRateShare = 0.51;
@@ -256,17 +285,11 @@ class PersonRuns {
   const Cast& cast_;
 };
 
-}  // namespace
-
-Result<PersonBench> measurePerson(const PersonBenchRequest& request) {
+/// One thread.
+Result<JudgedReport> measurePerson(const PersonBenchRequest& request) {
   FORETOUCH_TRY(const auto cast, loadCast(request.dataFolder, request.scenes, request.clips));
-  PersonBench bench;
+  JudgedReport bench{startedReport("body", "What the person touched, who is not the model")};
   BenchReport& report = bench.report;
-  report.kind = "body";
-  report.title = "What the person touched, who is not the model";
-  report.command = request.command;
-  report.date = dateNow();
-  report.machine = machineFacts();
   std::map<Kind, PersonTally> tallies;
   AheadTable ahead;
   ProgressBar progress("body", static_cast<std::int64_t>(cast.stages.size() * cast.actors.size()));
@@ -293,6 +316,56 @@ Result<PersonBench> measurePerson(const PersonBenchRequest& request) {
   report.workload.emplace_back("clips", listed(clips));
   if (!cast.leftOut.empty()) report.workload.emplace_back("absent", listed(cast.leftOut));
   return bench;
+}
+
+struct AskedPerson {
+  PersonBenchRequest request;
+  std::vector<std::string> models{"constant-rate", "cubic", "cubic-late"};
+};
+
+ExitCode run(AskedPerson& asked) {
+  PersonBenchRequest& request = asked.request;
+  request.models.clear();
+  for (const std::string& word : asked.models) request.models.push_back(*motionModelNamed(word));
+  FORETOUCH_TRY_OR(failed, const auto bench, measurePerson(request));
+  return finished(bench, "touches were missed or invented", request.figures);
+}
+
+}  // namespace
+
+Command bodyCommand() {
+  constexpr int kMostPlaces = 1000, kMostInstants = 100, kMostSeed = 1'000'000'000;
+  const auto asked = std::make_shared<AskedPerson>();
+  PersonBenchRequest& request = asked->request;
+  Settings settings;
+  addData(settings, request.dataFolder, "With mocap/ and scenes/; $FORETOUCH_DATA says another");
+  addWords(settings, "--scenes", "NAME,...", request.scenes, {},
+           "kitchen, office, collision-world, undulating, room; kitchen,office,room if not given");
+  addWords(settings, "--clips", "NAME,...", request.clips, {},
+           "Of mocap/, or paths, or all; six if not given");
+  addNumbers(settings, "--rates", "HZ,...", request.ratesHz, kAboveZero,
+             "Given poses per second, of clips that have twice as many");
+  addWords(settings, "--between", "WORD,...", asked->models,
+           {"constant-rate", "cubic", "cubic-late"}, "Models of the motion between two poses");
+  settings.whole("--places", "N", request.places, 1, kMostPlaces, "Busy places per clip and scene");
+  settings.number("--seconds", "S", request.seconds, kAboveZero, "Of the clip at each place");
+  settings.whole("--instants", "N", request.instants, 1, kMostInstants,
+                 "Per frame of the clip, that the judge looks at");
+  settings.whole("--seed", "N", request.seed, 1, kMostSeed, "Of the places");
+  settings.number("--bound-share", "X", request.boundShare, kAboveZero,
+                  "Of the bounds that hold: below 1, touches are missed");
+  settings.number("--learned", "Q", request.learned, NumberRange{0.0, 1.0},
+                  "Instead by bounds of the clips of other makers, learned at this quantile");
+  settings.number("--ahead", "S", request.aheadS, NumberRange{0.0, 2.0},
+                  "Instead: what is said of this long after each pose, beside grown capsules");
+  addFigures(settings, request.figures, "Also write the table to a file");
+  Command command{"body",
+                  "What brackets say of persons whose poses are held back; exit code 1 where a "
+                  "touch is missed or invented",
+                  "Example:\n  foretouch-bench body --scenes kitchen --clips all --rates 30,10",
+                  std::move(settings)};
+  command.run = [asked](const Settings&) { return run(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -71,14 +71,6 @@ std::string factsText(const std::vector<BenchFact>& facts) {
   return text;
 }
 
-Result<Done> writeFile(const std::string& path, const std::string& text) {
-  if (path.empty()) return Done{};
-  FORETOUCH_TRY(auto file, PendingFile::create(path));
-  file.write(text);
-  FORETOUCH_CHECK(file.commit());
-  return Done{};
-}
-
 }  // namespace
 
 std::string tableText(const BenchTable& table) {
@@ -146,10 +138,17 @@ std::string reportMarkdown(const BenchReport& report) {
   return text;
 }
 
-Result<Done> writeReport(const BenchReport& report, const std::string& jsonPath,
-                         const BenchTable& raw, const std::string& csvPath) {
-  FORETOUCH_CHECK(writeFile(jsonPath, reportJson(report)));
-  return writeFile(csvPath, csvPath.empty() ? std::string() : tableCsv(raw));
+Result<Done> writeText(const std::string& path, const std::string& text) {
+  if (path.empty()) return Done{};
+  FORETOUCH_TRY(auto file, PendingFile::create(path));
+  file.write(text);
+  return inFile(file.commit(), path);
+}
+
+Result<Done> writeReport(const BenchReport& report, const BenchTable& raw,
+                         const FigureFiles& files) {
+  FORETOUCH_CHECK(writeText(files.json, reportJson(report)));
+  return writeText(files.csv, files.csv.empty() ? std::string() : tableCsv(raw));
 }
 
 }  // namespace foretouch::tools

@@ -43,6 +43,21 @@ struct BenchReport {
   std::vector<std::string> notes;  ///< Notes for readers of the tables; sentences.
 };
 
+/// Of a benchmark that judges: violations are answers that are false, or broken promises.
+struct JudgedTable {
+  BenchTable table;
+  std::uint64_t violations = 0;
+};
+struct JudgedReport {
+  BenchReport report;
+  std::uint64_t violations = 0;
+
+  void add(JudgedTable judged) {
+    report.tables.push_back(std::move(judged.table));
+    violations += judged.violations;
+  }
+};
+
 /// Aligned columns under their titles.
 [[nodiscard]] std::string tableText(const BenchTable& table);
 /// Facts, tables and notes, for a terminal.
@@ -58,9 +73,14 @@ struct BenchReport {
 /// A section of Markdown, headed by the title.
 [[nodiscard]] std::string reportMarkdown(const BenchReport& report);
 
-/// Writes the report as JSON and the raw rows as CSV; an empty path writes nothing. Errors name the
-/// file.
-[[nodiscard]] Result<Done> writeReport(const BenchReport& report, const std::string& jsonPath,
-                                       const BenchTable& raw, const std::string& csvPath);
+/// Where figures are also written to; an empty path writes nothing.
+struct FigureFiles {
+  std::string json, csv;
+};
+/// The report as JSON and the raw rows as CSV. Errors name the file.
+[[nodiscard]] Result<Done> writeReport(const BenchReport& report, const BenchTable& raw,
+                                       const FigureFiles& files);
+/// Whole or not at all; an empty path writes nothing. Errors name the file.
+[[nodiscard]] Result<Done> writeText(const std::string& path, const std::string& text);
 
 }  // namespace foretouch::tools

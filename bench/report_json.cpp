@@ -45,6 +45,22 @@ Json toJson(const BenchTable& table) {
   return json;
 }
 
+/// Indented, but a column or a row of a table is one line: who compares files compares rows.
+void append(const Json& json, std::size_t depth, std::string& text) {
+  constexpr std::size_t kRow = 4;  // of the rows of a table of the tables of a report
+  if (!json.is_structured() || json.empty() || depth == kRow) {
+    text += json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return;
+  }
+  text += json.is_object() ? '{' : '[';
+  for (auto entry = json.begin(); entry != json.end(); ++entry) {
+    text += (entry == json.begin() ? "\n" : ",\n") + std::string(depth + 1, ' ');
+    if (json.is_object()) text += Json(entry.key()).dump() + ": ";
+    append(*entry, depth + 1, text);
+  }
+  text += '\n' + std::string(depth, ' ') + (json.is_object() ? '}' : ']');
+}
+
 BenchCell cellFrom(const Json& json) {
   if (json.is_number_integer()) return json.get<std::int64_t>();
   if (json.is_null()) return std::numeric_limits<double>::quiet_NaN();
@@ -90,7 +106,9 @@ std::string reportJson(const BenchReport& report) {
                {"tables", Json::array()},
                {"notes", report.notes}};
   for (const BenchTable& table : report.tables) json["tables"].push_back(toJson(table));
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::string text;
+  append(json, 0, text);
+  return text + "\n";
 }
 
 Result<BenchReport> parseReport(const std::string& text, const std::string& name) {

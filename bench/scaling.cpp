@@ -1,19 +1,39 @@
-#include "bench/scaling.h"
-
+// bench/scaling.cpp: `foretouch-bench scaling`: how the cost of a step grows with each parameter.
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "bench/commands.h"
+#include "bench/latency.h"
 #include "bench/machine.h"
+#include "bench/options.h"
 #include "bench/pool.h"
 #include "lss/index.h"
 #include "middleware/query_counters.h"
+#include "tools/settings/lists.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 namespace {
+
+/// Varies one axis at a time; the others keep the base's value. An empty list omits its axis.
+struct ScalingRequest {
+  BenchOptions options;
+  std::size_t triangles = 300'000;  ///< Of the base; 0: the scene's own.
+  int links = 16;                   ///< Of the base; 0: the avatar's own.
+  double tolerance = 1e-3;          ///< Of the base (m).
+  double rateHz = 5.0;              ///< Of the base.
+  std::vector<int> trianglesAxis, linksAxis;
+  std::vector<double> rateAxis, toleranceAxis;
+  std::vector<int> avatarsAxis, threadsAxis;  ///< Crossed with each other.
+  int crowdSteps = 4000;                      ///< Of all avatars together, at least.
+  int crowdRepeats = 3;                       ///< The quickest counts.
+};
 
 BenchTable scalingTable() {
   BenchTable table{"scaling",
@@ -79,6 +99,7 @@ class ScalingBench {
  public:
   ScalingBench(const ScalingRequest& request, const BenchInputs& inputs)
       : request_(request), inputs_(inputs), scene_(inputs.scene) {
+    bench_.report = startedReport("scaling", "Scaling");
     bench_.report.tables = {scalingTable()};
     bench_.raw = rawTable();
   }
@@ -242,6 +263,7 @@ Result<Done> ScalingBench::crowd() {
 }
 
 Result<MeasuredBench> ScalingBench::run() {
+  BenchReport& report = bench_.report;
   const auto setTriangles = [](Point& p, int n) { p.triangles = countOf(n); };
   const double baseTriangles =
       static_cast<double>(std::max(request_.triangles, inputs_.raw.triangles.size()));
@@ -255,12 +277,6 @@ Result<MeasuredBench> ScalingBench::run() {
         crowd(), axis("triangles", request_.trianglesAxis, baseTriangles, setTriangles)}) {
     if (!done.ok()) return done.error();
   }
-  BenchReport& report = bench_.report;
-  report.kind = "scaling";
-  report.title = "Scaling";
-  report.command = request_.options.command;
-  report.date = dateNow();
-  report.machine = machineFacts();
   FORETOUCH_CHECK(prepare(basePoint("base")));
   report.workload =
       workloadFacts(inputs_, scene_, body_->avatar, query_, request_.options.reference);
@@ -285,11 +301,91 @@ Result<MeasuredBench> ScalingBench::run() {
   return std::move(bench_);
 }
 
-}  // namespace
-
+/// Tables: "scaling", and "crowd" if there are avatars and threads.
 Result<MeasuredBench> measureScaling(const ScalingRequest& request) {
   FORETOUCH_TRY(const auto inputs, loadBenchInputs(request.options.files));
   return ScalingBench(request, inputs).run();
+}
+
+struct AskedScaling {
+  ScalingRequest request;
+  bool quick = false;
+};
+
+/// Short lists where the command line has none, and few steps.
+void makeQuick(const Settings& settings, ScalingRequest& request) {
+  constexpr int kQuickSteps = 40, kQuickRepeats = 2, kQuickCrowd = 60;
+  const auto quick = [&](const char* option, auto& place, auto values) {
+    if (!settings.isGiven(option)) place = std::move(values);
+  };
+  quick("--triangles", request.trianglesAxis, std::vector<int>{});
+  quick("--links", request.linksAxis, std::vector<int>{8, 16});
+  quick("--rate", request.rateAxis, std::vector<double>{10});
+  quick("--tolerance", request.toleranceAxis, std::vector<double>{1e-5});
+  quick("--avatars", request.avatarsAxis, std::vector<int>{3});
+  quick("--base-triangles", request.triangles, std::size_t{0});
+  request.options.workload.steps =
+      std::min<std::size_t>(request.options.workload.steps, kQuickSteps);
+  request.options.timing.repeats = kQuickRepeats;
+  request.crowdSteps = kQuickCrowd;
+}
+
+ExitCode run(const Settings& settings, AskedScaling& asked) {
+  if (asked.quick) makeQuick(settings, asked.request);
+  FORETOUCH_CHECK_OR(failed, complete(asked.request.options));
+  FORETOUCH_TRY_OR(failed, const auto bench, measureScaling(asked.request));
+  return finished(bench.report, bench.raw, asked.request.options.figures);
+}
+
+void addAxes(Settings& settings, ScalingRequest& request) {
+  request.trianglesAxis = {10'000, 300'000, 1'000'000, 3'000'000, 10'000'000};
+  request.linksAxis = {1, 4, 16, 31, 64, 128};
+  request.rateAxis = {1, 5, 10, 30};
+  request.toleranceAxis = {1e-2, 1e-3, 1e-4, 1e-5};
+  request.avatarsAxis = {1, 10, 100};
+  request.threadsAxis = {1, 2};
+  const auto counts = [&](const char* option, std::vector<int>& place, int most, const char* help) {
+    orNone(addCounts(settings, option, "N,...", place, most, help), place);
+  };
+  const auto numbers = [&](const char* option, const char* value, std::vector<double>& place,
+                           NumberRange range, const char* help) {
+    orNone(addNumbers(settings, option, value, place, range, help), place);
+  };
+  counts("--triangles", request.trianglesAxis, kMaxBenchTriangles,
+         "Triangles that the scene is divided into");
+  counts("--links", request.linksAxis, kMaxBenchLinks, "Links: fewer are cut off, more are grown");
+  numbers("--rate", "HZ,...", request.rateAxis, kAboveZero, "Poses a second");
+  numbers("--tolerance", "M,...", request.toleranceAxis, kToleranceRange, "Tolerances (m)");
+  counts("--avatars", request.avatarsAxis, kMaxBenchAvatars, "Avatars in the scene at once");
+  counts("--threads", request.threadsAxis, kMaxThreads, "Threads that answer them");
+}
+
+constexpr char kFooter[] =
+    R"(An axis of `none` is left out. The base is what stays while one axis is varied.
+Examples:
+  foretouch-bench scaling --quick
+  foretouch-bench scaling --triangles 300000,3000000 --links 16,64 --json scaling.json)";
+
+}  // namespace
+
+Command scalingCommand() {
+  const auto asked = std::make_shared<AskedScaling>();
+  ScalingRequest& request = asked->request;
+  Settings settings;
+  addAxes(settings, request);
+  constexpr char kBase[] = "While other things are varied";
+  settings.wholeOr("own", "--base-triangles", "N|own", request.triangles, kMaxBenchTriangles,
+                   kBase);
+  settings.wholeOr("own", "--base-links", "N|own", request.links, kMaxBenchLinks, kBase);
+  settings.number("--base-rate", "HZ", request.rateHz, kAboveZero, kBase);
+  settings.number("--base-tolerance", "M", request.tolerance, kToleranceRange, kBase);
+  settings.flag("--quick", asked->quick, "Few values and steps: a trial of seconds");
+  addBenchOptions(settings, request.options);
+  Command command{"scaling",
+                  "How a step's cost grows with triangles, links, motion, tolerance and avatars",
+                  kFooter, std::move(settings)};
+  command.run = [asked](const Settings& given) { return run(given, *asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

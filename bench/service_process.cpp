@@ -52,12 +52,10 @@ bool waitUntilReady(int output) {
 
 }  // namespace
 
-Result<ServiceProcess> ServiceProcess::start(const std::vector<std::string>& arguments,
-                                             std::string program) {
-  if (program.empty()) {
-    std::error_code unknown;
-    program = fs::read_symlink("/proc/self/exe", unknown).replace_filename("foretouch");
-  }
+Result<ServiceProcess> ServiceProcess::start(const std::vector<std::string>& arguments) {
+  std::error_code unknown;
+  const std::string program =
+      fs::read_symlink("/proc/self/exe", unknown).replace_filename("foretouch");
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return failure(std::strerror(errno));
   std::vector<std::string> words = {"foretouch", "serve"};
@@ -115,18 +113,6 @@ std::vector<std::string> ServiceProcess::openFiles() const {
   }
   std::sort(kinds.begin(), kinds.end());
   return kinds;
-}
-
-double ServiceProcess::processorSeconds() const {
-  constexpr double kSecondsPerNs = 1e-9;
-  double seconds = 0.0;
-  std::error_code gone;
-  for (const auto& entry : fs::directory_iterator(folder() + "/task", gone)) {
-    std::ifstream file(entry.path() / "schedstat");
-    double ranNs = 0.0;
-    if (file >> ranNs) seconds += kSecondsPerNs * ranNs;
-  }
-  return seconds;
 }
 
 int ServiceProcess::stop() {

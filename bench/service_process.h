@@ -13,10 +13,9 @@ namespace foretouch::tools {
 
 class ServiceProcess {
  public:
-  /// `foretouch serve` with `arguments`, the one beside this program or the `program` of this path;
-  /// returns once it says that it is ready. Errors: it ended before; the terminal has its stderr.
-  static Result<ServiceProcess> start(const std::vector<std::string>& arguments,
-                                      std::string program = {});
+  /// The `foretouch serve` beside this program, with `arguments`; returns once it says that it is
+  /// ready. Errors: it ended before; the terminal has its stderr.
+  static Result<ServiceProcess> start(const std::vector<std::string>& arguments);
   ServiceProcess(ServiceProcess&& other) noexcept;
   ServiceProcess& operator=(ServiceProcess&&) = delete;
   ~ServiceProcess();  ///< Kills the process if it still runs.
@@ -26,8 +25,6 @@ class ServiceProcess {
   /// What each open file descriptor is, as "socket", "anon_inode:[eventfd]", "/dev/null" and
   /// "*.lcmlog", sorted; none if the process is gone.
   [[nodiscard]] std::vector<std::string> openFiles() const;
-  /// Of all its threads since their start, in user and system.
-  [[nodiscard]] double processorSeconds() const;
   /// SIGTERM; the exit code, -1 if a signal ended it.
   int stop();
 

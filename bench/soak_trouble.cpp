@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 // In a private network, where they are free.
 constexpr std::uint16_t kTroubleHttpPort = 9464, kTroubleViewPort = 9465;
 constexpr int kTroubleViewers = 4;
-constexpr double kViewedPeriodUs = 1e6 / 90.0;
 constexpr double kFloodPerSecond = 20'000.0, kFloodSeconds = 5.0;
 // In seconds: half a minute sees each of these, but for a full disk.
 constexpr int kFloodEvery = 30, kRestartEvery = 20, kSilence = 3;
@@ -119,7 +118,7 @@ struct SoakTrouble::Impl {
     ++counts.floods;
   }
   void endFlood() {
-    if (running) counts.floodDatagrams += running->wait().datagrams;
+    if (running) counts.floodDatagrams += running->wait();
     running.reset();
   }
   void restart() {
@@ -159,8 +158,7 @@ SoakTrouble::SoakTrouble(SoakTrouble&&) noexcept = default;
 SoakTrouble::~SoakTrouble() = default;
 
 Result<SoakTrouble> SoakTrouble::start(const TroubleRequest& request) {
-  FORETOUCH_TRY(auto readers,
-                EventReaders::start(kTroubleViewers, kTroubleViewPort, kViewedPeriodUs));
+  FORETOUCH_TRY(auto readers, EventReaders::start(kTroubleViewers, kTroubleViewPort));
   return SoakTrouble(std::make_unique<Impl>(request, std::move(readers)));
 }
 
@@ -172,7 +170,7 @@ TroubleCounts SoakTrouble::stop() {
   impl_->endFlood();
   impl_->sender.kill();
   impl_->filler.empty();
-  impl_->counts.viewersLetGo = impl_->readers.stop().ended;
+  impl_->counts.viewersLetGo = impl_->readers.stop();
   return impl_->counts;
 }
 

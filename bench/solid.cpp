@@ -1,22 +1,48 @@
-#include "bench/solid.h"
-
+// bench/solid.cpp: `foretouch-bench solid`: how a solid avatar feels, what it costs, and whether it
+// keeps its promises, beside the usual ways; and the goals that it is held to.
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "articulated/result.h"
 #include "articulated/try.h"
+#include "bench/commands.h"
 #include "bench/machine.h"
+#include "bench/options.h"
+#include "bench/report.h"
 #include "bench/solid/busy_places.h"
 #include "bench/solid/cast.h"
 #include "bench/solid/feel.h"
 #include "bench/solid/feel_tables.h"
 #include "bench/solid/figure.h"
 #include "bench/solid/followers.h"
+#include "bench/solid/trial_tables.h"
 #include "tools/progress.h"
+#include "tools/settings/lists.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 namespace {
+
+/// Clips in scenes, and the trials of bench/solid/trial_tables.h.
+constexpr const char* kSolidParts[] = {"scenes", "board", "clutter", "slide", "press"};
+
+struct SolidBenchRequest {
+  std::string dataFolder;  ///< With mocap/ and scenes/; empty: the bundled room and dancer alone.
+  std::vector<std::string> scenes, clips;  ///< By name; empty: kitchen, office and room; six clips.
+  std::vector<double> ratesHz{90.0};
+  int places = 2;                  ///< Per clip and scene.
+  double seconds = 4.0;            ///< At each.
+  std::vector<std::string> parts;  ///< Of kSolidParts; empty: all.
+  TrialRequest trials;             ///< Its options and seed are also those of the scenes.
+  FigureFiles figures;
+};
 
 /// Keeps what another follower shows.
 class Recorder final : public Follower {
@@ -90,7 +116,7 @@ class SceneTables {
  public:
   SceneTables() : rest_(emptyRestTable()), hands_(emptyHandsTable()) {}
 
-  void add(const SolidStage& stage, double rateHz, const SceneRun& run, SolidBench& bench) {
+  void add(const SolidStage& stage, double rateHz, const SceneRun& run, JudgedReport& bench) {
     feel_.add({stage.name, rateHz, run.places(), "hold"}, run.hold());
     feel_.add({stage.name, rateHz, run.places(), "solid"}, run.solid());
     addRow({stage.name, rateHz}, run.rest(), rest_);
@@ -111,7 +137,7 @@ class SceneTables {
   BenchTable rest_, hands_;
 };
 
-Result<Done> measureScenes(const SolidBenchRequest& request, SolidBench& bench) {
+Result<Done> measureScenes(const SolidBenchRequest& request, JudgedReport& bench) {
   FORETOUCH_TRY(const auto cast, loadCast(request.dataFolder, request.scenes, request.clips));
   SceneTables tables;
   ProgressBar progress("solid", static_cast<std::int64_t>(cast.stages.size() * cast.actors.size() *
@@ -135,36 +161,72 @@ Result<Done> measureScenes(const SolidBenchRequest& request, SolidBench& bench) 
   return Done{};
 }
 
-using Trial = Result<TrialTable> (*)(const TrialRequest&);
+using Trial = Result<JudgedTable> (*)(const TrialRequest&);
 
-}  // namespace
-
-Result<SolidBench> measureSolid(const SolidBenchRequest& request) {
-  const auto isAsked = [&](const std::string& part) {
-    return request.parts.empty() ||
-           std::find(request.parts.begin(), request.parts.end(), part) != request.parts.end();
-  };
-  SolidBench bench;
+/// One thread.
+Result<JudgedReport> measureSolid(const SolidBenchRequest& request) {
+  JudgedReport bench{
+      startedReport("solid", "A solid avatar: what is shown passes through nothing")};
   BenchReport& report = bench.report;
-  report.kind = "solid";
-  report.title = "A solid avatar: what is shown passes through nothing";
-  report.command = request.command;
-  report.date = dateNow();
-  report.machine = machineFacts();
   report.workload = {{"skin", fmt::format("{:g} m", request.trials.options.skin)},
                      {"tolerance", fmt::format("{:g} m", request.trials.options.tolerance)}};
-  if (isAsked("scenes")) FORETOUCH_CHECK(measureScenes(request, bench));
+  if (isAsked(request.parts, "scenes")) FORETOUCH_CHECK(measureScenes(request, bench));
   const std::pair<const char*, Trial> trials[] = {{"board", boardTable},
                                                   {"clutter", clutterTable},
                                                   {"slide", slideTable},
                                                   {"press", pressTable}};
   for (const auto& [part, trial] : trials) {
-    if (!isAsked(part)) continue;
+    if (!isAsked(request.parts, part)) continue;
     FORETOUCH_TRY(auto result, trial(request.trials));
-    report.tables.push_back(std::move(result.table));
-    bench.violations += result.violations;
+    bench.add(std::move(result));
   }
   return bench;
+}
+
+ExitCode run(SolidBenchRequest& request) {
+  /// Of the skin, as SolidOptions has them.
+  constexpr double kToleranceShare = 0.25;
+  request.trials.options.tolerance = kToleranceShare * request.trials.options.skin;
+  FORETOUCH_TRY_OR(failed, const auto bench, measureSolid(request));
+  return finished(bench, "ticks broke the promise", request.figures);
+}
+
+void addTrials(Settings& settings, TrialRequest& trials) {
+  constexpr int kMostSeed = 1'000'000'000, kMostTrials = 100'000'000;
+  settings.whole("--seed", "N", trials.seed, 1, kMostSeed, "Of the places");
+  settings.number("--skin", "M", trials.options.skin, kAboveZero,
+                  "Gap that the avatar keeps; the tolerance is a quarter of it");
+  settings.whole("--goals", "N", trials.goals, 1, kMostTrials, "Free places among clutter");
+  settings.whole("--board-trials", "N", trials.boardTrials, 1, kMostTrials,
+                 "Hands led through a board, in all; of other hands 200 per speed and depth");
+}
+
+}  // namespace
+
+Command solidBenchCommand() {
+  constexpr int kMostPlaces = 1000;
+  const auto asked = std::make_shared<SolidBenchRequest>();
+  SolidBenchRequest& request = *asked;
+  Settings settings;
+  addData(settings, request.dataFolder, "With mocap/ and scenes/; $FORETOUCH_DATA says another");
+  addWords(settings, "--scenes", "NAME,...", request.scenes, {},
+           "kitchen, office, collision-world, undulating, room; kitchen,office,room if not given");
+  addWords(settings, "--clips", "NAME,...", request.clips, {},
+           "Of mocap/, or paths; six if not given");
+  addWords(settings, "--parts", "NAME,...", request.parts,
+           {std::begin(kSolidParts), std::end(kSolidParts)},
+           "scenes (clips in furniture), board, clutter, slide, press; all if not given");
+  addNumbers(settings, "--rates", "HZ,...", request.ratesHz, kAboveZero,
+             "Tracked poses per second");
+  settings.whole("--places", "N", request.places, 1, kMostPlaces, "Busy places per clip and scene");
+  settings.number("--seconds", "S", request.seconds, kAboveZero, "Of the clip at each place");
+  addTrials(settings, request.trials);
+  addFigures(settings, request.figures, "Also write the first table to a file");
+  Command command{
+      "solid", "How a solid avatar feels and what it costs; exit code 1 where it breaks a promise",
+      "Example:\n  foretouch-bench solid --scenes office --rates 90,30,10", std::move(settings)};
+  command.run = [asked](const Settings&) { return run(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -21,6 +20,7 @@
 #include "bench/timing.h"
 #include "lss/index.h"
 #include "network/wire/messages.h"
+#include "tools/report/document_parts.h"
 #include "tools/stream/clip_sender.h"
 
 namespace foretouch::tools {
@@ -135,8 +135,7 @@ struct SoakMemory {
   OpenFiles filesFirst, filesLast;  // of each half
 };
 
-}  // namespace
-
+/// Numbered from 1.
 std::vector<LoadSender> sendersOf(const std::vector<StreamCrowd>& crowds) {
   std::vector<LoadSender> senders;
   for (const StreamCrowd& crowd : crowds) {
@@ -147,30 +146,29 @@ std::vector<LoadSender> sendersOf(const std::vector<StreamCrowd>& crowds) {
   return senders;
 }
 
-std::vector<std::string> serviceArguments(const BenchFiles& files, std::size_t avatars, int workers,
-                                          const std::string& logPath) {
+/// For `foretouch serve` with these senders.
+std::vector<std::string> serviceArguments(const BenchFiles& files, std::size_t avatars,
+                                          int workers) {
   std::vector<std::string> arguments = {"--scene", files.scenePath, "--workers",
                                         std::to_string(workers)};
   for (std::size_t i = 1; i <= avatars; ++i) {
     arguments.insert(arguments.end(), {"--avatar", std::to_string(i) + "=" + files.avatarPath});
   }
-  if (!logPath.empty()) arguments.insert(arguments.end(), {"--log", logPath});
   return arguments;
 }
 
+/// The facts that the figures depend on.
 std::vector<BenchFact> streamFacts(const BenchInputs& inputs, int workers) {
-  namespace fs = std::filesystem;
-  return {{"scene",
-           fmt::format("{}, {} triangles", fs::path(inputs.files.scenePath).filename().string(),
-                       inputs.scene.numTriangles())},
-          {"avatar", fmt::format("{}, {} links with {} LSS",
-                                 fs::path(inputs.files.avatarPath).filename().string(),
+  return {{"scene", fmt::format("{}, {} triangles", fileName(inputs.files.scenePath),
+                                inputs.scene.numTriangles())},
+          {"avatar", fmt::format("{}, {} links with {} LSS", fileName(inputs.files.avatarPath),
                                  inputs.avatar.numLinks(), inputs.avatar.numLss())},
-          {"clip", fmt::format("{}, a pose a frame, forth and back",
-                               fs::path(inputs.files.motionPath).filename().string())},
+          {"clip",
+           fmt::format("{}, a pose a frame, forth and back", fileName(inputs.files.motionPath))},
           {"workers", std::to_string(workers)}};
 }
 
+/// The clip as its senders send it, one pose per frame.
 Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place) {
   const StepSelection everyFrame{1, static_cast<std::int64_t>(inputs.clip.frames.size()) - 1};
   SenderOptions options;
@@ -187,29 +185,24 @@ Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place) {
   return track;
 }
 
-Result<StreamBench> measureStream(const StreamRequest& request) {
+}  // namespace
+
+Result<BenchReport> measureStream(const StreamRequest& request) {
   FORETOUCH_TRY(const auto inputs, loadBenchInputs(request.files));
   FORETOUCH_TRY(const auto track, loadTrack(inputs, request.place));
-  StreamBench bench;
   BenchTable table = streamTable();
   for (const StreamCrowd& crowd : request.crowds) {
     LoadRequest load;
     load.senders = sendersOf({crowd});
     load.durationS = request.durationS;
-    FORETOUCH_TRY(auto service,
-                  ServiceProcess::start(serviceArguments(inputs.files, load.senders.size(),
-                                                         request.workers, std::string())));
+    FORETOUCH_TRY(auto service, ServiceProcess::start(serviceArguments(
+                                    inputs.files, load.senders.size(), request.workers)));
     FORETOUCH_TRY(const auto outcome, runLoad(track, load));
     service.stop();
     table.rows.push_back(streamRow(crowd, outcome));
-    bench.lost += outcome.unanswered;
   }
-  BenchReport& report = bench.report;
-  report.kind = "stream";
-  report.title = "The stream: pose sent to verdict received, over multicast";
-  report.command = request.command;
-  report.date = dateNow();
-  report.machine = machineFacts();
+  BenchReport report =
+      startedReport("stream", "The stream: pose sent to verdict received, over multicast");
   report.workload = streamFacts(inputs, request.workers);
   report.tables.push_back(std::move(table));
   report.notes = {
@@ -222,7 +215,7 @@ Result<StreamBench> measureStream(const StreamRequest& request) {
       "hand-over, less the query.",
       "Lost: poses without an answer, by sequence. Sent late: more than a period after they were "
       "due, which is this machine's doing."};
-  return bench;
+  return report;
 }
 
 double slopeOf(const std::vector<double>& times, const std::vector<double>& values) {
@@ -309,7 +302,7 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
                                request.diskPath.empty() ? folder.path() : request.diskPath,
                                !request.diskPath.empty()};
   auto arguments = serviceArguments(inputs.files, load.senders.size() + (request.isCalm ? 0 : 1),
-                                    request.workers, std::string());
+                                    request.workers);
   if (request.moving.props > 0) {
     FORETOUCH_TRY(const auto world, writeLoadWorld(folder, inputs.files, load.senders.size(),
                                                    request.moving.isFurnished));
@@ -381,11 +374,7 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   row("round trip p99.9 us", valueAtRank(trips, 0.999));
   row("round trip max us", trips.empty() ? 0.0 : trips.back());
   row("service's exit code", soak.exitCode);
-  soak.report.kind = "soak";
-  soak.report.title = "The stream, soaked";
-  soak.report.command = request.command;
-  soak.report.date = dateNow();
-  soak.report.machine = machineFacts();
+  soak.report = startedReport("soak", "The stream, soaked");
   soak.report.workload = streamFacts(inputs, request.workers);
   if (request.moving.props > 0 && !request.moving.isFurnished) {
     soak.report.workload.front() = {"scene", "a hall, 10 triangles"};

@@ -21,32 +21,13 @@ struct StreamCrowd {
 struct StreamRequest {
   BenchFiles files;
   Placement place;
-  std::string floor;  ///< Object whose contacts to ignore; empty: none.
   std::vector<StreamCrowd> crowds;
   double durationS = 10.0;  ///< Of each crowd.
   int workers = 1;
-  std::string command;  ///< As typed in.
-};
-
-/// Numbered from 1.
-[[nodiscard]] std::vector<LoadSender> sendersOf(const std::vector<StreamCrowd>& crowds);
-/// For `foretouch serve` with these senders. `logPath` may be empty.
-[[nodiscard]] std::vector<std::string> serviceArguments(const BenchFiles& files,
-                                                        std::size_t avatars, int workers,
-                                                        const std::string& logPath);
-/// The facts that the figures depend on.
-[[nodiscard]] std::vector<BenchFact> streamFacts(const BenchInputs& inputs, int workers);
-
-/// The clip as its senders send it, one pose per frame.
-[[nodiscard]] Result<LoadTrack> loadTrack(const BenchInputs& inputs, const Placement& place);
-
-struct StreamBench {
-  BenchReport report;
-  std::int64_t lost = 0;  ///< Poses without an answer, of all crowds.
 };
 
 /// Every crowd against a service of its own. Precondition: enterPrivateNetwork() was called.
-[[nodiscard]] Result<StreamBench> measureStream(const StreamRequest& request);
+[[nodiscard]] Result<BenchReport> measureStream(const StreamRequest& request);
 
 struct SoakRequest {
   BenchFiles files;
@@ -60,7 +41,6 @@ struct SoakRequest {
   bool isCalm = false;   ///< Without what bench/soak_trouble.h does.
   std::string diskPath;  ///< A folder on a small disk of its own, for the service's log: it is
                          ///< filled and emptied. Empty: the log goes to a folder that is not.
-  std::string command;
 };
 
 struct SoakOutcome {

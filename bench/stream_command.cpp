@@ -5,7 +5,6 @@
 #include "articulated/try.h"
 #include "bench/commands.h"
 #include "bench/crowds.h"
-#include "bench/machine.h"
 #include "bench/options.h"
 #include "bench/private_network.h"
 #include "bench/stream.h"
@@ -19,24 +18,18 @@ namespace {
 /// heap, of 128 KiB each, which give a steep slope over minutes; a sanitizer's own books take more.
 constexpr double kMostMbPerHour = 1.0, kNoGrowthMb = internal::kUnderSanitizer ? 4.0 : 0.5;
 
-struct AskedStream {
-  StreamRequest request;
-  std::string json, csv;
+template <typename Request>
+struct Asked {
+  Request request;
+  FigureFiles figures;
 };
-
-struct AskedSoak {
-  SoakRequest request;
-  std::string json, csv;
-};
+using AskedStream = Asked<StreamRequest>;
+using AskedSoak = Asked<SoakRequest>;
 
 ExitCode run(AskedStream& asked) {
-  asked.request.command = ownCommandLine();
   FORETOUCH_CHECK_OR(failed, enterPrivateNetwork());
-  FORETOUCH_TRY_OR(failed, const auto bench, measureStream(asked.request));
-  const BenchReport& report = bench.report;
-  FORETOUCH_CHECK_OR(failed, writeReport(report, asked.json, report.tables.front(), asked.csv));
-  printOut(reportText(report));
-  return ExitCode::Done;
+  FORETOUCH_TRY_OR(failed, const auto report, measureStream(asked.request));
+  return finished(report, report.tables.front(), asked.figures);
 }
 
 ExitCode run(AskedSoak& asked) {
@@ -45,18 +38,14 @@ ExitCode run(AskedSoak& asked) {
     return failed(Error::in("--props", ErrorCode::OutOfRange,
                             "expected --calm beside it: the senders of trouble know no world"));
   }
-  request.command = ownCommandLine();
   FORETOUCH_CHECK_OR(failed, enterPrivateNetwork());
   FORETOUCH_TRY_OR(failed, const auto soak, soakStream(request));
-  const BenchReport& report = soak.report;
-  FORETOUCH_CHECK_OR(failed, writeReport(report, asked.json, report.tables.front(), asked.csv));
-  printOut(reportText(report));
   const bool isSound = soak.lost == 0 && !soak.filesGrown &&
                        (soak.slopeMbPerHour < kMostMbPerHour || soak.grownMb < kNoGrowthMb) &&
                        soak.exitCode == 0;
-  if (isSound) return ExitCode::Done;
-  printError("the service lost poses, grew, or did not end well: see the table");
-  return ExitCode::CheckSaysNo;
+  return finished(
+      soak.report, soak.report.tables.front(), asked.figures,
+      isSound ? "" : "the service lost poses, grew, or did not end well: see the table");
 }
 
 /// Of both.
@@ -66,7 +55,7 @@ void addShared(Settings& settings, Asked& asked) {
             "How many avatars, and how many poses per second each sends");
   addWorkers(settings, asked.request.workers);
   addDancerPlace(settings, asked.request.place);
-  addFigures(settings, asked.json, asked.csv, "Also write the table to a file");
+  addFigures(settings, asked.figures, "Also write the table to a file");
 }
 
 void addProps(Settings& settings, MovingRequest& moving) {

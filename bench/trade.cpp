@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -16,13 +15,10 @@
 #include "bench/trade/trade_tables.h"
 #include "tools/console.h"
 #include "tools/inputs/step_selection.h"
+#include "tools/report/document_parts.h"
 
 namespace foretouch::tools {
 namespace {
-
-std::string nameOf(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
-}
 
 void noteOnce(std::string note, BenchReport& report) {
   auto& notes = report.notes;
@@ -84,9 +80,9 @@ class WorldBench {
     for (const double rateHz : request_.ratesHz) {
       FORETOUCH_TRY(auto run, runAt(rateHz, places));
       if (run.windows.empty()) {
-        noteOnce(
-            fmt::format("{} holds no steps at {:g} Hz.", nameOf(inputs_.files.motionPath), rateHz),
-            bench.report);
+        noteOnce(fmt::format("{} holds no steps at {:g} Hz.", fileName(inputs_.files.motionPath),
+                             rateHz),
+                 bench.report);
         continue;
       }
       if (!isJudged) run.judged = request_.judged;
@@ -121,13 +117,13 @@ class WorldBench {
     if (!places.empty()) return places;
     return Error::in(inputs_.files.motionPath, ErrorCode::Empty,
                      "touches nothing at any place that was tried in " +
-                         nameOf(inputs_.files.scenePath) + "; expected one with a contact");
+                         fileName(inputs_.files.scenePath) + "; expected one with a contact");
   }
 
   Result<TradeRun> runAt(double rateHz, const std::vector<TradePlace>& places) {
     TradeRun run;
-    run.scene = nameOf(inputs_.files.scenePath);
-    run.clip = nameOf(inputs_.files.motionPath);
+    run.scene = fileName(inputs_.files.scenePath);
+    run.clip = fileName(inputs_.files.motionPath);
     run.rateHz = rateHz;
     run.passes = request_.passes;
     const auto steps = selectSteps(inputs_.clip, rateHz);
@@ -215,14 +211,8 @@ void addNotes(const TradeRequest& request, const JudgedTruth& judged,
 
 Result<MeasuredTrade> measureTrade(const TradeRequest& request) {
   MeasuredTrade bench;
-  bench.baseTolerance = request.baseTolerance;
-  bench.baseRateHz = request.baseRateHz;
   BenchReport& report = bench.report;
-  report.kind = "trade";
-  report.title = "Speed for accuracy";
-  report.command = request.command;
-  report.date = dateNow();
-  report.machine = machineFacts();
+  report = startedReport("trade", "Speed for accuracy");
   JudgedTruth judged;
   for (const BenchFiles& files : request.worlds) {
     FORETOUCH_CHECK(measureWorld(request, files, bench, judged));
@@ -231,7 +221,7 @@ Result<MeasuredTrade> measureTrade(const TradeRequest& request) {
     return Error::in("--rate", ErrorCode::Empty, "expected a rate that a clip has");
   }
   markFrontier(bench.rows);
-  report.tables = tablesForPeople(bench.rows, bench.baseTolerance, bench.baseRateHz);
+  report.tables = tablesForPeople(bench.rows, request.baseTolerance, request.baseRateHz);
   addNotes(request, judged, bench.rows, report);
   return bench;
 }

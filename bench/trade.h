@@ -25,12 +25,10 @@ struct TradeRequest {
   int judged = 40;  ///< Links per world.
   std::size_t surfaceTriangles = 20'000;
   WorkloadRequest workload;  ///< Seed, floor and lift count.
-  std::string command;       ///< As typed in.
 };
 
 struct MeasuredTrade {
   std::vector<TradeRow> rows;
-  double baseTolerance = 0.0, baseRateHz = 0.0;
   BenchReport report;
 };
 

@@ -8,16 +8,13 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
-#include "assets/text_file.h"
 #include "bench/commands.h"
-#include "tools/settings/lists.h"
-#include "bench/machine.h"
 #include "bench/options.h"
 #include "bench/trade.h"
-#include "bench/trade/trade_page.h"
 #include "bench/trade/trade_tables.h"
 #include "tools/results_output.h"
 #include "tools/settings/frame_settings.h"
+#include "tools/settings/lists.h"
 #include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
@@ -29,7 +26,8 @@ struct AskedTrade {
   std::vector<double> sceneScales{1.0}, clipScales{1.0};
   std::vector<UpAxis> sceneUps{UpAxis::Y}, clipUps{UpAxis::Y};
   std::optional<int> processor;
-  std::string json, csv, html, markdown;
+  FigureFiles figures;
+  std::string markdown;
   bool quick = false;
 };
 
@@ -105,7 +103,7 @@ Result<Done> complete(const Settings& settings, AskedTrade& asked) {
   if (asked.quick) makeQuick(settings, request);
   FORETOUCH_CHECK(addWorlds(asked));
   FORETOUCH_CHECK(checkTolerances(request.tolerances));
-  for (const std::string& output : {asked.json, asked.csv, asked.html, asked.markdown}) {
+  for (const std::string& output : {asked.figures.json, asked.figures.csv, asked.markdown}) {
     FORETOUCH_CHECK(checkIsNoInput(output, asked.scenes));
     FORETOUCH_CHECK(checkIsNoInput(output, asked.clips));
   }
@@ -113,24 +111,14 @@ Result<Done> complete(const Settings& settings, AskedTrade& asked) {
   request.workload.mostPlacements = kWorkloadPlaces;
   request.baseTolerance = nearestOf(request.tolerances, kBaseTolerance);
   request.baseRateHz = nearestOf(request.ratesHz, kBaseRateHz);
-  request.command = ownCommandLine();
   return keepTo(asked.processor);
-}
-
-Result<Done> writeText(const std::string& path, const std::string& text) {
-  FORETOUCH_TRY(auto file, PendingFile::create(path));
-  file.write(text);
-  const auto written = file.commit();
-  return written.ok() ? written : inFile(written.error(), path);
 }
 
 Result<Done> writeAll(const AskedTrade& asked, const MeasuredTrade& bench) {
   const BenchTable raw = tradeTable(bench.rows, "rows", "Everything that was measured");
   BenchReport whole = bench.report;
   whole.tables.push_back(raw);
-  FORETOUCH_CHECK(writeReport(whole, asked.json, raw, asked.csv));
-  if (!asked.html.empty()) FORETOUCH_CHECK(writeText(asked.html, tradePage(bench)));
-  if (asked.markdown.empty()) return Done{};
+  FORETOUCH_CHECK(writeReport(whole, raw, asked.figures));
   return writeText(asked.markdown, reportMarkdown(bench.report));
 }
 
@@ -181,9 +169,9 @@ void addEffort(Settings& settings, TradeRequest& request) {
 constexpr char kFooter[] =
     R"(Every clip in every scene, at every rate that it has, at every tolerance, by every strategy.
 Examples:
-  foretouch-bench trade --quick --html trade.html
+  foretouch-bench trade --quick --markdown trade.md
   foretouch-bench trade --clips walk.bvh,kick.bvh --clip-scales 0.01 --scenes room.obj,kitchen.ply --scene-ups y,z \
-      --json trade.json --csv trade.csv --html trade.html --markdown trade.md)";
+      --json trade.json --csv trade.csv --markdown trade.md)";
 
 }  // namespace
 
@@ -193,9 +181,7 @@ Command tradeCommand() {
   addFiles(settings, *asked);
   addEffort(settings, asked->request);
   addProcessor(settings, asked->processor);
-  addFigures(settings, asked->json, asked->csv, "Also write one line per setting to a file");
-  settings.output("--html", "FILE", asked->html,
-                  "Also write a page with plots, which needs nothing else");
+  addFigures(settings, asked->figures, "Also write one line per setting to a file");
   settings.output("--markdown", "FILE", asked->markdown, "Also write the tables as Markdown");
   settings.flag("--quick", asked->quick, "Few values and steps: a trial of seconds");
   Command command{

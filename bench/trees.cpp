@@ -1,21 +1,30 @@
-#include "bench/trees.h"
-
+// bench/trees.cpp: `foretouch-bench trees`: the builders of a scene's tree beside one another.
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "bench/commands.h"
+#include "bench/latency.h"
 #include "bench/machine.h"
+#include "bench/options.h"
 #include "bench/scene.h"
 #include "middleware/scene/bvh_tree.h"
 #include "middleware/scene/scene_parts.h"
+#include "tools/report/document_parts.h"
 
 namespace foretouch::tools {
 namespace {
+
+struct TreesRequest {
+  BenchOptions options;
+  std::size_t triangles = 300'000;  ///< 0: the scene's own.
+  int rounds = 5;  ///< Each builder once, in turns; the least of a builder's times counts.
+};
 
 using internal::TreeBuilder;
 
@@ -97,8 +106,7 @@ BenchTable treesTable(const std::vector<BuilderTimes>& builders) {
   return table;
 }
 
-}  // namespace
-
+/// Table "trees": one row per builder of this library. Raw: one line per round and builder.
 Result<MeasuredBench> measureTrees(const TreesRequest& request) {
   FORETOUCH_TRY(const auto inputs, loadBenchInputs(request.options.files));
   FORETOUCH_TRY(const auto body, bodyOf(inputs, 0));
@@ -143,13 +151,9 @@ Result<MeasuredBench> measureTrees(const TreesRequest& request) {
     }
   }
   BenchReport& report = bench.report;
-  report.kind = "trees";
-  report.title = fmt::format("Builders of a scene's tree: {} in {} triangles",
-                             std::filesystem::path(inputs.files.scenePath).filename().string(),
-                             asked.raw.triangles.size());
-  report.command = request.options.command;
-  report.date = dateNow();
-  report.machine = machineFacts();
+  report = startedReport("trees",
+                         fmt::format("Builders of a scene's tree: {} in {} triangles",
+                                     fileName(inputs.files.scenePath), asked.raw.triangles.size()));
   report.workload = {{"steps", describe(workload)}};
   report.tables = {treesTable(best)};
   report.notes = {fmt::format("The least of {} rounds, the builders in turns. tree: from triangles "
@@ -157,6 +161,29 @@ Result<MeasuredBench> measureTrees(const TreesRequest& request) {
                               request.rounds),
                   "embree uses all cores, binned one."};
   return bench;
+}
+
+ExitCode run(TreesRequest& request) {
+  FORETOUCH_CHECK_OR(failed, complete(request.options));
+  FORETOUCH_TRY_OR(failed, const auto bench, measureTrees(request));
+  return finished(bench.report, bench.raw, request.options.figures);
+}
+
+}  // namespace
+
+Command treesCommand() {
+  constexpr int kMaxRounds = 1000;
+  const auto request = std::make_shared<TreesRequest>();
+  Settings settings;
+  addTriangles(settings, "--triangles", request->triangles);
+  settings.whole("--rounds", "N", request->rounds, 1, kMaxRounds, "How often each builder builds");
+  addBenchOptions(settings, request->options);
+  Command command{
+      "trees", "The builders of a scene's tree: how long they take, and how good their trees are",
+      "Example:\n  foretouch-bench trees --triangles 300000 --json trees.json",
+      std::move(settings)};
+  command.run = [request](const Settings&) { return run(*request); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <memory>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -11,11 +13,15 @@
 
 #include "articulated/try.h"
 #include "assets/mesh/link_mesh.h"
+#include "bench/commands.h"
 #include "bench/machine.h"
 #include "bench/options.h"
 #include "bench/trade/runner.h"
 #include "tools/console.h"
 #include "tools/inputs/step_selection.h"
+#include "tools/results_output.h"
+#include "tools/settings/clip_settings.h"
+#include "tools/settings/world_settings.h"
 
 namespace foretouch::tools {
 namespace {
@@ -232,17 +238,13 @@ Result<Tuned> tune(const TuneRequest& request) {
   Tuner tuner(request, inputs, std::move(surface));
   Tuned tuned;
   BenchReport& report = tuned.report;
+  report = startedReport("tune", fmt::format("Settings for {:g} us a step", request.budgetUs));
   for (const double rateHz : rates) {
     FORETOUCH_TRY(auto rate, tuner.at(rateHz));
     report.tables.push_back(tableOf(rate, request.budgetUs));
     report.notes.push_back(recommendationText(rate, request.budgetUs));
     tuned.rates.push_back(std::move(rate));
   }
-  report.kind = "tune";
-  report.title = fmt::format("Settings for {:g} us a step", request.budgetUs);
-  report.command = request.command;
-  report.date = dateNow();
-  report.machine = machineFacts();
   report.workload = workloadFacts(inputs, inputs.scene, inputs.avatar, {});
   report.workload.pop_back();  // the fidelity: tries all
   report.notes.push_back(
@@ -252,6 +254,49 @@ Result<Tuned> tune(const TuneRequest& request) {
   report.notes.push_back(
       "Times are of this machine, warm, one thread, the least of a few passes a step: leave room.");
   return tuned;
+}
+
+namespace {
+
+ExitCode run(const TuneRequest& request) {
+  const BenchFiles& files = request.files;
+  FORETOUCH_CHECK_OR(
+      failed, checkIsNoInput(request.figures.json,
+                             {files.scenePath, files.motionPath, files.avatarPath, files.mapPath}));
+  FORETOUCH_TRY_OR(failed, const auto tuned, tune(request));
+  return finished(tuned.report, {}, request.figures);
+}
+
+constexpr char kTuneFooter[] =
+    R"(Tries fidelities and tolerances on your own scene, avatar and clip.
+Examples:
+  foretouch-bench tune --budget-us 20
+  foretouch-bench tune --scene kitchen.ply --motion walk.bvh --clip-scale 0.01 --rate 30 --budget-us 50)";
+
+}  // namespace
+
+Command tuneCommand() {
+  constexpr int kMostPasses = 1000;
+  const auto asked = std::make_shared<TuneRequest>();
+  TuneRequest& request = *asked;
+  Settings settings;
+  addBenchFiles(settings, request.files);
+  addPlaceSetting(settings, request.placement, "Where the clip stands, as for replay");
+  settings.number("--budget-us", "US", request.budgetUs, kAboveZero,
+                  "Microseconds per step, at the 99th percentile");
+  settings.number("--rate", "HZ", request.rateHz, kAboveZero, "",
+                  "Poses per second; by default tries several");
+  settings.whole("--steps", "N", request.steps, 1, kMaxBenchSteps,
+                 "Steps tried at each rate at most");
+  settings.whole("--passes", "N", request.passes, 1, kMostPasses,
+                 "Over all steps; a step's least time counts");
+  settings.output("--json", "FILE", request.figures.json, "Also write the figures to a file");
+  Command command{
+      "tune",
+      "Find the settings for a scene, an avatar and a clip that keep each step within a time",
+      kTuneFooter, std::move(settings)};
+  command.run = [asked](const Settings&) { return run(*asked); };
+  return command;
 }
 
 }  // namespace foretouch::tools

@@ -21,7 +21,7 @@ struct TuneRequest {
   std::optional<double> rateHz;  ///< None: kTuneRatesHz, as far as the clip has them.
   std::size_t steps = 400;       ///< At each rate at most, from the clip's beginning.
   int passes = 3;
-  std::string command;  ///< As typed in.
+  FigureFiles figures;  ///< Without lines for a CSV.
 };
 
 inline constexpr double kTuneRatesHz[] = {5.0, 10.0, 30.0, 60.0};

@@ -11,17 +11,6 @@ measure() {  # measure NAME ARGS...: one benchmark, its figures kept under NAME
   build/release/bin/foretouch-bench "$@" --json "$measurements/$name.json" --csv "build/release/$name.csv"
 }
 
-# In the document's order; a file that is absent has no section.
-readonly performance_figures="latency-room latency-mix latency-kitchen latency-exact latency-own scaling deadline stream
-  peers solid solid-board solid-trials world instructions"
-performance_document() {
-  local name files=()
-  for name in $performance_figures; do
-    if [ -f "$measurements/$name.json" ]; then files+=("$measurements/$name.json"); fi
-  done
-  build/release/bin/foretouch-bench report "${files[@]}" --output docs/performance.md
-}
-
 bench_all() {
   local latency=(latency --steps 500) scaling=(scaling --steps 500 --repeat 5) stream=(stream) peers=(peers)
   local deadline=(deadline --lift 0.0012 --choice mix --asks 250000 --steps 500)
@@ -42,7 +31,7 @@ bench_all() {
   mkdir -p "$measurements"
   measure latency-room "${latency[@]}" --triangles 300000 --links 16
   measure latency-mix "${latency[@]}" --triangles 300000 --links 16 --choice mix --simd widest
-  # The kitchen and its clip are no part of the project: their section stays as it was where they are absent.
+  # The kitchen and its clip are no part of the project: their figures stay as they were where they are absent.
   local data=${FORETOUCH_DATA:-../shared/data}
   local kitchen=$data/scenes/kitchen_fatihrmutfak.ply clip=$data/mocap/bandai1_kick_normal_001.bvh
   if [ -f "$kitchen" ] && [ -f "$clip" ]; then
@@ -61,7 +50,6 @@ bench_all() {
   measure solid-trials "${trials[@]}"
   # By clips that are no part of the project, or by the bundled dancer.
   measure world "${world[@]}"
-  performance_document
 }
 
 # Callgrind counts what answerStep() costs, and nothing else: the same on a busy machine as on an idle one. Valgrind

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/ask/asked_times.h"
-#include "bench/memory.h"
+#include "bench/machine.h"
 #include "bench/solid/cells.h"
 #include "bench/timing.h"
 #include "middleware/ask/ask.h"
@@ -77,7 +77,7 @@ bool areAlike(const WorldAnswer& x, const WorldAnswer& y) {
 
 }  // namespace
 
-PlayersTable playersTable(const WorldCast& cast, int shots, std::uint64_t seed) {
+JudgedTable playersTable(const Cast& cast, int shots, std::uint64_t seed) {
   const auto clips = clipPosesOf(cast, kTickHz);
   const auto people = crowdOf(clips, kPlayers, kPlayersApartM);
   std::vector<Vector3d> places;
@@ -108,7 +108,7 @@ PlayersTable playersTable(const WorldCast& cast, int shots, std::uint64_t seed) 
     other += !areAlike(answer, again);
   }
   const Percentiles us = percentilesOf(times.us);
-  PlayersTable result;
+  JudgedTable result;
   result.violations = other;
   result.table = {"players",
                   "Shots on a server: a shot per tick, each player at an instant of its own",

@@ -9,12 +9,9 @@
 
 namespace foretouch::tools {
 
-struct PlayersTable {
-  BenchTable table;
-  std::uint64_t violations = 0;  ///< Verdicts that a second world of the same poses does not give.
-};
+/// A violation is a verdict that a second world of the same poses does not give.
 /// Sixty players, 128 poses per second of each, one second of memory; each shot sees each player at
 /// an instant of its own, 50 to 150 ms and two ticks ago.
-[[nodiscard]] PlayersTable playersTable(const WorldCast& cast, int shots, std::uint64_t seed);
+[[nodiscard]] JudgedTable playersTable(const Cast& cast, int shots, std::uint64_t seed);
 
 }  // namespace foretouch::tools

@@ -124,7 +124,7 @@ std::vector<BenchCell> crowdRow(const RememberedCrowd& crowd, const AskedKind& k
 
 }  // namespace
 
-BenchTable rayCrowdTable(const WorldCast& cast, const std::vector<int>& avatars, int questions,
+BenchTable rayCrowdTable(const Cast& cast, const std::vector<int>& avatars, int questions,
                          std::uint64_t seed) {
   BenchTable table{"crowd",
                    "Questions to a crowd with a second of memory",

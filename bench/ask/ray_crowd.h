@@ -9,7 +9,7 @@
 
 namespace foretouch::tools {
 
-[[nodiscard]] BenchTable rayCrowdTable(const WorldCast& cast, const std::vector<int>& avatars,
+[[nodiscard]] BenchTable rayCrowdTable(const Cast& cast, const std::vector<int>& avatars,
                                        int questions, std::uint64_t seed);
 
 }  // namespace foretouch::tools

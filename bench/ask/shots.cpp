@@ -229,8 +229,8 @@ TickRows shootAll(const std::vector<ClipPoses>& clips, int hz, int shots, std::u
 
 }  // namespace
 
-ShotsTable shotsTable(const WorldCast& cast, int shots, std::uint64_t seed) {
-  ShotsTable result;
+JudgedTable shotsTable(const Cast& cast, int shots, std::uint64_t seed) {
+  JudgedTable result;
   result.table = {"shots",
                   "Shots at a person who is seen late, by where a server takes him to be",
                   {{"ticks_hz", "ticks per second", 0},

@@ -12,11 +12,8 @@ namespace foretouch::tools {
 /// Of the poses that are captured.
 inline constexpr double kShotRateHz = 120.0;
 
-struct ShotsTable {
-  BenchTable table;
-  std::uint64_t violations = 0;  ///< Verdicts or links of a world that are not the judge's.
-};
+/// A violation is a verdict or link of a world that is not the judge's.
 /// So many shots per row; a row per tick rate and latency.
-[[nodiscard]] ShotsTable shotsTable(const WorldCast& cast, int shots, std::uint64_t seed);
+[[nodiscard]] JudgedTable shotsTable(const Cast& cast, int shots, std::uint64_t seed);
 
 }  // namespace foretouch::tools

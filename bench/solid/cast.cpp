@@ -73,7 +73,7 @@ std::vector<std::string> clipPaths(const std::string& folder,
 
 Result<Cast> loadCast(const std::string& dataFolder, std::vector<std::string> scenes,
                       const std::vector<std::string>& clips) {
-  Cast cast;
+  FORETOUCH_TRY(auto cast, loadActors(dataFolder, clips));
   if (scenes.empty()) scenes = {"kitchen", "office", "room"};
   for (const std::string& name : scenes) {
     bool isUpZ = false;
@@ -85,6 +85,11 @@ Result<Cast> loadCast(const std::string& dataFolder, std::vector<std::string> sc
     FORETOUCH_TRY(auto stage, loadStage(name, path, isUpZ));
     cast.stages.push_back(std::move(stage));
   }
+  return cast;
+}
+
+Result<Cast> loadActors(const std::string& dataFolder, const std::vector<std::string>& clips) {
+  Cast cast;
   for (const std::string& path : clipPaths(dataFolder + "/mocap", clips)) {
     auto actor = loadActor(path);
     if (!isThere(path) || (!actor.ok() && actor.error().code == ErrorCode::Empty)) {

@@ -9,6 +9,7 @@
 
 namespace foretouch::tools {
 
+/// Without scenes for a world, which brings its own.
 struct Cast {
   std::vector<SolidActor> actors;
   std::vector<SolidStage> stages;
@@ -20,6 +21,10 @@ struct Cast {
 /// there are none. Without any clip, the bundled dancer.
 [[nodiscard]] Result<Cast> loadCast(const std::string& dataFolder, std::vector<std::string> scenes,
                                     const std::vector<std::string>& clips);
+
+/// The same clips alone.
+[[nodiscard]] Result<Cast> loadActors(const std::string& dataFolder,
+                                      const std::vector<std::string>& clips);
 
 /// With commas.
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);

@@ -59,8 +59,8 @@ double largestDifference(const std::vector<Pose>& one, const std::vector<Pose>& 
 
 }  // namespace
 
-Result<TrialTable> boardTable(const TrialRequest& request) {
-  TrialTable result;
+Result<JudgedTable> boardTable(const TrialRequest& request) {
+  JudgedTable result;
   result.table = {"board",
                   "Hands led through a board of 4 mm: trials that end behind it",
                   {{"speed_mps", "m/s", 0},
@@ -95,8 +95,8 @@ Result<TrialTable> boardTable(const TrialRequest& request) {
   return result;
 }
 
-Result<TrialTable> clutterTable(const TrialRequest& request) {
-  TrialTable result;
+Result<JudgedTable> clutterTable(const TrialRequest& request) {
+  JudgedTable result;
   result.table = {"clutter",
                   "An arm among shelves: free places reached within a second",
                   {{"follower", "shown by"},
@@ -133,8 +133,8 @@ Result<TrialTable> clutterTable(const TrialRequest& request) {
   return result;
 }
 
-Result<TrialTable> slideTable(const TrialRequest& request) {
-  TrialTable result;
+Result<JudgedTable> slideTable(const TrialRequest& request) {
+  JudgedTable result;
   result.table = {"slide",
                   "A hand led along a wall, 10 cm inside: its speed along the wall, shown by "
                   "tracked, per tick",
@@ -163,9 +163,9 @@ Result<TrialTable> slideTable(const TrialRequest& request) {
   return result;
 }
 
-Result<TrialTable> pressTable(const TrialRequest& request) {
+Result<JudgedTable> pressTable(const TrialRequest& request) {
   FORETOUCH_TRY(const auto tally, tryPress(request.options));
-  TrialTable result;
+  JudgedTable result;
   result.table = {
       "press",
       "A hand pressed 10 cm into a wall and back, 1 mm per tick",

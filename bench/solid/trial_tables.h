@@ -18,15 +18,10 @@ struct TrialRequest {
   std::uint64_t seed = 1;
 };
 
-/// A table, and how often the judge found a promise broken.
-struct TrialTable {
-  BenchTable table;
-  std::uint64_t violations = 0;
-};
-[[nodiscard]] Result<TrialTable> boardTable(const TrialRequest& request);
-[[nodiscard]] Result<TrialTable> clutterTable(const TrialRequest& request);
-[[nodiscard]] Result<TrialTable> slideTable(const TrialRequest& request);
-[[nodiscard]] Result<TrialTable> pressTable(const TrialRequest& request);
+[[nodiscard]] Result<JudgedTable> boardTable(const TrialRequest& request);
+[[nodiscard]] Result<JudgedTable> clutterTable(const TrialRequest& request);
+[[nodiscard]] Result<JudgedTable> slideTable(const TrialRequest& request);
+[[nodiscard]] Result<JudgedTable> pressTable(const TrialRequest& request);
 
 /// In one scene at one rate; tables of several of them have the same columns.
 struct SceneRow {

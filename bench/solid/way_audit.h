@@ -39,8 +39,6 @@ class WayAudit {
   void begin(std::string name);
   void look(const SolidTick& tick);
   [[nodiscard]] const WayTally& tally() const { return tally_; }
-  /// Of the last tick's way (m); infinite beyond kLooksFarM, or where it did not move.
-  [[nodiscard]] double leastOfTick() const { return leastOfTick_; }
 
   /// The judge sees no farther (m).
   static constexpr double kLooksFarM = 0.02;
@@ -58,7 +56,7 @@ class WayAudit {
   std::string name_;
   std::uint64_t tickOfRun_ = 0;
   oracle::PlainPose shown_;
-  double leastOfTick_ = 0.0;
+  double leastOfTick_ = 0.0;  // of its way (m); infinite beyond kLooksFarM
 };
 
 }  // namespace foretouch::tools

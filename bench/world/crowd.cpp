@@ -140,7 +140,7 @@ Scene squareOf(double side) {
 
 }  // namespace
 
-BenchTable crowdTable(const WorldCast& cast, const std::vector<int>& counts) {
+BenchTable crowdTable(const Cast& cast, const std::vector<int>& counts) {
   BenchTable table{"crowd",
                    "Crowds at 30 Hz, one person per 2.25 m2, own links and each other; per window, "
                    "one thread",
@@ -176,7 +176,7 @@ BenchTable crowdTable(const WorldCast& cast, const std::vector<int>& counts) {
   return table;
 }
 
-BenchTable clocksTable(const WorldCast& cast) {
+BenchTable clocksTable(const Cast& cast) {
   BenchTable table{"clocks",
                    "The same crowd by one clock, and by clocks of their own; per window of 33 ms",
                    {{"avatars", "avatars", 0},
@@ -203,7 +203,7 @@ BenchTable clocksTable(const WorldCast& cast) {
   return table;
 }
 
-BenchTable platformTable(const WorldCast& cast) {
+BenchTable platformTable(const Cast& cast) {
   BenchTable table{"platform",
                    "Thirty people on a platform that turns 57 degrees per second and drives; per "
                    "window, beside one that stands still",
@@ -235,7 +235,7 @@ BenchTable platformTable(const WorldCast& cast) {
   return table;
 }
 
-BenchTable selfTable(const WorldCast& cast) {
+BenchTable selfTable(const Cast& cast) {
   BenchTable table{"self",
                    "One person alone, with and without own links; per window, mean of all clips",
                    {{"rate_hz", "Hz", 0},

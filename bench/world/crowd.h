@@ -13,13 +13,13 @@ namespace foretouch::tools {
 inline constexpr double kCrowdSpacing = 1.5;
 
 /// Crowds at 30 Hz that ask own links and each other.
-[[nodiscard]] BenchTable crowdTable(const WorldCast& cast, const std::vector<int>& counts);
+[[nodiscard]] BenchTable crowdTable(const Cast& cast, const std::vector<int>& counts);
 /// The same crowd by one clock, and by a clock of everybody's own.
-[[nodiscard]] BenchTable clocksTable(const WorldCast& cast);
+[[nodiscard]] BenchTable clocksTable(const Cast& cast);
 /// People on a platform: it stands still; it moves and carries them, who are told in its frame; it
 /// moves and they are told in the world.
-[[nodiscard]] BenchTable platformTable(const WorldCast& cast);
+[[nodiscard]] BenchTable platformTable(const Cast& cast);
 /// One person alone, with and without own links.
-[[nodiscard]] BenchTable selfTable(const WorldCast& cast);
+[[nodiscard]] BenchTable selfTable(const Cast& cast);
 
 }  // namespace foretouch::tools

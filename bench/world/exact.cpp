@@ -21,7 +21,7 @@ struct Mannequin {
 };
 
 /// One per actor: his body with fewer links, and skins of its LSS.
-std::vector<Mannequin> mannequinsOf(const WorldCast& cast) {
+std::vector<Mannequin> mannequinsOf(const Cast& cast) {
   std::vector<Mannequin> mannequins;
   for (const SolidActor& actor : cast.actors) {
     SolidActor own = actor;
@@ -35,7 +35,7 @@ std::vector<Mannequin> mannequinsOf(const WorldCast& cast) {
 }
 
 /// The poses of the actors that the mannequins are made of.
-std::vector<ClipPoses> posesOf(const WorldCast& cast, const std::vector<Mannequin>& mannequins,
+std::vector<ClipPoses> posesOf(const Cast& cast, const std::vector<Mannequin>& mannequins,
                                double rateHz) {
   std::vector<ClipPoses> all = clipPosesOf(cast, rateHz);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -80,7 +80,7 @@ WindowFigures figuresOf(const std::vector<Mannequin>& mannequins,
 
 }  // namespace
 
-BenchTable exactTable(const WorldCast& cast) {
+BenchTable exactTable(const Cast& cast) {
   BenchTable table{"exact",
                    "Two mannequins of 15 links and 20,000 triangles each, triangles against "
                    "triangles; per window, beside both alone",

@@ -8,6 +8,6 @@ namespace foretouch::tools {
 
 /// Two mannequins of 15 links and about 20,000 triangles each, triangles against triangles: near
 /// and far, beside both alone, and their own links.
-[[nodiscard]] BenchTable exactTable(const WorldCast& cast);
+[[nodiscard]] BenchTable exactTable(const Cast& cast);
 
 }  // namespace foretouch::tools

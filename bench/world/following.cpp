@@ -277,8 +277,8 @@ CrowdCost followedCrowd(const std::vector<Person>& people, int windows) {
 
 }  // namespace
 
-EventsTable eventsTable(const WorldCast& cast, int windows) {
-  EventsTable result;
+JudgedTable eventsTable(const Cast& cast, int windows) {
+  JudgedTable result;
   result.table = {"events",
                   "Two people, tracked 30 and 90 times per second: touches of their links, from "
                   "enter to leave, by the judge and as told",
@@ -309,7 +309,7 @@ EventsTable eventsTable(const WorldCast& cast, int windows) {
   return result;
 }
 
-BenchTable followingTable(const WorldCast& cast) {
+BenchTable followingTable(const Cast& cast) {
   BenchTable table{"following",
                    "Ten people at 30 Hz for two seconds, 1 m apart and 4 m apart: to follow them "
                    "beside asking for their first contacts",

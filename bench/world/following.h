@@ -10,15 +10,11 @@
 
 namespace foretouch::tools {
 
-struct EventsTable {
-  BenchTable table;
-  std::uint64_t violations = 0;  ///< Of the world's promise.
-};
 /// Enters and leaves of meetings (meeting.h) of 0.8 s, as many as fill `windows` of 0.2 s.
-[[nodiscard]] EventsTable eventsTable(const WorldCast& cast, int windows);
+[[nodiscard]] JudgedTable eventsTable(const Cast& cast, int windows);
 
 /// Crowds that touch, and crowds in which nobody does: what following costs beside asking for first
 /// contacts, and how many distances it takes for each interval of contact.
-[[nodiscard]] BenchTable followingTable(const WorldCast& cast);
+[[nodiscard]] BenchTable followingTable(const Cast& cast);
 
 }  // namespace foretouch::tools

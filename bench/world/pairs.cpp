@@ -107,8 +107,8 @@ double threadClockUs() {
 
 }  // namespace
 
-PairsTable pairsTable(PairKind kind, int pairs, std::uint64_t seed) {
-  PairsTable result;
+JudgedTable pairsTable(PairKind kind, int pairs, std::uint64_t seed) {
+  JudgedTable result;
   const bool isRing = kind == PairKind::RingAndCapsule;
   result.table = {isRing ? "ring_pairs" : "pairs",
                   isRing ? "A ring of 384 triangles and a capsule that both move and turn, alone"

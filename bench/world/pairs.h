@@ -8,11 +8,8 @@
 
 namespace foretouch::tools {
 
-struct PairsTable {
-  BenchTable table;
-  std::uint64_t violations = 0;  ///< Contacts that a world missed or told too late.
-};
+/// A violation is a contact that a world missed or told too late.
 /// Beside FCL and Bullet where they are built in.
-[[nodiscard]] PairsTable pairsTable(PairKind kind, int pairs, std::uint64_t seed);
+[[nodiscard]] JudgedTable pairsTable(PairKind kind, int pairs, std::uint64_t seed);
 
 }  // namespace foretouch::tools

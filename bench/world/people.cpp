@@ -1,36 +1,22 @@
 #include "bench/world/people.h"
 
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 
-#include "articulated/try.h"
 #include "lss/index.h"
-#include "tools/inputs/example_folder.h"
 
 namespace foretouch::tools {
 namespace {
 
-constexpr const char* kCrowdClips[] = {"bandai1_kick_normal_001.bvh",
-                                       "bandai1_punch_normal_001.bvh",
-                                       "bandai1_dance-short_normal_001.bvh",
-                                       "cmu_01_01_playground_jumps.bvh",
-                                       "fair_dab.bvh",
-                                       "cmu_jumping_jacks.bvh"};
 constexpr double kMostSeconds = 8.0;
 /// So that neighbours neither face the same way nor move together.
 constexpr double kGoldenTurnDeg = 137.508;
 constexpr std::size_t kPhaseStep = 37;
 
-bool isFile(const std::string& path) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(path, ignored);
-}
-
 }  // namespace
 
-std::string namesOf(const WorldCast& cast) {
+std::string namesOf(const Cast& cast) {
   std::string names;
   for (const SolidActor& actor : cast.actors) {
     names += fmt::format("{}{} ({} links)", names.empty() ? "" : ", ", actor.name,
@@ -39,28 +25,7 @@ std::string namesOf(const WorldCast& cast) {
   return names;
 }
 
-Result<WorldCast> loadWorldCast(const std::string& dataFolder,
-                                const std::vector<std::string>& clips) {
-  WorldCast cast;
-  std::vector<std::string> names = clips;
-  if (names.empty()) names.assign(std::begin(kCrowdClips), std::end(kCrowdClips));
-  for (const std::string& name : names) {
-    const std::string path = isFile(name) ? name : dataFolder + "/mocap/" + name;
-    if (!isFile(path)) {
-      cast.leftOut.push_back(name);
-      continue;
-    }
-    FORETOUCH_TRY(auto actor, loadActor(path));
-    cast.actors.push_back(std::move(actor));
-  }
-  if (!cast.actors.empty()) return cast;
-  FORETOUCH_TRY(const auto folder, exampleFolder());
-  FORETOUCH_TRY(auto actor, loadActor(folder + "/dancer.bvh"));
-  cast.actors.push_back(std::move(actor));
-  return cast;
-}
-
-std::vector<ClipPoses> clipPosesOf(const WorldCast& cast, double rateHz) {
+std::vector<ClipPoses> clipPosesOf(const Cast& cast, double rateHz) {
   std::vector<ClipPoses> all;
   for (const SolidActor& actor : cast.actors) {
     ClipPoses clip{&actor, std::llround(1e6 / rateHz),

@@ -6,21 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "bench/solid/stage.h"
+#include "bench/solid/cast.h"
 
 namespace foretouch::tools {
 
-struct WorldCast {
-  std::vector<SolidActor> actors;
-  std::vector<std::string> leftOut;  ///< Clips that are not there.
-};
-/// Clips by name in mocap/ of the folder, or by path; without any, those that a world is measured
-/// with; if none of them is there, the bundled dancer. Errors name the file.
-[[nodiscard]] Result<WorldCast> loadWorldCast(const std::string& dataFolder,
-                                              const std::vector<std::string>& clips);
-
 /// "walk (22 links), jump (22 links)".
-[[nodiscard]] std::string namesOf(const WorldCast& cast);
+[[nodiscard]] std::string namesOf(const Cast& cast);
 
 /// A clip's poses at a rate, about the origin; shared by all people who go through it.
 struct ClipPoses {
@@ -29,7 +20,7 @@ struct ClipPoses {
   std::vector<Pose> poses;
 };
 /// One per actor whose clip is long enough.
-[[nodiscard]] std::vector<ClipPoses> clipPosesOf(const WorldCast& cast, double rateHz);
+[[nodiscard]] std::vector<ClipPoses> clipPosesOf(const Cast& cast, double rateHz);
 
 struct Person {
   const ClipPoses* clip = nullptr;

@@ -146,7 +146,7 @@ void hold(int, Stretch& stretch) {
 
 }  // namespace
 
-BenchTable propTable(const WorldCast& cast) {
+BenchTable propTable(const Cast& cast) {
   BenchTable table{"prop",
                    "A person and a ring of 10,000 triangles; per window, beside the person alone",
                    {{"prop", "prop"},

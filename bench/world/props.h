@@ -7,6 +7,6 @@
 namespace foretouch::tools {
 
 /// A ring: far off, thrown and spinning through the body, and held in a hand.
-[[nodiscard]] BenchTable propTable(const WorldCast& cast);
+[[nodiscard]] BenchTable propTable(const Cast& cast);
 
 }  // namespace foretouch::tools

@@ -101,8 +101,8 @@ struct TickingTally {
 
 }  // namespace
 
-TickingTable tickingTable(const WorldCast& cast, int windows) {
-  TickingTable result;
+JudgedTable tickingTable(const Cast& cast, int windows) {
+  JudgedTable result;
   result.table = {"ticking",
                   "Two people, tracked 30 and 90 times per second: links that first touch within a "
                   "window of 0.2 s, by the judge and as seen",

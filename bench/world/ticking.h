@@ -10,11 +10,7 @@
 
 namespace foretouch::tools {
 
-struct TickingTable {
-  BenchTable table;
-  std::uint64_t violations = 0;  ///< Of the world's promise.
-};
 /// `windows` of 0.2 s. A sample is there for the game as soon as it is taken.
-[[nodiscard]] TickingTable tickingTable(const WorldCast& cast, int windows);
+[[nodiscard]] JudgedTable tickingTable(const Cast& cast, int windows);
 
 }  // namespace foretouch::tools

@@ -27,7 +27,7 @@ Foretouch {version} for Windows on x86-64: the C library.
 
 bin/foretouch.dll needs nothing but Windows. Link lib/libforetouch.dll.a with MinGW; for Microsoft's
 linker make an import library first: lib /def:lib\\foretouch.def /machine:x64 /out:foretouch.lib
-include/foretouch has the headers, share/foretouch/c-example programs, Foretouch.cs and ForetouchWorld.cs for C#.
+include/foretouch has the headers, share/foretouch/c-example programs, share/foretouch/dotnet the binding for C#.
 There is no importer: scenes come as arrays, avatars and clips as avatar files and BVH.
 """
 CONTROL = """\

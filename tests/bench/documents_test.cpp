@@ -53,13 +53,5 @@ TEST(MovedTable, SaysByHowMuch) {
   EXPECT_EQ(std::get<double>(movedTable(before, before).rows[1][3]), 0.0);
 }
 
-TEST(PerformanceDocument, HasASectionAReport) {
-  const std::string text = performanceDocument({latency(1.0), latency(2.0)});
-  const std::size_t first = text.find("## Latency");
-  ASSERT_NE(first, std::string::npos);
-  EXPECT_NE(text.find("## Latency", first + 1), std::string::npos);
-  EXPECT_EQ(text.rfind("# Performance\n", 0), 0u);
-}
-
 }  // namespace
 }  // namespace foretouch::tools

@@ -46,8 +46,6 @@ TEST_F(TradeProgram, WritesEverythingItMeasured) {
                                 at("trade.json"),
                                 "--csv",
                                 at("trade.csv"),
-                                "--html",
-                                at("trade.html"),
                                 "--markdown",
                                 at("trade.md"),
                                 "--surface-triangles",
@@ -57,7 +55,6 @@ TEST_F(TradeProgram, WritesEverythingItMeasured) {
   EXPECT_NE(ended.out.find("0 answers differed"), std::string::npos);
   const auto json = nlohmann::json::parse(contentOf(at("trade.json")));
   EXPECT_EQ(json["kind"], "trade");
-  EXPECT_EQ(contentOf(at("trade.html")).rfind("<!DOCTYPE html>", 0), 0u);
   EXPECT_NE(contentOf(at("trade.md")).find("| poses only |"), std::string::npos);
   const std::string csv = contentOf(at("trade.csv"));
   EXPECT_NE(csv.find("there.bvh,plain advancement"), std::string::npos);
@@ -111,7 +108,7 @@ TEST_F(TradeProgram, RefusesNonsense) {
            {"--scales", "1,2,3"},
            {"--clips", at("there.bvh") + ","},
            {"--rate", "x"},
-           {"--html", at("there.bvh"), "--clips", at("there.bvh")}}) {
+           {"--markdown", at("there.bvh"), "--clips", at("there.bvh")}}) {
     std::vector<std::string> arguments = {"trade", "--quick"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Ended ended = runBench(arguments);

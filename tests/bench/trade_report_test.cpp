@@ -1,16 +1,11 @@
-// tests/bench/trade_report_test.cpp: the frontier, the scores, the page and the
-// recommendation.
-#include <cmath>
+// tests/bench/trade_report_test.cpp: the frontier, the scores and the recommendation.
 #include <limits>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "bench/trade.h"
 #include "bench/trade/dominance.h"
-#include "bench/trade/plot.h"
-#include "bench/trade/trade_page.h"
 #include "bench/trade/trade_tables.h"
 #include "bench/tune.h"
 #include "tests/tools/small_inputs.h"
@@ -92,76 +87,6 @@ TEST(TradeTables, TellTheLeadAndAddUp) {
   EXPECT_EQ(std::get<std::int64_t>(tables[1].rows[2][4]), 4);  // missed, both clips
   ASSERT_EQ(tables[2].rows.size(), 1u);
   EXPECT_EQ(std::get<std::string>(tables[2].rows[0][1]), "4 of 8");
-}
-
-/// Every tag is closed, in order; what closes itself or needs no end is passed over.
-void expectWellFormed(const std::string& html) {
-  std::vector<std::string> open;
-  for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
-    const std::size_t end = html.find('>', at);
-    ASSERT_NE(end, std::string::npos);
-    const bool closes = html[at + 1] == '/';
-    const std::size_t first = at + (closes ? 2 : 1);
-    const std::string name = html.substr(first, html.find_first_of(" >\n/", first) - first);
-    if (name == "!DOCTYPE" || name == "meta" || html[end - 1] == '/') continue;
-    if (!closes) {
-      open.push_back(name);
-      continue;
-    }
-    ASSERT_FALSE(open.empty()) << name;
-    EXPECT_EQ(open.back(), name) << html.substr(at, 80);
-    open.pop_back();
-  }
-  EXPECT_TRUE(open.empty());
-}
-
-TEST(TradePage, IsWellFormedAndNeedsNoNetwork) {
-  MeasuredTrade bench;
-  bench.baseTolerance = 1e-3;
-  bench.baseRateHz = 5.0;
-  bench.rows = {row("poses only", 1.0, 1e-2, 2), row("plain advancement", 50.0, 9e-4, 0),
-                row("Foretouch", 2.0, 5e-4, 0)};
-  bench.rows.push_back(row("Foretouch", 3.0, 0.0, 0));
-  bench.rows.back().tolerance = 1e-6;
-  bench.rows.push_back(row("Foretouch, exact", 5.0, std::nan(""), 0));
-  markFrontier(bench.rows);
-  bench.report.tables = {tradeTable(bench.rows, "rows", "<all> & \"more\"")};
-  bench.report.notes = {"a < b"};
-  const std::string page = tradePage(bench);
-  expectWellFormed(page);
-  EXPECT_EQ(page.find("http"), std::string::npos);
-  EXPECT_EQ(page.find("<script"), std::string::npos);
-  EXPECT_EQ(page.find("<1>"), std::string::npos);
-  EXPECT_EQ(page.find("nan"), std::string::npos);
-  EXPECT_NE(page.find("misses 2 of 4 contacts; what promises to miss none misses none"),
-            std::string::npos);
-  EXPECT_NE(page.find("Foretouch is the quickest: 2.0 microseconds"), std::string::npos);
-}
-
-TEST(TradePage, SaysWhereAPromiseWasBroken) {
-  MeasuredTrade bench;
-  bench.baseTolerance = 1e-3;
-  bench.baseRateHz = 5.0;
-  bench.rows = {row("poses only", 1.0, 1e-2, 2), row("Foretouch", 2.0, 5e-4, 3)};
-  bench.rows[1].promise = TradePromise::Accurate;
-  markFrontier(bench.rows);
-  const std::string page = tradePage(bench);
-  expectWellFormed(page);
-  EXPECT_NE(page.find("3 promises were broken"), std::string::npos);
-  EXPECT_NE(page.find("Nothing measured is within 1 mm and misses nothing"), std::string::npos);
-}
-
-TEST(Plots, EmptyAndSingleValuesAreDrawn) {
-  Plot plot;
-  plot.title = "nothing";
-  expectWellFormed(plotFigure(plot));
-  plot.lines.push_back(
-      {"one", "#000", false, false, {{5.0, 0.0, false, ""}, {3.0, 3.0, true, ""}}, false});
-  expectWellFormed(plotFigure(plot));
-  plot.y.isLog = false;
-  const std::string figure = plotFigure(plot);
-  expectWellFormed(figure);
-  EXPECT_EQ(figure.find("inf"), std::string::npos);
 }
 
 TunedSetting setting(Fidelity fidelity, double tolerance, double p99, std::int64_t falseOnes) {

@@ -33,7 +33,7 @@ TEST(BenchWorld, PairsBothMoveAndHalfOfThemMeet) {
 TEST(BenchWorld, AWorldMissesNoPairAndTellsNoneTooLate) {
   for (const auto& [kind, count] :
        {std::pair{tools::PairKind::Capsules, 60}, std::pair{tools::PairKind::RingAndCapsule, 10}}) {
-    const tools::PairsTable pairs = tools::pairsTable(kind, count, 7);
+    const tools::JudgedTable pairs = tools::pairsTable(kind, count, 7);
     EXPECT_EQ(pairs.violations, 0u);
     ASSERT_FALSE(pairs.table.rows.empty());
     EXPECT_EQ(std::get<std::int64_t>(pairs.table.rows[0][2]), count / 2);

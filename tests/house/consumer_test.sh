@@ -144,12 +144,11 @@ if [ -f "$prefix/include/foretouch/foretouch.h" ]; then
   printf 'v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n' >"$folder/scene.obj"
   "$folder/import-c" "$folder/scene.obj"
 
-  # C#, as Unity has it, where there is a compiler for it: the same question once more.
+  # C#, where there is a compiler for it: the same question once more.
   if command -v mcs >/dev/null && command -v mono >/dev/null && [ -z "${7:-}" ]; then
-    mcs -unsafe -define:FORETOUCH_TRY -out:"$folder/unity.exe" "$prefix/share/foretouch/c-example/Foretouch.cs"
-    mono "$folder/unity.exe" | cmp - <(head -n 1 "$folder/c.txt")
-    mcs -unsafe -define:FORETOUCH_TRY_WORLD -out:"$folder/world.exe" "$prefix"/share/foretouch/c-example/*.cs
-    mono "$folder/world.exe"
+    mcs -unsafe -langversion:latest -r:System.Core -out:"$folder/swing.exe" \
+      "$prefix/share/foretouch/c-example/swing.cs" "$prefix"/share/foretouch/dotnet/Runtime/{,Native/,Engine/}*.cs
+    mono "$folder/swing.exe" | cmp - <(head -n 1 "$folder/c.txt")
   else
     echo "left out: C#, which needs mcs and mono, and a library without sanitizers"
   fi

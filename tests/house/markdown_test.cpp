@@ -18,28 +18,17 @@ std::size_t wideIn(const std::string& text) {
   return wideLines(text, kColumns).size();
 }
 
-// `./run bench` writes this one whole, from the files in docs/measurements/.
-bool isWritten(const std::filesystem::path& document) {
-  return document.filename() == "performance.md" && document.parent_path().filename() == "docs";
-}
-
 TEST(Markdown, LinesHaveAtMostAHundredColumns) {
-  int documents = 0, written = 0;
+  int documents = 0;
   for (const auto& document : house::documentsBelow(FORETOUCH_SOURCE_DIR)) {
     ++documents;
     const std::string text = house::contentOf(document);
-    if (isWritten(document)) {
-      ++written;
-      EXPECT_NE(text.find("Made by `./run bench`"), std::string::npos);
-      continue;
-    }
     for (const WideLine& line : wideLines(text, kColumns)) {
       ADD_FAILURE() << document.string() << ":" << line.number << ": " << line.columns
                     << " columns; expected at most " << kColumns;
     }
   }
   EXPECT_GT(documents, 30);
-  EXPECT_EQ(written, 1);
 }
 
 TEST(Markdown, WideLinesAreFound) {

@@ -28,7 +28,7 @@ const std::map<std::string, std::string> kFormerNames = {{"--scale", "--clip-sca
                                                          {"--ups", "--clip-ups"}};
 
 bool isOfMeasurements(const std::string& document) {
-  return document == "performance.md" || document == "memory.md" || document == "trade.md";
+  return document == "memory.md" || document == "trade.md";
 }
 
 /// What a --help lists.
