@@ -49,7 +49,9 @@ Result<Model> readRobotModel(const ClipFileOptions& options) {
   import.import = options.import;
   import.import.up = UpAxis::Z;  // as `avatar urdf` reads it
   import.packagePaths = options.packagePaths;
-  return importModel(options.robot, import);
+  FORETOUCH_TRY(auto robot, importModel(options.robot, import));
+  robot.frame.declared = {1.0, UpAxis::Z, true};  // URDF and MJCF know no other
+  return robot;
 }
 
 ClipFormat clipFormatOf(const std::string& path) {

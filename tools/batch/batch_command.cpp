@@ -100,9 +100,8 @@ Settings batchSettings(AskedBatch& asked) {
       .files("batch")
       .required("a manifest");
   settings
-      .path("-o,--output", "DIR", asked.results,
-            "The folder of results, shared by all workers; it is made if need be")
-      .in(kOutputGroup)
+      .outputFolder("-o,--output", asked.results,
+                    "The folder of results, shared by all workers; it is made if need be")
       .required();
   addRunSettings(settings, asked);
   addMergeSettings(settings, asked);

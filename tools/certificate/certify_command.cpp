@@ -56,9 +56,9 @@ Settings certifySettings(AskedCertificate& asked) {
               "Largest separation (m) of a contact: links that come nearer have no proof")
       .in(kTouchGroup);
   settings
-      .path("-o,--output", "DIR", asked.folder,
-            "The folder for scene.obj, avatar.json, steps.txt (or edges.txt) and certificate.txt")
-      .in(kOutputGroup)
+      .outputFolder("-o,--output", asked.folder,
+                    "The folder for scene.obj, avatar.json, steps.txt (or edges.txt) and "
+                    "certificate.txt")
       .required();
   settings.asJson(asked.asJson);
   addFilesSetting(settings, asked.files);

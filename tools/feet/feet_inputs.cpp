@@ -27,6 +27,11 @@ using Eigen::Vector3d;
 constexpr double kLookFrom = 0.25;
 /// A body farther than this above everything (m) stands on nothing.
 constexpr double kLookDown = 3.0;
+/// Where a body is below a board, the floor is at most so far below its foot (m): no storey is as
+/// low, so that who lies below a thin floor is not taken to be in the room underneath.
+constexpr double kRoomBelow = 1.2;
+/// Below a surface, the next one is looked for from here on (m): beyond the cast's tolerance.
+constexpr double kNextSurface = 0.003;
 /// A plain floor goes on this far beyond the body (m).
 constexpr double kFloorMargin = 20.0;
 
@@ -144,6 +149,36 @@ Result<Done> fitGround(FeetInputs& inputs) {
   return Done{};
 }
 
+/// The first surface from a point straight down to another one, if it is no wall.
+std::optional<GroundSurface> surfaceFrom(const Level& level, const Vector3d& from,
+                                         const Vector3d& to) {
+  if (to.y() >= from.y()) return std::nullopt;
+  const auto hit = level.cast(from, to);
+  if (!hit) return std::nullopt;
+  const Triangle& triangle = level.scene().triangle(hit->triangle);
+  const Vector3d front = level.normal(hit->triangle);
+  const Vector3d normal = front.y() < 0.0 ? Vector3d(-front) : front;
+  if (normal.y() < kWalkableUp) return std::nullopt;
+  // The cast ends within its tolerance: the triangle's plane says where it is.
+  const double down = normal.dot(from - triangle.vertices[0]) / normal.y();
+  return GroundSurface{from - Vector3d(0, down, 0), normal};
+}
+
+/// Where the bones from the body to this point of a foot go through the scene.
+std::vector<Vector3d> crossedBy(const FeetInputs& inputs, const RestingLimb& limb,
+                                const std::vector<LinkState>& states, const Vector3d& p_W) {
+  std::vector<Vector3d> crossed;
+  Vector3d to = p_W;
+  for (JointId joint = limb.ankle; joint != kNoParent;
+       joint = inputs.body.avatar.skeleton().parent(joint)) {
+    const Vector3d from = states[slotOf(joint)].p_WL, way = to - from;
+    const auto hit = way.isZero(kNextSurface) ? std::nullopt : inputs.level.cast(from, to);
+    if (hit) crossed.emplace_back(from + hit->distance * way.normalized());
+    to = from;
+  }
+  return crossed;
+}
+
 }  // namespace
 
 Result<Pose> FeetInputs::poseAt(std::int64_t step) const {
@@ -165,16 +200,24 @@ Result<Pose> FeetInputs::poseAt(std::int64_t step) const {
 
 std::optional<GroundSurface> FeetInputs::groundBelow(const Vector3d& p_W) const {
   if (isPlain) return GroundSurface{Vector3d(p_W.x(), 0.0, p_W.z()), Vector3d::UnitY()};
-  const Vector3d from = p_W + Vector3d(0, kLookFrom, 0), to = p_W - Vector3d(0, kLookDown, 0);
-  const auto hit = level.cast(from, to);
-  if (!hit) return std::nullopt;
-  const Triangle& triangle = level.scene().triangle(hit->triangle);
-  const Vector3d front = level.normal(hit->triangle);
-  const Vector3d normal = front.y() < 0.0 ? Vector3d(-front) : front;
-  if (normal.y() < kWalkableUp) return std::nullopt;
-  // The cast ends within its tolerance: the triangle's plane says where it is.
-  const double down = normal.dot(from - triangle.vertices[0]) / normal.y();
-  return GroundSurface{from - Vector3d(0, down, 0), normal};
+  return surfaceFrom(level, p_W + Vector3d(0, kLookFrom, 0), p_W - Vector3d(0, kLookDown, 0));
+}
+
+std::optional<GroundSurface> FeetInputs::groundOf(const RestingLimb& limb,
+                                                  const std::vector<LinkState>& states,
+                                                  const Vector3d& p_W) const {
+  const auto first = groundBelow(p_W);
+  if (isPlain || !first || first->heightOf(p_W) >= 0.0) return first;
+  const std::vector<Vector3d> crossed = crossedBy(*this, limb, states, p_W);
+  const Vector3d lowest = p_W - Vector3d(0, kRoomBelow, 0);
+  for (auto at = first; at;
+       at = surfaceFrom(level, at->p_W - Vector3d(0, kNextSurface, 0), lowest)) {
+    for (const Vector3d& p : crossed) {
+      if (std::abs(at->heightOf(p)) <= kSameSurface) return at;
+    }
+    if (crossed.empty() && at->heightOf(p_W) >= 0.0) return at;
+  }
+  return first;
 }
 
 Result<FeetInputs> loadFeetInputs(const FeetRequest& request) {

@@ -42,6 +42,9 @@ struct FeetRequest : ClipRequest, WorldRequest {
   }
 };
 
+/// What is this near to a plane (m) is on it.
+inline constexpr double kSameSurface = 0.01;
+
 /// A surface to stand on, flat around the point that asked.
 struct GroundSurface {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
@@ -74,6 +77,12 @@ struct FeetInputs {
   [[nodiscard]] Result<Pose> poseAt(std::int64_t step) const;
   /// What `p_W` stands on, or sank through by at most a quarter of a metre; nothing: a void.
   [[nodiscard]] std::optional<GroundSurface> groundBelow(const Eigen::Vector3d& p_W) const;
+  /// The same of a point of a foot. Who is below a table top or a board that none of its bones goes
+  /// through did not sink through it: the ground is the next surface below. `states`: of
+  /// body.avatar, or of the one that it is made of.
+  [[nodiscard]] std::optional<GroundSurface> groundOf(const RestingLimb& limb,
+                                                      const std::vector<LinkState>& states,
+                                                      const Eigen::Vector3d& p_W) const;
 };
 
 /// Errors name the file or the option; of GroundFrom::Fit also as fitFloor().

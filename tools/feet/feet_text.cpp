@@ -39,9 +39,12 @@ const char* saidBy(const FootStance& stance, bool isClips) {
   return stance.kind == StanceKind::Hovers ? "pose" : "proven";
 }
 
-/// How bad it is (m).
+/// How bad it is (m). What slides or sinks in comes before all that hovers: a heel that is carried
+/// low through a step hovers as well.
 double badness(const FootStance& stance) {
-  return std::max({stance.slide, stance.depth, stance.hover});
+  constexpr double kBeforeHovers = 1e3;
+  const double fault = std::max(stance.slide, stance.depth);
+  return fault >= kSlides ? kBeforeHovers + fault : std::max(fault, stance.hover);
 }
 
 /// Worst first; as they come where two are as bad.

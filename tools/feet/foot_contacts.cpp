@@ -30,13 +30,15 @@ class Collector {
     }
   }
 
-  void take(const WorldEvents& answer) {
-    for (const WorldEvent& event : answer.events) take(event);
+  Result<Done> take(const WorldEvents& answer) {
+    for (const WorldEvent& event : answer.events) FORETOUCH_CHECK(take(event));
+    return Done{};
   }
   PartContacts finish(double endS);
 
  private:
-  void take(const WorldEvent& event);
+  Result<Done> take(const WorldEvent& event);
+  [[nodiscard]] Result<bool> isOverhead(const WorldEvent& event) const;
   [[nodiscard]] PartContact begun(const WorldEvent& event) const;
   [[nodiscard]] double secondsOf(const WorldTime& time) const {
     return beginS_ + microsecondsAfter(0, time) / kUsPerS;
@@ -70,11 +72,31 @@ PartContact Collector::begun(const WorldEvent& event) const {
   return contact;
 }
 
-void Collector::take(const WorldEvent& event) {
+/// A foot that is below a board and touches it from there does not stand on it.
+Result<bool> Collector::isOverhead(const WorldEvent& event) const {
+  const RestingPart& part = inputs_.body.parts[partOfLink_[slotOf(event.a.link)]];
+  if (part.isHand() || event.nhat_BA_W.y() > -kWalkableUp) return false;
+  const double steps = (secondsOf(event.time) - beginS_) / inputs_.stepS();
+  FORETOUCH_TRY(const auto pose,
+                inputs_.poseAt(std::min(inputs_.steps(), static_cast<std::int64_t>(steps))));
+  std::vector<LinkState> states;
+  placeLinks(inputs_.body.avatar.skeleton(), pose, states);
+  const PartCorner& lowest = part.corners[lowestOf(part, states, Vector3d::UnitY()).corner];
+  const Vector3d p_W =
+      states[slotOf(lowest.link)].pointAt(lowest.center_L) - Vector3d(0, lowest.radius, 0);
+  const auto ground = inputs_.groundOf(inputs_.body.limbs[part.limb], states, p_W);
+  return ground && ground->heightOf(event.b.p_W) > kSameSurface;
+}
+
+Result<Done> Collector::take(const WorldEvent& event) {
   const auto key = std::make_pair(event.a.link, event.object);
   switch (event.kind) {
     case EventKind::Enter:
-    case EventKind::StartsInside: open_[key] = begun(event); break;
+    case EventKind::StartsInside: {
+      FORETOUCH_TRY(const bool isAbove, isOverhead(event));
+      if (!isAbove) open_[key] = begun(event);
+      break;
+    }
     case EventKind::Leave:
       if (const auto known = open_.find(key); known != open_.end()) {
         known->second.toS = secondsOf(event.time);
@@ -87,6 +109,7 @@ void Collector::take(const WorldEvent& event) {
       break;
     case EventKind::UnresolvedFrom: break;
   }
+  return Done{};
 }
 
 /// A foot that meets a wall does not stand on it.
@@ -156,7 +179,8 @@ Result<bool> UnderGround::isUnder(std::size_t part, std::int64_t step) {
   ChainMotion(inputs_.body.avatar.skeleton(), pose, pose).statesAt(0.0, states_);
   for (const PartCorner& corner : inputs_.body.parts[part].corners) {
     const Vector3d p_W = states_[slotOf(corner.link)].pointAt(corner.center_L);
-    const auto ground = inputs_.groundBelow(p_W);
+    const auto ground =
+        inputs_.groundOf(inputs_.body.limbs[inputs_.body.parts[part].limb], states_, p_W);
     if (!ground || ground->heightOf(p_W) + corner.radius >= 0.0) return false;
   }
   return true;
@@ -218,7 +242,7 @@ Result<PartContacts> partContactsOf(const FeetInputs& inputs) {
     FORETOUCH_CHECK(world.push(body, us, pose));
     if (step % kPosesPerStretch != 0 && step != inputs.steps()) continue;
     FORETOUCH_CHECK(follower.follow(world, us, answer));
-    collector.take(answer);
+    FORETOUCH_CHECK(collector.take(answer));
     if (step > 0) world.forgetBefore(us);
   }
   PartContacts found = collector.finish(inputs.timeOf(inputs.steps()));

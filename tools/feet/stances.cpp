@@ -143,7 +143,7 @@ std::optional<GroundSurface> Walk::surfaceBelow(const RestingPart& part,
   const PartCorner& lowest = part.corners[lowestOf(part, states_, Vector3d::UnitY()).corner];
   Vector3d p_W = states_[slotOf(lowest.link)].pointAt(lowest.center_L);
   p_W.y() -= lowest.radius;
-  return inputs_.groundBelow(p_W);
+  return inputs_.groundOf(inputs_.body.limbs[part.limb], states_, p_W);
 }
 
 std::vector<Lss> Walk::placed(const RestingPart& part) const {
@@ -207,7 +207,7 @@ void Walk::sampleField() {
   for (const RestingLimb& limb : inputs_.body.limbs) {
     if (limb.isHand) continue;
     Vector3d joint = states_[slotOf(limb.toe.value_or(limb.ankle))].p_WL;
-    const auto below = inputs_.groundBelow(joint);
+    const auto below = inputs_.groundOf(limb, states_, joint);
     joint.y() = below ? below->heightOf(joint) : std::numeric_limits<double>::infinity();
     field_.addFoot(foot++, joint);
   }

@@ -58,4 +58,14 @@ Result<FrameRange> framesOf(const ClipRequest& request, const Clip& clip, bool i
                                range.first / clip.framesPerRow, range.last / clip.framesPerRow));
 }
 
+std::optional<std::string> remarkOnTPose(const ClipRequest& request, const FrameRange& range,
+                                         const Clip& clip) {
+  if (!request.cut.skipsTPose) return std::nullopt;
+  const std::string what = request.motionPath + ": --skip-t-pose: ";
+  if (range.tPose == 0) return what + "it begins with none, so nothing is left out";
+  return what + fmt::format("left out a T-pose, the first {} ({:.4g} s)",
+                            range.tPose == 1 ? "frame" : fmt::format("{} frames", range.tPose),
+                            static_cast<double>(range.tPose) * clip.frameTimeS);
+}
+
 }  // namespace foretouch::tools

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "articulated/clip.h"
 #include "articulated/result.h"
@@ -24,5 +26,9 @@ struct FrameRange {
 /// T-pose.
 [[nodiscard]] Result<FrameRange> framesOf(const ClipRequest& request, const Clip& clip,
                                           bool isUpright);
+
+/// What became of the T-pose, if the request asks to leave it out.
+[[nodiscard]] std::optional<std::string> remarkOnTPose(const ClipRequest& request,
+                                                       const FrameRange& range, const Clip& clip);
 
 }  // namespace foretouch::tools

@@ -22,14 +22,7 @@ namespace {
 /// Of the part of the clip that the request cuts out.
 Result<StepSelection> stepsOf(const ClipRequest& request, const Clip& clip, bool isUpright) {
   FORETOUCH_TRY(const auto cut, framesOf(request, clip, isUpright));
-  if (cut.tPose > 0) {
-    printNote(fmt::format("{}: --skip-t-pose: left out a T-pose, the first {} ({:.4g} s)",
-                          request.motionPath,
-                          cut.tPose == 1 ? "frame" : fmt::format("{} frames", cut.tPose),
-                          static_cast<double>(cut.tPose) * clip.frameTimeS));
-  } else if (request.cut.skipsTPose) {
-    printNote(request.motionPath + ": --skip-t-pose: it begins with none, so nothing is left out");
-  }
+  if (const auto remark = remarkOnTPose(request, cut, clip)) printNote(*remark);
   FORETOUCH_TRY(auto steps,
                 inFile(selectSteps(cut.count(), clip.frameTimeS, request.rateHz, mostStride(clip)),
                        request.motionPath));

@@ -221,7 +221,8 @@ void Builder::addLift(std::size_t part, std::int32_t at, double height) {
   for (const PartCorner& corner : of.corners) {
     const LinkId link = stage_.linkOf(corner.link);
     const Vector3d p_W = states_[slotOf(link)].pointAt(corner.center_L);
-    const auto ground = inputs.groundBelow(p_W - Vector3d(0, corner.radius, 0));
+    const auto ground =
+        inputs.groundOf(inputs.body.limbs[of.limb], states_, p_W - Vector3d(0, corner.radius, 0));
     if (!ground) continue;
     addContact(owner, {link, p_W, ground->normal_W}, nullptr, ground->heightOf(p_W),
                corner.radius + height - stage_.request().gap);
@@ -242,7 +243,8 @@ void Builder::addKeep(std::size_t part, std::int32_t at, double most) {
   }
   const LinkId link = stage_.linkOf(lowest->link);
   const Vector3d p_W = states_[slotOf(link)].pointAt(lowest->center_L);
-  const auto ground = inputs.groundBelow(p_W - Vector3d(0, lowest->radius, 0));
+  const auto ground =
+      inputs.groundOf(inputs.body.limbs[of.limb], states_, p_W - Vector3d(0, lowest->radius, 0));
   if (!ground) return;
   Row row;
   levers_.add({link, p_W, ground->normal_W}, {states_, at, 1.0}, row.terms);

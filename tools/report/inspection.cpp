@@ -18,6 +18,7 @@
 #include "lss/assert.h"
 #include "tools/audit/audits.h"
 #include "tools/console.h"
+#include "tools/inputs/clip_cut.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/report/track_builder.h"
@@ -113,8 +114,10 @@ Result<WalkingBody> walkingBodyOf(const Inspected& inspected) {
   const PlayedClip& played = *inspected.played;
   Placement upright;
   upright.motionUpZ = inspected.request.placement.motionUpZ;
+  FORETOUCH_TRY(const auto frames, framesOf(inspected.request, played.clip, played.isUpright));
   return walkingBody({played.avatar, played.clip, played.match, upright, played.isUpright,
-                      inspected.request.motionPath});
+                      inspected.request.motionPath},
+                     frames);
 }
 
 /// Where the body stands, by the engine; where it stands wrong, also where it could.

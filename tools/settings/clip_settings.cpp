@@ -242,7 +242,11 @@ void addCutSettings(Settings& settings, ClipRequest& request) {
              "Where to begin in the clip: seconds, or a frame from 0 (300f)");
   addInstant(settings, "--to", "to", request.cut.to,
              "Where to end in the clip: seconds, or a frame from 0 (300f)");
-  settings
+  addSkipTPose(settings, request);
+}
+
+Setting& addSkipTPose(Settings& settings, ClipRequest& request) {
+  return settings
       .flag("--skip-t-pose", request.cut.skipsTPose,
             "Leave out the T-pose that the clip begins with")
       .in(kInputGroup)

@@ -72,5 +72,6 @@ void addClipSettings(Settings& settings, ClipRequest& request);
 [[nodiscard]] Result<ClipInstant> clipInstantFrom(const std::string& text);
 /// Which part of the clip: --from, --to, --skip-t-pose.
 void addCutSettings(Settings& settings, ClipRequest& request);
+Setting& addSkipTPose(Settings& settings, ClipRequest& request);
 
 }  // namespace foretouch::tools

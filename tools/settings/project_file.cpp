@@ -219,6 +219,12 @@ std::string tomlText(const std::string& text) {
   return out + "\"";
 }
 
+std::string tomlList(const std::vector<std::string>& texts) {
+  std::string out;
+  for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + tomlText(text);
+  return "[" + out + "]";
+}
+
 std::string frameLines(std::optional<double> scale, std::optional<UpAxis> up) {
   std::string text;
   if (scale) text += "scale = " + tidyNumber(*scale) + "  # metres per unit\n";
@@ -269,8 +275,10 @@ Result<std::string> projectText(const Project& project, const std::string& folde
   if (!project.avatar.empty()) FORETOUCH_CHECK(add("avatar", "[[avatar]]", project.avatar));
   FORETOUCH_CHECK(add("clip", "[clip]", project.clip));
   text += frameLines(project.clipScale, project.clipUp);
-  if (!project.animation.empty()) text += "animation = " + tomlText(project.animation) + "\n";
+  text += project.clipLines;
   if (!project.jointMap.empty()) text += "map = " + tomlText(project.jointMap) + "\n";
+  if (!project.robot.empty()) text += "robot = " + tomlText(project.robot) + "\n";
+  if (!project.packages.empty()) text += "packages = " + tomlList(project.packages) + "\n";
   text += "place = " + tomlText(project.place) + "  # X,Y,Z,YAW: metres, degrees\n";
   return text + "\n# The files as they were: commands say when one has changed since.\n[made]\n" +
          marks;

@@ -30,10 +30,12 @@ Setting& addProjectSetting(Settings& settings, std::string& path);
 
 /// What `foretouch setup` writes. Paths as the project's folder sees them; empty: no such file.
 struct Project {
-  std::string scene, avatar, clip, animation, jointMap;
+  std::string scene, avatar, clip, jointMap, robot;
+  std::vector<std::string> packages;            ///< Of the robot.
   std::optional<double> sceneScale, clipScale;  ///< Metres per unit; nothing: as the file says.
   std::optional<UpAxis> sceneUp, clipUp;        ///< The same.
   std::string place;                            ///< "X,Y,Z,YAW".
+  std::string clipLines;                        ///< More lines of [clip], as they stand there.
 };
 
 /// The text of a new project file beside these files. `folder`: its own, "" for the current one.

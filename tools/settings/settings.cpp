@@ -201,6 +201,18 @@ Setting& Settings::output(const char* option, const char* value, std::string& pl
   return setting.in(kOutputGroup);
 }
 
+Setting& Settings::outputFolder(const char* option, std::string& place, const char* help) {
+  Setting& setting = path(option, "DIR", place, help);
+  setting.take = [&place](const GivenValue& given) -> Result<Done> {
+    place = given.texts.front();
+    if (place != "-") return Done{};
+    return Error::of(ErrorCode::OutOfRange,
+                     "expected a folder for several files, found '-', which is standard output "
+                     "(./- names a folder of that name)");
+  };
+  return setting.in(kOutputGroup);
+}
+
 Setting& Settings::list(const char* option, const char* value, std::vector<std::string>& place,
                         const char* help) {
   Setting& setting = add(option, value, ValueKind::List, help);

@@ -94,6 +94,8 @@ class Settings {
   Setting& path(const char* option, const char* value, std::string& place, const char* help);
   /// A file to write; "-" is standard output.
   Setting& output(const char* option, const char* value, std::string& place, const char* help);
+  /// A folder to write files into: "-" is refused, as standard output holds one file.
+  Setting& outputFolder(const char* option, std::string& place, const char* help);
   Setting& list(const char* option, const char* value, std::vector<std::string>& place,
                 const char* help);
   /// A text with a rule of its own: `take` fills the place, `shown` returns its content.

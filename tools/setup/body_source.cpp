@@ -9,6 +9,7 @@
 #include "assets/bvh/bvh_reader.h"
 #include "assets/import/model_import.h"
 #include "assets/text_file.h"
+#include "tools/inputs/clip_cut.h"
 #include "tools/inputs/joint_map.h"
 #include "tools/inputs/motion_file.h"
 
@@ -27,9 +28,10 @@ bool isModelFile(const std::string& path) {
 }
 
 Result<Model> readModelOf(const std::string& path, const BodyRequest& request) {
+  if (path == request.robotPath) return readRobotModel(clipFileOptionsOf(motionRequestOf(request)));
   ModelImportOptions options;
-  options.import.scale = request.scale;
-  options.import.up = request.up;
+  options.import.scale = request.motionScale;
+  options.import.up = request.motionUp;
   return importModel(path, options);
 }
 
@@ -60,33 +62,23 @@ Result<Done> readModelBody(const std::string& path, const BodyRequest& request,
 
 /// A model that holds no animation has no clip, which is no error here.
 Result<Done> readClip(const BodyRequest& request, BodySource& source) {
-  if (clipFormatOf(request.motion) == ClipFormat::JointTable) {
-    return Error::in(request.motion, ErrorCode::Mismatch,
-                     "expected a clip or a model: a table of joint positions is about a robot, for "
-                     "which foretouch avatar urdf makes the avatar");
-  }
-  if (clipFormatOf(request.motion) != ClipFormat::Model && isModelFile(request.motion)) {
-    source.notes.push_back(request.motion +
+  if (clipFormatOf(request.motionPath) != ClipFormat::Model && isModelFile(request.motionPath)) {
+    source.notes.push_back(request.motionPath +
                            ": its format holds no animation that can be read, so "
                            "the body stands at rest");
     return Done{};
   }
-  MotionRequest motion;
-  motion.path = request.motion;
-  motion.scale = request.scale;
-  motion.up = request.up;
-  motion.animation = request.animation;
-  auto read = readMotion(motion);
+  auto read = readMotion(motionRequestOf(request));
   if (!read.ok()) {
     const bool isStill = read.error().code == ErrorCode::Empty && source.avatar;
     if (!isStill || !request.animation.empty()) return read.error();
-    source.notes.push_back(request.motion + ": holds no animation, so the body stands at rest");
+    source.notes.push_back(request.motionPath + ": holds no animation, so the body stands at rest");
     return Done{};
   }
   source.frame = read.value().frame;
   source.isUpright = read.value().isUpright;
   for (const std::string& note : read.value().clip.notes) {
-    source.notes.push_back(request.motion + ": " + note);
+    source.notes.push_back(request.motionPath + ": " + note);
   }
   source.clip = std::move(read.value().clip);
   return Done{};
@@ -107,41 +99,47 @@ Clip BodySource::clipOrRest() const {
   return still;
 }
 
+std::string bodyFileOf(const BodyRequest& request) {
+  if (!request.avatarPath.empty()) return request.avatarPath;
+  return request.robotPath.empty() ? request.motionPath : request.robotPath;
+}
+
 bool makesAvatar(const BodyRequest& request) {
-  return !isAvatarFile(request.avatar);
+  return !isAvatarFile(request.avatarPath);
 }
 
 Result<BodySource> readBody(const BodyRequest& request, const std::string& meshFile) {
   BodySource source;
-  if (isAvatarFile(request.avatar)) {
-    FORETOUCH_TRY(source.avatar, readAvatarFile(request.avatar));
+  if (isAvatarFile(request.avatarPath)) {
+    FORETOUCH_TRY(source.avatar, readAvatarFile(request.avatarPath));
   } else {
-    const std::string& body = request.avatar.empty() ? request.motion : request.avatar;
-    if (isModelFile(body)) {
-      FORETOUCH_CHECK(readModelBody(body, request, meshFile, source));
-    }
+    const std::string body = bodyFileOf(request);
+    if (isModelFile(body)) FORETOUCH_CHECK(readModelBody(body, request, meshFile, source));
   }
-  if (!request.motion.empty()) FORETOUCH_CHECK(readClip(request, source));
+  if (!request.motionPath.empty()) FORETOUCH_CHECK(readClip(request, source));
   if (!source.avatar) {
     if (!source.clip) {
-      return Error::in(request.avatar, ErrorCode::Empty,
+      return Error::in(request.avatarPath, ErrorCode::Empty,
                        "expected a model with triangles, or an avatar file (.json)");
     }
-    FORETOUCH_TRY(source.avatar, inFile(avatarFromClip(*source.clip), request.motion));
+    FORETOUCH_TRY(source.avatar, inFile(avatarFromClip(*source.clip), request.motionPath));
   }
   return source;
 }
 
-Result<WalkingBody> walkingBody(const BodySource& source, const BodyRequest& request) {
+Result<WalkingBody> walkingBody(BodySource& source, const BodyRequest& request) {
   Clip clip = source.clipOrRest();
   const Avatar& avatar = *source.avatar;
-  const std::string& path = request.motion.empty() ? request.avatar : request.motion;
-  FORETOUCH_CHECK(followByParts(avatar.skeleton(), request.map, path, clip));
+  const std::string& path = request.motionPath.empty() ? request.avatarPath : request.motionPath;
+  FORETOUCH_CHECK(followByParts(avatar.skeleton(), request.mapPath, path, clip));
   FORETOUCH_TRY(const auto match,
-                matchWithMap(avatar.skeleton(), clip.skeleton, request.map, path));
-  Placement upright;
-  upright.motionUpZ = request.up == UpAxis::Z;
-  return walkingBody({avatar, clip, match, upright, source.isUpright, path});
+                matchWithMap(avatar.skeleton(), clip.skeleton, request.mapPath, path));
+  ClipRequest upright = request;
+  upright.placement = {};
+  upright.placement.motionUpZ = request.motionUp == UpAxis::Z;
+  FORETOUCH_TRY(const auto frames, framesOf(upright, clip, source.isUpright));
+  if (const auto note = remarkOnTPose(request, frames, clip)) source.notes.push_back(*note);
+  return walkingBody({avatar, clip, match, upright.placement, source.isUpright, path}, frames);
 }
 
 }  // namespace foretouch::tools

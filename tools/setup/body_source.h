@@ -10,18 +10,15 @@
 #include "articulated/result.h"
 #include "assets/file_frame.h"
 #include "assets/model/model_avatar.h"
+#include "tools/settings/clip_settings.h"
 #include "tools/setup/walker.h"
 
 namespace foretouch::tools {
 
-/// Which files make the body; each may be empty but not both.
-struct BodyRequest {
-  std::string motion;  ///< A clip, or a model that holds one.
-  std::string avatar;  ///< An avatar file, or a model; empty: made of the motion's own body.
-  std::string animation, map;
-  std::optional<double> scale;  ///< Of both, in place of what they say; nothing: as they say.
-  std::optional<UpAxis> up;
-};
+/// Which files make the body: a clip, a robot's table, or a model that holds a clip; and an avatar
+/// file, or a model. Either may be empty, but not both: without an avatar, the body is the motion's
+/// own, or the robot. Its scale and axis are those of both.
+using BodyRequest = ClipRequest;
 
 /// A body, read with a unit and an axis.
 struct BodySource {
@@ -39,10 +36,14 @@ struct BodySource {
 /// Errors name the file. `meshFile`: for an avatar that is made of a model.
 [[nodiscard]] Result<BodySource> readBody(const BodyRequest& request, const std::string& meshFile);
 
+/// The file whose body it is.
+[[nodiscard]] std::string bodyFileOf(const BodyRequest& request);
+
 /// Whether the avatar must be written, because none of the files is one.
 [[nodiscard]] bool makesAvatar(const BodyRequest& request);
 
-/// Its poses as walkingBody() has them.
-[[nodiscard]] Result<WalkingBody> walkingBody(const BodySource& source, const BodyRequest& request);
+/// Its poses as walkingBody() has them, of the part of the clip that the request cuts out. A note
+/// says what became of a T-pose.
+[[nodiscard]] Result<WalkingBody> walkingBody(BodySource& source, const BodyRequest& request);
 
 }  // namespace foretouch::tools

@@ -43,9 +43,10 @@ std::string objectsOf(const Walker& walker, const std::vector<Inside>& inside) {
 /// A T-pose, or a body in the air: the height of the place does not come from it.
 std::string firstPoseInWords(const Standing& standing) {
   if (std::abs(standing.firstRise) <= kFirstRise) return "";
-  return fmt::format("the first pose is {} m {} than the clip stands: a T-pose, or in the air",
-                     plainFigures(std::abs(standing.firstRise)),
-                     standing.firstRise > 0 ? "higher" : "lower");
+  return fmt::format(
+      "the first pose is {} m {} than the clip stands: a T-pose (--skip-t-pose leaves "
+      "it out), or in the air",
+      plainFigures(std::abs(standing.firstRise)), standing.firstRise > 0 ? "higher" : "lower");
 }
 
 PlacementCheck startCheck(const Walker& walker, const Standing& standing) {

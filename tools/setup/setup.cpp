@@ -91,7 +91,7 @@ Result<ImportedScene> readScene(const SetupRequest& request, Setup& setup) {
 
 /// A file's own word counts, unless the body's size contradicts it: exporters forget to convert.
 Finding<double> bodyUnit(const BodyRequest& request, const BodySource& source) {
-  if (request.scale) return saidByUser(*request.scale);
+  if (request.motionScale) return saidByUser(*request.motionScale);
   const DeclaredFrame& declared = source.frame.declared;
   const Clip clip = source.clipOrRest();
   const bool isInMetres = declared.metresPerUnit.has_value();
@@ -103,7 +103,7 @@ Finding<double> bodyUnit(const BodyRequest& request, const BodySource& source) {
 }
 
 Finding<UpAxis> bodyUpAxis(const BodyRequest& request, const BodySource& source) {
-  if (request.up) return saidByUser(*request.up);
+  if (request.motionUp) return saidByUser(*request.motionUp);
   const DeclaredFrame& declared = source.frame.declared;
   Offer<UpAxis> offer = upAxisOf(source.clipOrRest(), declared.up.has_value());
   if (!declared.up) return {std::move(offer), false, false};
@@ -117,8 +117,8 @@ Result<Done> readBodyTwice(const SetupRequest& request, const std::string& meshF
   setup.bodyScale = bodyUnit(request.body, setup.body);
   setup.bodyUp = bodyUpAxis(request.body, setup.body);
   BodyRequest& body = setup.request.body;
-  if (!setup.bodyScale.isSaidByFile) body.scale = setup.bodyScale.offer.value;
-  if (!setup.bodyUp.isSaidByFile) body.up = setup.bodyUp.offer.value;
+  if (!setup.bodyScale.isSaidByFile) body.motionScale = setup.bodyScale.offer.value;
+  if (!setup.bodyUp.isSaidByFile) body.motionUp = setup.bodyUp.offer.value;
   const FileFrame& frame = setup.body.frame;
   if (setup.bodyScale.offer.value == frame.metresPerUnit && setup.bodyUp.offer.value == frame.up) {
     return Done{};
@@ -159,7 +159,7 @@ void noteStillness(Setup& setup) {
     return false;
   });
   if (moves) return;
-  setup.notes.push_back(setup.request.body.motion +
+  setup.notes.push_back(setup.request.body.motionPath +
                         ": never moves, so nothing can happen between its poses");
 }
 
@@ -174,7 +174,8 @@ void noteTrunk(Setup& setup) {
   setup.notes.push_back(fmt::format(
       "{}: no joint is called a pelvis, spine, neck or head, so what is said of its trunk is about "
       "all its {} links: {}",
-      setup.request.body.motion.empty() ? setup.request.body.avatar : setup.request.body.motion,
+      setup.request.body.motionPath.empty() ? setup.request.body.avatarPath
+                                            : setup.request.body.motionPath,
       names.size(), firstOf(names)));
 }
 
@@ -212,11 +213,11 @@ Result<Setup> findSetup(const SetupRequest& request, const std::string& meshFile
   setup.request = request;
   FORETOUCH_TRY(auto imported, readScene(request, setup));
   FORETOUCH_CHECK(readBodyTwice(request, meshFile, setup));
-  setup.notes.insert(setup.notes.end(), setup.body.notes.begin(), setup.body.notes.end());
   addFrameChecks(imported.scene, imported.frame, setup);
   noteStillness(setup);
   noteTrunk(setup);
   FORETOUCH_CHECK(findPlace(std::move(imported.scene), setup));
+  setup.notes.insert(setup.notes.end(), setup.body.notes.begin(), setup.body.notes.end());
   return setup;
 }
 
@@ -224,9 +225,11 @@ Project projectOf(const Setup& setup, const std::string& avatar) {
   Project project;
   project.scene = setup.request.scene;
   project.avatar = avatar;
-  project.clip = setup.body.clip ? setup.request.body.motion : "";
-  project.animation = setup.request.body.animation;
-  project.jointMap = setup.request.body.map;
+  const BodyRequest& body = setup.request.body;
+  project.clip = setup.body.clip ? body.motionPath : "";
+  project.jointMap = body.mapPath;
+  project.robot = body.robotPath;
+  project.packages = body.packagePaths;
   // What a file says of itself is not repeated: the file may be exported anew.
   if (!setup.sceneScale.isSaidByFile) project.sceneScale = setup.sceneScale.offer.value;
   if (!setup.sceneUp.isSaidByFile) project.sceneUp = setup.sceneUp.offer.value;

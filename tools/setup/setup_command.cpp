@@ -37,6 +37,7 @@ struct AskedSetup {
   std::string on;
   bool yes = false, json = false;
   bool givesPlace = false;
+  std::string clipLines;  ///< Project::clipLines.
 };
 
 SetupRequest requestOf(const AskedSetup& asked) {
@@ -44,8 +45,7 @@ SetupRequest requestOf(const AskedSetup& asked) {
   request.scene = asked.world.scenePath;
   request.sceneScale = asked.world.sceneImport.scale;
   request.sceneUp = asked.world.sceneImport.up;
-  request.body = {asked.clip.motionPath, asked.clip.avatarPath,  asked.clip.animation,
-                  asked.clip.mapPath,    asked.clip.motionScale, asked.clip.motionUp};
+  request.body = asked.clip;
   request.on = asked.on;
   if (asked.givesPlace) {
     request.place = asked.clip.placement;
@@ -76,10 +76,9 @@ void sortFiles(AskedSetup& asked) {
 
 /// The avatar's file: as given, or a new one beside the project.
 std::string avatarPathOf(const AskedSetup& asked, const SetupRequest& request) {
-  if (!makesAvatar(request.body)) return request.body.avatar;
-  const std::string& body = request.body.avatar.empty() ? request.body.motion : request.body.avatar;
-  return (fs::path(asked.output).parent_path() / (fs::path(body).stem().string() + ".avatar.json"))
-      .string();
+  if (!makesAvatar(request.body)) return request.body.avatarPath;
+  const std::string body = fs::path(bodyFileOf(request.body)).stem().string();
+  return (fs::path(asked.output).parent_path() / (body + ".avatar.json")).string();
 }
 
 /// As the project's folder sees it. An absolute path stays one.
@@ -127,10 +126,11 @@ Result<std::vector<std::string>> writeFiles(const AskedSetup& asked, const Setup
     written.push_back(avatarPath);
   }
   Project project = projectOf(setup, avatarPath);
-  for (std::string* const path :
-       {&project.scene, &project.avatar, &project.clip, &project.jointMap}) {
-    *path = besideProject(*path, asked.output);
-  }
+  project.clipLines = asked.clipLines;
+  std::vector<std::string*> paths{&project.scene, &project.avatar, &project.clip, &project.jointMap,
+                                  &project.robot};
+  for (std::string& package : project.packages) paths.push_back(&package);
+  for (std::string* const path : paths) *path = besideProject(*path, asked.output);
   FORETOUCH_CHECK(keepOld(asked.output, written));
   FORETOUCH_TRY(const auto text,
                 projectText(project, fs::path(asked.output).parent_path().string()));
@@ -197,8 +197,8 @@ Result<bool> talk(const AskedSetup& asked, SetupRequest request, const std::stri
     }
     if (world.sceneImport.scale) request.sceneScale = world.sceneImport.scale;
     if (world.sceneImport.up) request.sceneUp = world.sceneImport.up;
-    if (clip.motionScale) request.body.scale = clip.motionScale;
-    if (clip.motionUp) request.body.up = clip.motionUp;
+    if (clip.motionScale) request.body.motionScale = clip.motionScale;
+    if (clip.motionUp) request.body.motionUp = clip.motionUp;
     if (settings.isGiven("--place")) request.place = clip.placement;
     FORETOUCH_TRY(setup, findSetup(request, meshFile));
   }
@@ -237,9 +237,11 @@ ExitCode run(AskedSetup& asked) {
   const std::string avatarPath = avatarPathOf(asked, request);
   const std::string meshFile = meshFileOf(avatarPath);
   for (const std::string& output : {asked.output, avatarPath}) {
-    if (output == request.body.avatar) continue;
-    FORETOUCH_CHECK_OR(failed, checkIsNoInput(output, {request.scene, request.body.motion,
-                                                       request.body.avatar, request.body.map}));
+    if (output == request.body.avatarPath) continue;
+    FORETOUCH_CHECK_OR(
+        failed,
+        checkIsNoInput(output, {request.scene, request.body.motionPath, request.body.avatarPath,
+                                request.body.mapPath, request.body.robotPath}));
   }
   FORETOUCH_TRY_OR(failed, auto setup, findSetup(request, meshFile));
   bool writes = asked.yes;
@@ -264,10 +266,23 @@ ExitCode run(AskedSetup& asked) {
   return setup.isUsable() ? ExitCode::Done : ExitCode::CheckSaysNo;
 }
 
+/// What was said of the clip, as a project keeps it: all but paths, and what setup settles itself.
+std::string clipLinesOf(const Settings& given) {
+  std::string lines;
+  for (const Setting& setting : given) {
+    const bool isKept = setting.isGiven && setting.table == "clip" && !setting.isPath &&
+                        setting.key != "scale" && setting.key != "up" && setting.key != "place";
+    if (isKept) lines += setting.key + " = " + setting.json() + "\n";
+  }
+  return lines;
+}
+
 constexpr char kSetupExamples[] = R"(Examples:
   foretouch setup kitchen.ply walk.bvh
   foretouch setup level.obj man.glb --yes
   foretouch setup level.obj run.fbx --avatar man.fbx --yes --json
+  foretouch setup level.obj walk.bvh --skip-t-pose
+  foretouch setup hall.obj walk1_subject1.csv --robot g1.urdf --columns lafan1-g1
 
 What an option says is not asked again. Exit code 1 says that something is wrong, and what.)";
 
@@ -281,7 +296,8 @@ Command setupCommand() {
   scene.option = "scene";
   scene.value = "SCENE";
   addMotionSetting(settings, asked->clip, "body", "CLIP|MODEL",
-                   "BVH clip, or model with or without an animation (glb, gltf, vrm, fbx, dae, x)")
+                   "BVH clip, model with or without an animation (glb, gltf, vrm, fbx, dae, x), or "
+                   "joint positions of a robot (csv, npz)")
       .required("a clip or a model behind the scene");
   settings
       .path("--avatar", "FILE|MODEL", asked->clip.avatarPath,
@@ -289,6 +305,7 @@ Command setupCommand() {
             "given")
       .in(kInputGroup);
   addClipSettings(settings, asked->clip);
+  addCutSettings(settings, asked->clip);
   settings
       .text("--on", "OBJECT", asked->on,
             "Stand on this object, a roof or a table; `*` at an end stands for anything. Else on "
@@ -302,6 +319,7 @@ Command setupCommand() {
                   kSetupExamples, std::move(settings)};
   command.run = [asked](const Settings& given) {
     asked->givesPlace = given.isGiven("--place");
+    asked->clipLines = clipLinesOf(given);
     return run(*asked);
   };
   return command;

@@ -40,8 +40,8 @@ std::string describe(const Setup& setup) {
 void writeSetup(const Setup& setup, JsonWriter& out) {
   const BodyRequest& body = setup.request.body;
   writeFrame("scene", setup.request.scene, setup.sceneScale, setup.sceneUp, out);
-  writeFrame("body", body.motion.empty() ? body.avatar : body.motion, setup.bodyScale, setup.bodyUp,
-             out);
+  writeFrame("body", body.motionPath.empty() ? body.avatarPath : body.motionPath, setup.bodyScale,
+             setup.bodyUp, out);
   const Placement& place = setup.place;
   out.key("place");
   out.beginArray();

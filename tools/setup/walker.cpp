@@ -38,12 +38,12 @@ double usualHeight(const WalkingBody& body) {
 
 }  // namespace
 
-Result<WalkingBody> walkingBody(const PlacedClip& clip) {
+Result<WalkingBody> walkingBody(const PlacedClip& clip, const FrameRange& frames) {
   WalkingBody body{clip.avatar, {}};
-  const std::size_t frames = clip.clip.frames.size();
-  const std::size_t stride = (frames + kPosesLookedAt - 1) / kPosesLookedAt;
-  for (std::size_t frame = 0; frame < frames; frame += stride) {
-    FORETOUCH_TRY(auto pose, poseAtFrame(clip, static_cast<std::int64_t>(frame)));
+  const auto stride =
+      static_cast<std::int64_t>((frames.count() + kPosesLookedAt - 1) / kPosesLookedAt);
+  for (std::int64_t frame = frames.first; frame <= frames.last; frame += stride) {
+    FORETOUCH_TRY(auto pose, poseAtFrame(clip, frame));
     body.poses.push_back(std::move(pose));
   }
   return body;

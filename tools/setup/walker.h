@@ -15,6 +15,7 @@
 #include "articulated/skeleton.h"
 #include "assets/avatar/joint_match.h"
 #include "middleware/query/query.h"
+#include "tools/inputs/clip_cut.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/setup/walkable_floor.h"
 
@@ -41,7 +42,7 @@ struct Rest {
 
 /// The body at frames of a clip that are spread over it, some of them if they are many; the same
 /// for all who ask. `clip`: with the placement that makes it Y-up, no other.
-[[nodiscard]] Result<WalkingBody> walkingBody(const PlacedClip& clip);
+[[nodiscard]] Result<WalkingBody> walkingBody(const PlacedClip& clip, const FrameRange& frames);
 
 /// Which of a body's poses says at which height it stands: one of its lowest, but for the few that
 /// dip lower. A clip may begin in a T-pose, or in the air.

@@ -1,5 +1,6 @@
 #include "tools/world/body_knots.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "assets/clip/rigid_poses.h"
 #include "assets/near_names.h"
 #include "lss/index.h"
+#include "tools/inputs/clip_cut.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/joint_map.h"
 #include "tools/inputs/own_pairs.h"
@@ -32,12 +34,27 @@ struct TimedFrame {
   std::int64_t utimeUs = 0;
 };
 
+/// From where on the clip is played: behind its T-pose, where that is left out.
+Result<Done> skipTPose(const FileBody& body, const Motion& motion, const std::string& world,
+                       ClipTiming& timing) {
+  if (!body.clip.cut.skipsTPose) return Done{};
+  const auto atLine = [&](Error error) {
+    return Error::inLine(world, body.clipLine, error.code, "[clip]: " + describe(error));
+  };
+  FORETOUCH_TRY_OR(atLine, const auto range, framesOf(body.clip, motion.clip, motion.isUpright));
+  const double beginS = static_cast<double>(range.first) * motion.clip.frameTimeS;
+  timing.fromUs = std::max(timing.fromUs, inMicroseconds(beginS));
+  return Done{};
+}
+
 /// The frames that a body takes of its clip. Errors name the clip, or the world's line.
-Result<std::vector<TimedFrame>> framesOf(const FileBody& body, const Clip& clip,
-                                         const std::string& world) {
+Result<std::vector<TimedFrame>> timedFramesOf(const FileBody& body, const Motion& motion,
+                                              const std::string& world) {
+  const Clip& clip = motion.clip;
   FORETOUCH_TRY(const auto steps,
                 inFile(selectSteps(clip, body.clip.rateHz), body.clip.motionPath));
-  const ClipTiming& timing = body.timing;
+  ClipTiming timing = body.timing;
+  FORETOUCH_CHECK(skipTPose(body, motion, world, timing));
   // Half a frame: what one types as an instant of a frame is one, whatever its last digit.
   const double slackUs = 0.5 * clip.frameTimeS * kUsPerS;
   const double firstUs = static_cast<double>(timing.fromUs) - slackUs;
@@ -119,6 +136,11 @@ Result<std::shared_ptr<const Motion>> KnotLoader::motionOf(const ClipRequest& re
                                 motion.up ? static_cast<int>(*motion.up) : -1, motion.animation,
                                 motion.rateHz, motion.robot);
   for (const std::string& path : motion.packagePaths) key += "\n" + path;
+  const JointTableOptions& table = motion.table;
+  for (const std::string& column : table.columns) key += "\n" + column;
+  key += fmt::format("\n{}\n{}\n{}\n{}", table.rateHz.value_or(0.0),
+                     table.quaternion ? static_cast<int>(*table.quaternion) : -1, table.isInDegrees,
+                     table.metresPerUnit.value_or(0.0));
   auto known = motions_.find(key);
   if (known == motions_.end()) {
     FORETOUCH_TRY(auto read, readMotion(motion));
@@ -161,7 +183,7 @@ Result<BodyKnots> KnotLoader::ofAvatar(const FileBody& body, const Avatar& avata
   FORETOUCH_CHECK(followByParts(avatar.skeleton(), body.clip.mapPath, path, clip));
   const auto match = matchWithMap(avatar.skeleton(), clip.skeleton, body.clip.mapPath, path);
   if (!match.ok()) return match.error();
-  FORETOUCH_TRY(const auto frames, framesOf(body, clip, world));
+  FORETOUCH_TRY(const auto frames, timedFramesOf(body, *motion, world));
   FORETOUCH_CHECK(countPoses(body, countOf(avatar.numLinks()), frames.size(), world));
   const PlacedClip placed{avatar, clip, match.value(), body.clip.placement, motion->isUpright,
                           path};
@@ -202,7 +224,7 @@ Result<BodyKnots> KnotLoader::ofProp(const FileBody& body, const BodyShape& shap
     FORETOUCH_TRY(const auto motion, motionOf(body.clip));
     const Clip& clip = motion->clip;
     FORETOUCH_TRY(const auto joint, jointOf(body, clip.skeleton, world));
-    FORETOUCH_TRY(const auto frames, framesOf(body, clip, world));
+    FORETOUCH_TRY(const auto frames, timedFramesOf(body, *motion, world));
     Placement placement = body.clip.placement;
     placement.motionUpZ = placement.motionUpZ && !motion->isUpright;
     for (const TimedFrame& timed : frames) {

@@ -262,6 +262,7 @@ void WorldReading::readClip(TomlSection& section, FileBody& body) {
   addMotionSetting(settings, body.clip, "--motion", "CLIP");
   addRateSetting(settings, body.clip);
   addClipSettings(settings, body.clip);
+  addSkipTPose(settings, body.clip);
   std::vector<std::string> keys{"joint", "start", "from", "until", "speed"};
   for (const Setting& setting : settings) keys.push_back(setting.key);
   clip.allowOnly(keys);

@@ -46,6 +46,20 @@ std::vector<std::string> filesWith(const std::string& folder, const std::string&
   return found;
 }
 
+/// Several files have no place in one stream, nor in a folder called "-".
+TEST(BatchProgram, RefusesStandardOutputAsAFolder) {
+  const SmallFleet fleet(1);
+  const Ended batch = fleet.run("-");
+  EXPECT_EQ(batch.exitCode, 2);
+  EXPECT_TRUE(holds(batch.err, "--output: expected a folder for several files, found '-'"));
+  const Ended certify = runForetouch({"certify", "--scene", fleet.world.folder / "wall.obj",
+                                      "--avatar", fleet.world.folder / "man.json", "--motion",
+                                      fleet.world.folder / "c0.bvh", "-o", "-"});
+  EXPECT_EQ(certify.exitCode, 2);
+  EXPECT_TRUE(holds(certify.err, "--output: expected a folder for several files, found '-'"));
+  EXPECT_FALSE(fs::exists("-"));
+}
+
 TEST(BatchProgram, AnswersAsReplayDoes) {
   const SmallFleet fleet(6);
   const std::string results = fleet.world.folder / "results";

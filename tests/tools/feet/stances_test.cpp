@@ -51,7 +51,29 @@ Walk walkOf(std::size_t stances, const Plant& plant) {
   return walk;
 }
 
-FeetInputs inputsOf(const Walk& walk, double frameS = kFrameS) {
+/// A box from one corner to the opposite one, as lines of an OBJ file; `boxes`: those before it.
+std::string boxObj(const char* name, const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                   int boxes) {
+  std::string text = std::string("o ") + name + "\n";
+  for (int i = 0; i < 8; ++i) {
+    text += "v";
+    for (int axis = 0; axis < 3; ++axis) {
+      text += " " + std::to_string((i >> (2 - axis)) % 2 == 0 ? low[axis] : high[axis]);
+    }
+    text += "\n";
+  }
+  constexpr int kFaces[6][4] = {{1, 2, 4, 3}, {5, 7, 8, 6}, {1, 5, 6, 2},
+                                {3, 4, 8, 7}, {1, 3, 7, 5}, {2, 6, 8, 4}};
+  for (const auto& face : kFaces) {
+    text += "f";
+    for (const int corner : face) text += " " + std::to_string(corner + 8 * boxes);
+    text += "\n";
+  }
+  return text;
+}
+
+/// `scene`: an OBJ; empty: a plain floor.
+FeetInputs inputsOf(const Walk& walk, double frameS = kFrameS, const std::string& scene = "") {
   std::vector<Place> left, right;
   for (int frame = 0; frame * frameS <= walk.endS; ++frame) {
     left.push_back(walk.left.soleAt(frame * frameS));
@@ -61,6 +83,7 @@ FeetInputs inputsOf(const Walk& walk, double frameS = kFrameS) {
   FeetRequest request;
   request.avatarPath = folder.write("walker.json", test::kWalkerAvatar);
   request.motionPath = folder.write("walk.bvh", test::walkBvh(left, right, frameS));
+  if (!scene.empty()) request.scenePath = folder.write("scene.obj", scene);
   auto inputs = loadFeetInputs(request);
   EXPECT_TRUE(inputs.ok()) << describe(inputs.error());
   return std::move(inputs).value();
@@ -207,6 +230,40 @@ TEST(Stances, TellFeetThatHoverAndFeetBelowTheGround) {
     ++below;
   }
   EXPECT_EQ(below, 2 * 3) << "per foot and part: its steps do not reach the ground either";
+}
+
+/// A floor, and a board 9 to 13 cm above it over the front of the feet, as of a kitchen's cabinet.
+TEST(Stances, FeetBelowABoardStandOnTheFloor) {
+  const std::string scene = boxObj("floor", {-5, -0.1, -5}, {5, 0, 5}, 0) +
+                            boxObj("board", {-5, 0.09, 0.1}, {5, 0.13, 5}, 1);
+  for (const double sunk : {0.0, 0.008}) {
+    Walk walk = walkOf(1, [&](PlantedStance& s) {
+      s.from.y = s.to.y = -sunk;
+      s.from.z = s.to.z = 0.0;
+    });
+    const FeetInputs inputs = inputsOf(walk, kFrameS, scene);
+    const FeetAnswer answer = answerOf(inputs);
+    ASSERT_EQ(answer.stances.size(), inputs.body.parts.size());
+    for (const FootStance& stance : answer.stances) {
+      EXPECT_EQ(stance.kind, StanceKind::Touches);
+      EXPECT_NEAR(stance.depth, sunk, 1e-6) << inputs.body.nameOf(inputs.body.parts[stance.part]);
+    }
+  }
+}
+
+/// A thin floor with a room underneath: its other side is no ceiling to who sank through it.
+TEST(Stances, FeetThatSankThroughAThinFloorAreBelowIt) {
+  const std::string scene = boxObj("ground", {-5, -1.1, -5}, {5, -1, 5}, 0) +
+                            boxObj("stage", {-5, -0.02, -5}, {5, 0, 5}, 1);
+  const Walk walk = walkOf(2, [&](PlantedStance& s) { s.from.y = s.to.y = -0.05; });
+  const FeetInputs inputs = inputsOf(walk, kFrameS, scene);
+  int deep = 0;
+  for (const FootStance& stance : answerOf(inputs).stances) {
+    if (stance.depth < 0.01) continue;
+    EXPECT_NEAR(stance.depth, 0.05, 1e-6);
+    ++deep;
+  }
+  EXPECT_EQ(deep, 2 * 2 * 3) << "per foot, stance and part";
 }
 
 /// Of frames: found and true, found, and true.

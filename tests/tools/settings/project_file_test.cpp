@@ -147,7 +147,9 @@ TEST_F(ProjectFile, WhatSetupWritesIsReadBackAndServed) {
   project.scene = "room.obj";
   project.avatar = "man.json";
   project.clip = "walk.bvh";
-  project.animation = "a \"quoted\" name";
+  project.clipLines = "animation = \"a \\\"quoted\\\" name\"\n";
+  project.robot = "g1.urdf";
+  project.packages = {"a folder", "b"};
   project.sceneUp = UpAxis::Z;
   project.clipScale = 0.0564;
   project.place = "-1.5,0.071,2,270";
@@ -161,7 +163,10 @@ TEST_F(ProjectFile, WhatSetupWritesIsReadBackAndServed) {
   EXPECT_FALSE(asked.world.sceneImport.scale) << "as the file says";
   EXPECT_EQ(asked.world.sceneImport.up, UpAxis::Z);
   EXPECT_EQ(asked.clip.motionScale, 0.0564);
-  EXPECT_EQ(asked.clip.animation, project.animation);
+  EXPECT_EQ(asked.clip.animation, "a \"quoted\" name");
+  EXPECT_EQ(asked.clip.robotPath, folder_ / "g1.urdf");
+  EXPECT_EQ(asked.clip.packagePaths,
+            (std::vector<std::string>{folder_ / "a folder", folder_ / "b"}));
   EXPECT_EQ(asked.clip.placement.origin, Eigen::Vector3d(-1.5, 0.071, 2));
 
   const auto served = readServeConfig(path);

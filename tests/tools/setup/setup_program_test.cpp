@@ -17,6 +17,7 @@
 #include "tests/assets/fbx_writer.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
+#include "tests/tools/feet/robot_walk.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_world.h"
 
@@ -89,6 +90,67 @@ TEST(SetupProgram, AnAnimationWithoutABodyMakesNoCapsulesOfItsCameras) {
     EXPECT_NE(avatar.skeleton().name(link), "Camera");
     for (const Lss& lss : avatar.lss(link)) EXPECT_LT((lss.b - lss.a).norm(), 0.6);
   }
+}
+
+/// What was said of the clip is the project's, so that every command plays the same part of it.
+TEST(SetupProgram, APartOfAClipIsTheProjects) {
+  const TempFolder folder;
+  const std::string project = folder / "foretouch.toml";
+  const Ended ended =
+      runForetouch({"setup", kExample + "/room.obj", kExample + "/dancer.bvh", "--yes", "--json",
+                    "--output", project, "--from", "5f", "--to", "2"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const Ended replay =
+      runForetouch({"replay", "--project", project, "--output", folder / "c.jsonl"});
+  ASSERT_EQ(replay.exitCode, 0) << replay.err;
+  const std::string header = contentOf(folder / "c.jsonl");
+  EXPECT_NE(header.find(R"("from":"5f","to":"2")"), std::string::npos) << header.substr(0, 600);
+  const Ended beyond =
+      runForetouch({"setup", kExample + "/room.obj", kExample + "/dancer.bvh", "--from", "1e6"});
+  EXPECT_EQ(beyond.exitCode, 2);
+  EXPECT_NE(beyond.err.find("--from: expected an instant of the clip"), std::string::npos);
+}
+
+TEST(SetupProgram, ATPoseIsLeftOutWhereAsked) {
+  FORETOUCH_REQUIRE_SHARED(clip, "mocap/cmu_cgspeed_walk_crlf.bvh");
+  const Ended whole = runForetouch({"setup", kExample + "/room.obj", *clip});
+  EXPECT_NE(whole.out.find("--skip-t-pose leaves it out"), std::string::npos) << whole.out;
+  const Ended cut = runForetouch({"setup", kExample + "/room.obj", *clip, "--skip-t-pose"});
+  EXPECT_EQ(cut.out.find("T-pose"), std::string::npos) << cut.out;
+  EXPECT_NE(cut.err.find("left out a T-pose, the first frame"), std::string::npos) << cut.err;
+}
+
+TEST(SetupProgram, ARobotsTableNeedsThreeCommandsToo) {
+  const TempFolder folder;
+  folder.write("bot.urdf", walkerUrdf());
+  std::string rows;
+  for (const char* const joint : {"x", "y", "z", "qx", "qy", "qz", "qw"}) {
+    rows += std::string(rows.empty() ? "" : ",") + "root_" + joint;
+  }
+  for (const std::string& joint : walkerJoints()) rows += "," + joint;
+  rows += "\n";
+  for (int row = 0; row < 3; ++row) {
+    rows += std::to_string(0.1 * row) + ",0,1,0,0,0,1";
+    for (std::size_t i = 0; i < walkerJoints().size(); ++i) rows += ",0";
+    rows += "\n";
+  }
+  folder.write("walk.csv", rows);
+  const std::string project = folder / "foretouch.toml";
+  const Ended ended = runForetouch({"setup", kExample + "/room.obj", folder / "walk.csv", "--robot",
+                                    folder / "bot.urdf", "--row-rate", "30", "--yes", "--json",
+                                    "--output", project});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err << ended.out;
+  const json answer = json::parse(ended.out, nullptr, false);
+  EXPECT_EQ(answer["body"]["scale"]["value"], 1.0) << "its format knows metres alone";
+  EXPECT_EQ(answer["body"]["scale"]["said_by"], "file");
+  EXPECT_EQ(stateOf(answer, "start"), "good") << answer["checks"];
+  const Ended replay =
+      runForetouch({"replay", "--project", project, "--output", folder / "c.jsonl", "--json"});
+  ASSERT_EQ(replay.exitCode, 0) << replay.err;
+  const Ended nameless = runForetouch({"setup", kExample + "/room.obj", folder / "walk.csv"});
+  EXPECT_EQ(nameless.exitCode, 2);
+  EXPECT_NE(nameless.err.find("expected its URDF (--robot FILE)"), std::string::npos)
+      << nameless.err;
 }
 
 TEST(SetupProgram, TakesABodyAndASceneInAnyOrder) {

@@ -14,6 +14,7 @@
 
 #include "tests/support/holds.h"
 #include "tests/tools/glb/glb_reader.h"
+#include "tests/tools/inputs/arms_bvh.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_inputs.h"
 #include "tests/tools/world/small_stage.h"
@@ -112,6 +113,32 @@ TEST(WorldProgram, ReplaysAWorldIntoLines) {
   EXPECT_EQ(touched, (std::vector<std::string>{"Hips ball", "Hips wall", "Arm wall"}));
   EXPECT_EQ(lines.back()["summary"]["touches_bodies"], 1);
   EXPECT_EQ(lines.back()["summary"]["touches_scene"], 2);
+}
+
+/// Two who follow one file, each as its own table says.
+TEST(WorldProgram, BodiesTakeTheirPartOfAClipAndTheirOwnRate) {
+  const SmallStage stage;
+  stage.folder.write("arms.bvh", armsBvh(40, 101));
+  stage.folder.write("bot.urdf",
+                     "<robot name=\"bot\"><link name=\"base\"><collision><geometry>"
+                     "<sphere radius=\"0.1\"/></geometry></collision></link></robot>");
+  stage.folder.write("bot.csv",
+                     "root_x,root_y,root_z,root_qx,root_qy,root_qz,root_qw\n"
+                     "0,0,1,0,0,0,1\n1,0,1,0,0,0,1\n");
+  const auto led = [](const char* name, const std::string& clip) {
+    return sphereNamed(name, "[body.clip]\n" + clip);
+  };
+  const std::string bot = "file = \"bot.csv\"\nrobot = \"bot.urdf\"\nrow_rate = ";
+  const std::string path = stage.write(
+      led("arms", "file = \"arms.bvh\"\nskip_t_pose = true\nstart = 2\njoint = \"Hips\"\n") +
+      led("slow", bot + "1\n") + led("quick", bot + "4\n"));
+  const Ended ended = runForetouch({"world", "check", path, "--json"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const json bodies = json::parse(ended.out)["bodies"];
+  EXPECT_EQ(bodies[0]["poses"], 61);
+  EXPECT_EQ(bodies[0]["from"], 2.0);
+  EXPECT_EQ(bodies[1]["until"], 1.0);
+  EXPECT_EQ(bodies[2]["until"], 0.25);
 }
 
 TEST(WorldProgram, SaysWhatIsWrongWithAFileAndItsLine) {

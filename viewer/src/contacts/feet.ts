@@ -15,9 +15,10 @@ export function isDeep({ depth }: FootStance): boolean {
   return depth >= told;
 }
 
-/** What it is judged by, metres. */
+/** What it is judged by, metres; what slides or sinks in before all that hovers, as `foretouch feet` has it. */
 export function badness({ slide, depth, hover }: FootStance): number {
-  return Math.max(slide, depth, hover);
+  const fault = Math.max(slide, depth);
+  return fault >= told ? 1e3 + fault : Math.max(fault, hover);
 }
 
 /** As bars, by begin; they are no touches of links, and are not counted as such. */
