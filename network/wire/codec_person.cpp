@@ -63,7 +63,8 @@ void readPersonHead(const person_t& wire, PersonMessage& message) {
 Reject readLinks(const person_t& wire, PersonMessage& message) {
   const std::size_t n = countOf(wire.num_links);
   message.verdicts.resize(n);
-  message.notBeforeUs = wire.not_before;
+  // Of no links the decoder leaves the array of the message before.
+  message.notBeforeUs.assign(wire.not_before.begin(), wire.not_before.begin() + wire.num_links);
   for (std::size_t i = 0; i < n; ++i) {
     const std::int64_t notBefore = wire.not_before[i];
     if (wire.verdicts[i] > person_t::CERTAIN || notBefore < -1 || notBefore > kMaxWireInteger) {
