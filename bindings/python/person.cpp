@@ -241,7 +241,7 @@ py::list readBounds(const Shown<shown::Path>& given, const Avatar& avatar,
                     const Shown<shown::Text>& between, const Shown<shown::Number>& rateHz) {
   const std::string file = path(given, "path");
   const MotionModel model = oneOf(between, "between", kModels);
-  const BoundsFile read = valueOf(readBounds(file));
+  const BoundsFile read = valueOf(foretouch::readBounds(file));
   const LinkBounds known =
       valueOf(inFile(boundsOf(read, avatar.skeleton(), model, number(rateHz, "rate_hz")), file));
   py::list bounds;
