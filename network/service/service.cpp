@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -26,9 +27,12 @@ namespace foretouch {
 namespace {
 
 using std::chrono::milliseconds;
+using ServiceTime = std::chrono::steady_clock::time_point;
 
 /// Notices a stop after this long.
 constexpr int kReceiveWaitMs = 100;
+/// A pose that has not come so long after the last one is not waited for (docs/streaming.md).
+constexpr milliseconds kSilence{1000};
 /// Idle threads and the status thread signal this often that they run.
 constexpr milliseconds kBeatEvery{500};
 
@@ -39,6 +43,7 @@ struct ServedStream {
   std::uint64_t lost = 0, gaps = 0, vastGaps = 0;  // of the solver's counts, already added up
   std::vector<std::int64_t> known{}, nowKnown{};   // hashes that the mail room knows of; scratch
   ReplayGuard skeletons{}, poses{};                // of the receiving thread
+  std::optional<ServiceTime> posedAt{};  // of the receiving thread: the last pose that waits
   bool isBroken = false;  // an exception left its state unknown: it answers nothing more
 };
 
@@ -209,7 +214,23 @@ struct Service::Impl final : internal::Outlet {
     counter.wire(parts.receiver->counts());
     for (WireMessage& message : arrived) sort(message, mail);
     if (!received.ok()) fail(received.error());
-    return isLast || !received.ok();
+    const bool isOver = isLast || !received.ok();
+    tellSilence(isOver, mail);
+    return isOver;
+  }
+
+  /// To those whose persons wait for a pose.
+  void tellSilence(bool isOver, std::unique_ptr<Mail>& mail) {
+    if (parts.persons.empty()) return;
+    const ServiceTime now = std::chrono::steady_clock::now();
+    for (ServedStream& stream : streams) {
+      if (stream.person == nullptr || !stream.posedAt) continue;
+      if (!isOver && now - *stream.posedAt < kSilence) continue;
+      stream.posedAt.reset();
+      mail->kind = MailKind::Silence;
+      mail->receiveUtimeUs = parts.clock->utimeUs();
+      static_cast<void>(room.post(stream.index, mail));
+    }
   }
 
   void sort(WireMessage& message, std::unique_ptr<Mail>& mail) {
@@ -272,6 +293,7 @@ struct Service::Impl final : internal::Outlet {
     if (kind == MailKind::Pose && !served.stream.mayPass(message.sender, message.receiveUtimeUs)) {
       return reject(kind, Reject::OtherSender);
     }
+    if (kind == MailKind::Pose) served.posedAt = std::chrono::steady_clock::now();
     mail->payload.swap(message.payload);
     switch (room.post(known->second, mail)) {
       case MailRoom::Posted::Kept: return;
@@ -288,6 +310,7 @@ struct Service::Impl final : internal::Outlet {
   // Answering.
 
   void handle(ServedStream& stream, const Mail& mail, Desk& desk) {
+    if (mail.kind == MailKind::Silence) return endWait(stream, mail, desk);
     if (stream.isBroken) return reject(mail.kind, Reject::Overrun);
     bool isCounted = false;
     const bool done = guarded("answering", [&] {
@@ -301,6 +324,15 @@ struct Service::Impl final : internal::Outlet {
     if (done) return;
     stream.isBroken = true;
     if (!isCounted) reject(mail.kind, Reject::Overrun);
+  }
+
+  void endWait(ServedStream& stream, const Mail& mail, Desk& desk) {
+    if (stream.isBroken) return;
+    stream.isBroken = !guarded("answering", [&] {
+      stream.person->endWait();
+      send(*stream.person, mail, desk);
+      settle(stream, mail, nullptr, desk);
+    });
   }
 
   void answer(ServedStream& stream, const Mail& mail, Desk& desk, bool& isCounted) {
@@ -324,16 +356,19 @@ struct Service::Impl final : internal::Outlet {
                          desk.answer.queryUs);
     SolidStream* const solid = stream.stream.solid();
     if (solid != nullptr) show(stream, *solid, mail, desk);
-    if (stream.person != nullptr) sayPerson(stream, mail, desk);
+    if (stream.person != nullptr) {
+      stream.person->follow(stream.stream.solver().lastStep());
+      send(*stream.person, mail, desk);
+    }
     settle(stream, mail, &stream.stream.solver().lastStep(), desk);
     StepObserver* const observer = parts.observer;
     if (observer == nullptr || !observer->wants(stream.index)) return;
     const StreamStep& step = stream.stream.solver().lastStep();
     if (solid == nullptr) {
-      observer->observe(stream.index, step, desk.answer, nullptr);
+      observer->observe(stream.index, step, desk.answer, nullptr, stream.person);
     } else {
       const ShownStep shown{solid->shownBefore(), desk.shown};
-      observer->observe(stream.index, step, desk.answer, &shown);
+      observer->observe(stream.index, step, desk.answer, &shown, stream.person);
     }
   }
 
@@ -362,9 +397,7 @@ struct Service::Impl final : internal::Outlet {
     solidCounter.shown(desk.shown);
   }
 
-  void sayPerson(ServedStream& stream, const Mail& mail, Desk& desk) {
-    PersonStream& person = *stream.person;
-    person.follow(stream.stream.solver().lastStep());
+  void send(PersonStream& person, const Mail& mail, Desk& desk) {
     for (std::size_t i = 0; i < person.numSaid(); ++i) {
       PersonMessage& said = person.said(i);
       said.receiveUtimeUs = mail.receiveUtimeUs;
