@@ -103,6 +103,7 @@ class PersonTable {
                 {"fresh", "began"},
                 {"missed_by_poses", "of them no pose shows"},
                 {"certain_percent", "certain %", 1},
+                {"passed", "passed a surface"},
                 {"width_p50_ms", "bracket p50 ms", 2},
                 {"width_p90_ms", "p90 ms", 1},
                 {"growth_p50_mm", "bound p50 mm", 2},
@@ -117,8 +118,8 @@ class PersonTable {
     table_.rows.push_back({std::string(toString(asked)), rateHz, std::string(toString(model)),
                            cell(t.intervals), cell(t.missed), cell(t.lied),
                            percent(t.possible, t.intervals), cell(t.fresh), cell(t.missedByPoses),
-                           percent(t.freshCertain, t.fresh), widths.p50, widths.p90, growths.p50,
-                           static_cast<double>(t.pieces) / steps,
+                           percent(t.freshCertain, t.fresh), cell(t.passed), widths.p50, widths.p90,
+                           growths.p50, static_cast<double>(t.pieces) / steps,
                            t.plainUs > 0.0 ? t.bracketUs / t.plainUs : 0.0});
   }
   [[nodiscard]] const BenchTable& table() const { return table_; }

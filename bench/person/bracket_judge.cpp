@@ -22,7 +22,24 @@ bool excludes(const LinkBracket& bracket, double t) {
           (t < bracket.possibleFrom || t > bracket.possibleUntil));
 }
 
+/// Instants that the judge looks at of a passage: thin links are on a surface for a short time.
+constexpr int kPassageLooks = 2000;
+
+void checkPassage(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& tally) {
+  ++tally.passed;
+  const double span = bracket.certainFrom - bracket.certainUntil;
+  for (int i = 0; i <= kPassageLooks; ++i) {
+    const double t = bracket.certainUntil + span * i / kPassageLooks;
+    if (sides.apartAt(t) <= kJudgeRounding) return;
+  }
+  ++tally.lied;
+  find(fmt::format("lied: {} passed from {:.6f} to {:.6f}", sides.name, bracket.certainUntil,
+                   bracket.certainFrom),
+       tally);
+}
+
 void checkCertain(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& tally) {
+  if (bracket.certainUntil < bracket.certainFrom) return checkPassage(bracket, sides, tally);
   for (const double t : {bracket.certainFrom, bracket.certainUntil}) {
     const double apart = sides.apartAt(t);
     if (!(apart > kJudgeRounding)) continue;

@@ -10,6 +10,7 @@ void PersonTally::add(const PersonTally& o) {
   possible += o.possible;
   certain += o.certain;
   unclaimed += o.unclaimed;
+  passed += o.passed;
   fresh += o.fresh;
   freshCertain += o.freshCertain;
   missedByPoses += o.missedByPoses;

@@ -11,7 +11,8 @@ struct PersonTally {
   std::uint64_t intervals = 0;  ///< Links (or pairs) times steps, of what has a surface.
   std::uint64_t missed = 0, lied = 0;
   std::uint64_t excluded = 0, possible = 0, certain = 0, unclaimed = 0;
-  std::uint64_t fresh = 0;  ///< That touch in truth, and not at the earlier pose.
+  std::uint64_t passed = 0;  ///< Certain ones, as they went through a surface.
+  std::uint64_t fresh = 0;   ///< That touch in truth, and not at the earlier pose.
   std::uint64_t freshCertain = 0;
   std::uint64_t missedByPoses = 0;        ///< Fresh ones that no given pose shows.
   std::vector<double> widthsMs;           ///< Of certain fresh touches: from possible to certain.

@@ -7,8 +7,9 @@
 
 #include "articulated/motion_model.h"
 #include "articulated/try.h"
-#include "assets/bounds/bounds_file.h"
+#include "assets/bounds/bound_presets.h"
 #include "bindings/c/handles.h"
+#include "bindings/c/link_bounds.h"
 #include "bindings/c/query_options.h"
 #include "bindings/c/sized_struct.h"
 #include "lss/index.h"
@@ -182,6 +183,24 @@ ft_status write(const char* function, const ft_brackets* handle, const char* nam
 }
 
 }  // namespace
+
+ft_status writeBounds(const Result<BoundsFile>& file, const std::string& name,
+                      const ft_avatar* avatar, std::int32_t between, double rateHz,
+                      ft_link_bound* bounds, std::size_t capacity, std::size_t* required) {
+  if (const auto s = checked(avatar); s != FT_OK) return s;
+  MotionModel model{};
+  if (const auto s = readModel(between, model); s != FT_OK) return s;
+  if (!file.ok()) return failure(file.error());
+  FORETOUCH_TRY_OR(
+      failure, const auto known,
+      inFile(boundsOf(file.value(), avatar->parts->avatar.skeleton(), model, rateHz), name));
+  const auto& found = known.bounds;
+  const Room room = roomFor(found.size(), bounds, capacity, required, "bounds");
+  if (room.status != FT_OK || room.isAsking) return room.status;
+  for (std::size_t i = 0; i < found.size(); ++i) bounds[i] = boundOf(found[i]);
+  return FT_OK;
+}
+
 }  // namespace foretouch::c
 
 using namespace foretouch;
@@ -199,18 +218,8 @@ ft_status ft_bounds_read(const char* path, const ft_avatar* avatar, int32_t betw
                          ft_link_bound* bounds, size_t capacity, size_t* required) {
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = needed(path, "path"); s != FT_OK) return s;
-    if (const auto s = checked(avatar); s != FT_OK) return s;
-    MotionModel model{};
-    if (const auto s = readModel(between, model); s != FT_OK) return s;
-    FORETOUCH_TRY_OR(failure, const auto file, readBoundsFile(path));
-    FORETOUCH_TRY_OR(
-        failure, const auto known,
-        inFile(boundsOf(file, avatar->parts->avatar.skeleton(), model, rate_hz), path));
-    const auto& found = known.bounds;
-    const Room room = roomFor(found.size(), bounds, capacity, required, "bounds");
-    if (room.status != FT_OK || room.isAsking) return room.status;
-    for (std::size_t i = 0; i < found.size(); ++i) bounds[i] = boundOf(found[i]);
-    return FT_OK;
+    return writeBounds(readBounds(path), path, avatar, between, rate_hz, bounds, capacity,
+                       required);
   });
 }
 

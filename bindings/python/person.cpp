@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "articulated/motion_model.h"
-#include "assets/bounds/bounds_file.h"
+#include "assets/bounds/bound_presets.h"
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
 #include "bindings/python/int_enum.h"
@@ -241,7 +241,7 @@ py::list readBounds(const Shown<shown::Path>& given, const Avatar& avatar,
                     const Shown<shown::Text>& between, const Shown<shown::Number>& rateHz) {
   const std::string file = path(given, "path");
   const MotionModel model = oneOf(between, "between", kModels);
-  const BoundsFile read = valueOf(readBoundsFile(file));
+  const BoundsFile read = valueOf(foretouch::readBounds(file));
   const LinkBounds known =
       valueOf(inFile(boundsOf(read, avatar.skeleton(), model, number(rateHz, "rate_hz")), file));
   py::list bounds;
@@ -255,8 +255,8 @@ void bindPerson(py::module_& module) {
   verdictType = addIntEnum(module, "BracketVerdict", membersOf<BracketVerdict>(4));
   module.def("read_bounds", &readBounds, py::arg("path"), py::arg("avatar"), py::kw_only(),
              py::arg("between"), py::arg("rate_hz"),
-             "The bounds of a file (foretouch bounds learn): a list of LinkBound, one per link, "
-             "for\n"
+             "The bounds of a file (foretouch bounds learn), or of 'preset:sara-shield',\n"
+             "'preset:optical' or 'preset:vr-trackers': a list of LinkBound, one per link, for\n"
              "poses of this rate with 'constant-rate', 'cubic' or 'cubic-late' between them.");
   py::class_<PythonBracketQuery>(
       module, "BracketQuery",

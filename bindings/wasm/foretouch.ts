@@ -5,6 +5,7 @@
 // page with much to do asks from a worker.
 
 import { type Machine, started } from "./machine.js";
+import { type BracketOptions, BracketQuery, type LinkBound, type MotionModel, readBounds } from "./person.js";
 import { Query } from "./query.js";
 import { Avatar, Clip, type Link, Scene, type SceneArrays } from "./shapes.js";
 import { Solid, type SolidOptions } from "./solid.js";
@@ -12,6 +13,7 @@ import { SolidWorld, type SolidWorldOptions } from "./solid_world.js";
 import { World, type WorldOptions } from "./world.js";
 
 export { ForetouchError, type Point } from "./machine.js";
+export { type BracketOptions, BracketQuery, type BracketVerdict, bracketVerdicts, type LinkBound, type LinkBracket, type MotionModel, motionModels, type PosedStep } from "./person.js";
 export { type Contact, Query, type SweptSurface, type Verdict, verdicts } from "./query.js";
 export { Avatar, Clip, type Link, type Lss, type Pose, type PoseLike, Scene, type SceneArrays } from "./shapes.js";
 export { Solid, type SolidContact, type SolidJointState, solidJointStates, type SolidLimit, solidLimits, type SolidOptions, type SolidState, solidStates, type SolidTick } from "./solid.js";
@@ -55,6 +57,16 @@ export class Foretouch {
   /** What does each link meet first? `tolerance` in metres. */
   query(scene: Scene, avatar: Avatar, { tolerance = 1e-3 }: { tolerance?: number } = {}): Query {
     return new Query(this.machine, scene, avatar, tolerance);
+  }
+
+  /** What did the person touch, surely or perhaps, whatever they did between two poses? */
+  brackets(scene: Scene, avatar: Avatar, options: BracketOptions = {}): BracketQuery {
+    return new BracketQuery(this.machine, scene, avatar, options);
+  }
+
+  /** From a file of `foretouch bounds`, as text, or "preset:NAME": one per link, for poses of this rate. */
+  bounds(file: string, avatar: Avatar, { between, rateHz }: { between: MotionModel; rateHz: number }): LinkBound[] {
+    return readBounds(this.machine, file, avatar, between, rateHz);
   }
 
   /** An avatar that passes through nothing that stands still. */

@@ -11,10 +11,13 @@
 
 #include "articulated/try.h"
 #include "assets/avatar/avatar_file.h"
+#include "assets/bounds/bound_presets.h"
+#include "assets/bounds/bounds_file.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/certificate/certificate_writer.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/last_step.h"
+#include "bindings/c/link_bounds.h"
 #include "lss/index.h"
 #include "tessellation/swept_surface.h"
 
@@ -83,6 +86,19 @@ FTW_EXPORT ft_status ftw_avatar_file(const ft_avatar* avatar, const char** text)
     lastText = formatAvatar(avatar->parts->avatar);
     *text = lastText.c_str();
     return FT_OK;
+  });
+}
+
+/// As ft_bounds_read(), of a file's text, or the name of a preset.
+FTW_EXPORT ft_status ftw_bounds(const char* file, std::size_t length, const ft_avatar* avatar,
+                                std::int32_t between, double rateHz, ft_link_bound* bounds,
+                                std::size_t capacity, std::size_t* required) {
+  return guarded(__func__, [&]() -> ft_status {
+    const std::string text(file, length);
+    const bool isName = text.rfind(kBoundPresetPrefix, 0) == 0;
+    return writeBounds(isName ? readBounds(text) : parseBounds(text, "bounds"),
+                       isName ? text : "bounds", avatar, between, rateHz, bounds, capacity,
+                       required);
   });
 }
 

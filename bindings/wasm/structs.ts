@@ -38,6 +38,20 @@ export const ft_solid_contact = new Struct({
   size, link: i32, lss: i32, triangle: i32, object: i32, other: i32, point, normal: point, gap: f64, push: f64, slipSpeed: f64,
 });
 
+// person.h
+
+export const ft_link_bound = new Struct({
+  error: f64, acceleration: f64, followFloor: f64, followShare: f64, speed: f64, aheadSpeed: f64, aheadAcceleration: f64,
+});
+export const ft_bracket_options = new Struct({ size, fidelity: i32, resolution: f64, ignored: pointer, ignoredCount: u32, self: pointer });
+export const ft_posed_step = new Struct({
+  size, between: i32, before: pointer, from: pointer, to: pointer, after: pointer, secondsBefore: f64, seconds: f64, secondsAfter: f64,
+});
+export const ft_link_bracket = new Struct({
+  size, link: i32, other: i32, verdict: i32, triangle: i32, object: i32, possibleFrom: f64, possibleUntil: f64, certainFrom: f64, certainUntil: f64,
+  growth: f64,
+});
+
 // world.h
 
 export const ft_world_options = new Struct({ size, asksMeshes: i32, tolerance: f64, workPerPair: u64, workPerWindow: u64, mostNear: u64 });

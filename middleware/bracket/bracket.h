@@ -52,14 +52,14 @@ struct PersonStep {
 };
 
 /// Of one link in one step. The link touched nothing on [0, possibleFrom) and (possibleUntil, 1];
-/// it touched something at certainFrom and at certainUntil, if the verdict is Certain.
+/// a Certain one touched something at certainFrom and at certainUntil, or passed it in between.
 struct LinkBracket {
   LinkId link = 0;
   /// An own link above `link`, or a link of the other body; kNoParent: the scene.
   LinkId other = kNoParent;
   BracketVerdict verdict = BracketVerdict::Unclaimed;
   double possibleFrom = 0.0, possibleUntil = 1.0;
-  double certainFrom = 1.0, certainUntil = 0.0;
+  double certainFrom = 1.0, certainUntil = 0.0;  ///< In between, where certainUntil comes first.
   TriangleId triangle = -1;  ///< Of the scene, what is, or may be, touched first; else -1.
   double growth = 0.0;       ///< The largest distance between person and model, of both sides (m).
 };

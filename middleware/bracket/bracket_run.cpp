@@ -22,6 +22,9 @@ constexpr double kStrayShare = 1.0 / 3.0, kStrayResolutions = 2.0;
 /// Up to here (m) all that is near in a step is collected once.
 constexpr double kSmallGrowth = 5e-3;
 
+/// A passage is looked for in so many parts of a step, or more: it is known to such a part.
+constexpr int kWayParts = 16;
+
 /// Who is asked: a link of the first body and the scene, or a link of either body.
 struct Asked {
   LinkId link, other = kNoParent;
@@ -156,9 +159,11 @@ class BracketRun {
                            bracket.certainFrom <= bracket.possibleFrom &&
                            bracket.certainUntil >= bracket.possibleUntil);
     const int level = ask_.isRefined && !isClosed ? levelFor(asked) : memory_.base;
-    if (level <= memory_.base) return;
-    for (const std::size_t body : {std::size_t{0}, asked.otherBody}) cutLevel(body, level);
-    bracketOn(level, asked, bracket);
+    if (level > memory_.base) {
+      for (const std::size_t body : {std::size_t{0}, asked.otherBody}) cutLevel(body, level);
+      bracketOn(level, asked, bracket);
+    }
+    if (asked.other == kNoParent) findPassage(std::max(level, memory_.base), bracket);
   }
 
   void limitIfSmall(double growth, const Asked& asked) {
@@ -264,6 +269,69 @@ class BracketRun {
     const auto until = find(level, asked, {Body::Shrunk, Way::Backward}, bracket.possibleUntil,
                             bracket.certainUntil, inside);
     bracket.certainUntil = std::max(bracket.certainUntil, until.value_or(0.0));
+  }
+
+  /// Of ends of axes that are thinner than their growth: the shrunk body says nothing of those.
+  void findPassage(int level, LinkBracket& bracket) {
+    const bool isOpen =
+        bracket.verdict == BracketVerdict::Possible && bracket.possibleFrom < bracket.possibleUntil;
+    if (!isOpen || ask_.isAhead || plan_.bodies[0].surface) return;
+    for (const Lss& lss : lssOf(0, bracket.link)) {
+      if (lss.radius >= bracket.growth) continue;
+      for (const Vector3d& end : {lss.a, lss.b}) {
+        setWay(level, bracket, end);
+        const auto passed = memory_.passage.find(*plan_.scene, memory_.ignored, memory_.way);
+        if (!passed) continue;
+        const bool isFirst = bracket.verdict == BracketVerdict::Possible;
+        bracket.verdict = BracketVerdict::Certain;
+        if (!isFirst && passed->by >= bracket.certainFrom) continue;
+        bracket.certainFrom = passed->by;
+        bracket.certainUntil = passed->after;
+      }
+    }
+  }
+
+  /// Of a point of the link, while it may touch something.
+  void setWay(int level, const LinkBracket& bracket, const Vector3d& p_L) {
+    std::vector<PassagePart>& way = memory_.way;
+    way.clear();
+    ModelPieces& pieces = piecesOf(0, level);
+    const int count = std::max(kWayParts, pieces.count());
+    double begin = bracket.possibleFrom;
+    for (int i = 1; i <= count; ++i) {
+      const double end = std::min(static_cast<double>(i) / count, bracket.possibleUntil);
+      if (end <= begin) continue;
+      ModelPiece& piece = pieces.piece(pieces.at(0.5 * (begin + end)));
+      const PassagePart part = passagePart(piece, bracket.link, p_L, begin, end);
+      // The halves of a gap stand at different places.
+      if (!ask_.isContinuous && !way.empty() && way.back().to != part.from) {
+        const PassagePart& last = way.back();
+        const double radius = std::max(last.radiusTo, part.radiusFrom);
+        way.push_back({begin, begin, last.to, part.from, radius, radius, radius});
+      }
+      way.push_back(part);
+      begin = end;
+    }
+  }
+
+  [[nodiscard]] PassagePart passagePart(ModelPiece& piece, LinkId link, const Vector3d& p_L,
+                                        double begin, double end) const {
+    const auto localOf = [&](double t) {
+      return std::clamp((t - piece.begin) / (piece.end - piece.begin), 0.0, 1.0);
+    };
+    const double from = localOf(begin), to = localOf(end);
+    const Growth growth = ask_.growths.of(piece, 0, link);
+    const AxisBounds bounds = axisBounds({p_L, p_L, 0.0}, piece.motion.bounds(link));
+    // Pieces meet to within rounding, and so do instants of both.
+    const double rounding = 4.0 * bounds.positionRoundingA;
+    const double sagitta = bounds.accelerationA * (to - from) * (to - from) / 8.0;
+    return {begin,
+            end,
+            piece.evaluator.stateAt(link, from).pointAt(p_L),
+            piece.evaluator.stateAt(link, to).pointAt(p_L),
+            growth.mostIn(from, to) + sagitta + rounding,
+            growth.at(from) + rounding,
+            growth.at(to) + rounding};
   }
 
   /// The first instant that the search finds from `from` to `to` of the step, which is before it on

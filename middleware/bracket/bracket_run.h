@@ -13,6 +13,7 @@
 #include "middleware/bracket/model_pieces.h"
 #include "middleware/bracket/person_growth.h"
 #include "middleware/bracket/side_bracket.h"
+#include "middleware/bracket/surface_passage.h"
 #include "middleware/pair/ignored_objects.h"
 #include "middleware/pair/pairs_asked.h"
 #include "middleware/scene/flat_bvh_lanes.h"
@@ -56,6 +57,8 @@ struct BracketMemory : ScratchPart {
   bool isLimited = false;
   MovingSides sides;
   SideBracketer bracketer;
+  SurfacePassage passage;
+  std::vector<PassagePart> way;
   IgnoredObjects ignored;
 };
 

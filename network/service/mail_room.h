@@ -27,7 +27,14 @@
 
 namespace foretouch {
 
-enum class MailKind : std::uint8_t { Skeleton, Pose, Body, RigidPose, Step };
+enum class MailKind : std::uint8_t {
+  Skeleton,
+  Pose,
+  Body,
+  RigidPose,
+  Step,
+  Silence  ///< Of an avatar: no pose has come for long, or none will.
+};
 
 /// What an avatar's stream has to tell the world: records, and the step that an accepted pose
 /// ended.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -194,7 +195,21 @@ struct Service::Impl final : internal::Outlet {
     counter.wire(parts.receiver->counts());
     for (WireMessage& message : arrived) sort(message, mail);
     if (!received.ok()) fail(received.error());
-    return isLast || !received.ok();
+    const bool isOver = isLast || !received.ok();
+    tellSilence(isOver, mail);
+    return isOver;
+  }
+
+  /// To those whose persons wait for a pose.
+  void tellSilence(bool isOver, std::unique_ptr<Mail>& mail) {
+    if (parts.persons.empty()) return;
+    const auto now = std::chrono::steady_clock::now();
+    for (std::size_t index = 0; index < streams.size(); ++index) {
+      if (!streams[index].waitsInVain(now, isOver)) continue;
+      mail->kind = MailKind::Silence;
+      mail->receiveUtimeUs = parts.clock->utimeUs();
+      static_cast<void>(room.post(index, mail));
+    }
   }
 
   void sort(WireMessage& message, std::unique_ptr<Mail>& mail) {

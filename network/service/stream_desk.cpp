@@ -5,6 +5,12 @@
 #include "network/wire/codec.h"
 
 namespace foretouch::internal {
+namespace {
+
+/// A pose that has not come so long after the last one is not waited for (docs/streaming.md).
+constexpr std::chrono::milliseconds kSilence{1000};
+
+}  // namespace
 
 StreamDesk::StreamDesk(StreamSolver solver, const SpeakerPolicy& policy, std::size_t index,
                        const StreamSurroundings& surroundings)
@@ -19,13 +25,22 @@ Reject StreamDesk::refusal(const Mail& mail, bool isSigned) {
     const Reject old = guard.take(mail.sentUtimeUs, mail.receiveUtimeUs);
     if (old != Reject::None) return old;
   }
-  const bool mayPass = !isPose || stream_.mayPass(mail.sender, mail.receiveUtimeUs);
-  return mayPass ? Reject::None : Reject::OtherSender;
+  if (!isPose) return Reject::None;
+  if (!stream_.mayPass(mail.sender, mail.receiveUtimeUs)) return Reject::OtherSender;
+  posedAt_ = std::chrono::steady_clock::now();
+  return Reject::None;
+}
+
+bool StreamDesk::waitsInVain(std::chrono::steady_clock::time_point now, bool isOver) {
+  if (person_ == nullptr || !posedAt_ || (!isOver && now - *posedAt_ < kSilence)) return false;
+  posedAt_.reset();
+  return true;
 }
 
 void StreamDesk::take(const Mail& mail, StreamMemory& memory) {
   if (isBroken_) return reject(mail.kind, Reject::Overrun);
   isCounted_ = false;
+  if (mail.kind == MailKind::Silence) return endWait(mail, memory);
   HeldStream record(service_.channels, service_.counter, memory.held);
   if (mail.kind == MailKind::Pose) return answer(mail, memory, record);
   const Heard heard{mail.sender, mail.receiveUtimeUs, mail.payload};
@@ -61,7 +76,10 @@ void StreamDesk::answer(const Mail& mail, StreamMemory& memory, StreamRecord& re
   service_.counter.answeredPose(static_cast<double>(sentUtimeUs - mail.receiveUtimeUs),
                                 answer.queryUs);
   if (stream_.solid() != nullptr) show(*stream_.solid(), mail, memory);
-  if (person_ != nullptr) sayPerson(mail, memory);
+  if (person_ != nullptr) {
+    person_->follow(stream_.solver().lastStep());
+    sayPerson(mail, memory);
+  }
   settle(mail, &stream_.solver().lastStep(), memory);
   observe(memory);
 }
@@ -71,9 +89,9 @@ void StreamDesk::observe(const StreamMemory& memory) {
   if (observer == nullptr || !observer->wants(index_)) return;
   const StreamStep& step = stream_.solver().lastStep();
   const SolidStream* const solid = stream_.solid();
-  if (solid == nullptr) return observer->observe(index_, step, memory.answer, nullptr);
+  if (solid == nullptr) return observer->observe(index_, step, memory.answer, nullptr, person_);
   const ShownStep shown{solid->shownBefore(), memory.shown};
-  observer->observe(index_, step, memory.answer, &shown);
+  observer->observe(index_, step, memory.answer, &shown, person_);
 }
 
 /// Records what the stream said and was answered. Where there is a world, in the order in which it
@@ -106,8 +124,13 @@ void StreamDesk::show(SolidStream& solid, const Mail& mail, StreamMemory& memory
   service_.solids.shown(memory.shown);
 }
 
+void StreamDesk::endWait(const Mail& mail, StreamMemory& memory) {
+  person_->endWait();
+  sayPerson(mail, memory);
+  settle(mail, nullptr, memory);
+}
+
 void StreamDesk::sayPerson(const Mail& mail, StreamMemory& memory) {
-  person_->follow(stream_.solver().lastStep());
   for (std::size_t i = 0; i < person_->numSaid(); ++i) {
     PersonMessage& said = person_->said(i);
     said.receiveUtimeUs = mail.receiveUtimeUs;
@@ -134,6 +157,7 @@ void StreamDesk::tellKnown() {
 }
 
 void StreamDesk::reject(MailKind kind, Reject reason) {
+  if (kind == MailKind::Silence) return;  // nobody sent it
   kind == MailKind::Pose ? service_.counter.rejectedPose(reason)
                          : service_.counter.rejectedSkeleton(reason);
 }

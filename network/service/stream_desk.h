@@ -3,6 +3,7 @@
 // installed.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -52,8 +53,12 @@ class StreamDesk {
   /// Of the same avatar; outlives this.
   void sayOf(PersonStream& person) { person_ = &person; }
 
-  /// Why mail that just came is not for the box; None: it is. For the receiving thread.
+  // For the receiving thread.
+  /// Why mail that just came is not for the box; None: it is.
   [[nodiscard]] Reject refusal(const Mail& mail, bool isSigned);
+  /// Whether its person waits for a pose that has not come for long, or, if nothing comes any more,
+  /// never will. Says so once: a MailKind::Silence then ends the wait.
+  [[nodiscard]] bool waitsInVain(std::chrono::steady_clock::time_point now, bool isOver);
   /// Answers. After an exception, see abandon().
   void take(const Mail& mail, StreamMemory& memory);
   /// An exception has left the stream's state unknown: it answers nothing more. Refuses the mail,
@@ -63,6 +68,7 @@ class StreamDesk {
  private:
   void answer(const Mail& mail, StreamMemory& memory, StreamRecord& record);
   void show(SolidStream& solid, const Mail& mail, StreamMemory& memory);
+  void endWait(const Mail& mail, StreamMemory& memory);
   void sayPerson(const Mail& mail, StreamMemory& memory);
   void settle(const Mail& mail, const StreamStep* step, StreamMemory& memory);
   void observe(const StreamMemory& memory);
@@ -78,7 +84,8 @@ class StreamDesk {
   PersonStream* person_ = nullptr;
   StreamCounts added_;                          // of the solver's counts, what is added up already
   std::vector<std::int64_t> known_, nowKnown_;  // hashes that the room knows of; scratch
-  ReplayGuard skeletons_, poses_;               // of the receiving thread
+  ReplayGuard skeletons_, poses_;               // of the receiving thread, as the next member
+  std::optional<std::chrono::steady_clock::time_point> posedAt_;  // the last pose that waits
   bool isCounted_ = false;                      // the mail at hand
   bool isBroken_ = false;
 };

@@ -100,17 +100,22 @@ void PersonStream::keep(const StreamStep& step) {
 }
 
 void PersonStream::follow(const StreamStep& step) {
+  const bool isWaiting = waits();
   numSaid_ = 0;
   broken_.clear();
+  hasEndedWait_ = false;
+  session_ = step.session;
   if (step.kind == StepKind::Consecutive && numKept_ > 0) {
     checkAhead(step);
     keep(step);
-    const bool isLate = model_ == MotionModel::CubicLate;
-    if (!isLate) sayStep(step, 0);
-    if (isLate && numKept_ > 2) sayStep(step, 1);
+    if (model_ != MotionModel::CubicLate) {
+      sayStep(step, 0);
+    } else if (isWaiting) {
+      sayStep(step, 1);
+    }
   } else {
     // What was waited for does not come.
-    if (model_ == MotionModel::CubicLate && numKept_ > 1) sayStep(step, 0);
+    if (isWaiting) sayStep(step, 0);
     keep(step);
     if (step.kind == StepKind::AcrossGap && numKept_ > 1) sayGap(step);
     std::swap(kept_[0], kept_[(numKept_ - 1) % kept_.size()]);
@@ -122,6 +127,27 @@ void PersonStream::follow(const StreamStep& step) {
   PersonMessage& last = said_[numSaid_ - 1];
   last.broken = broken_;
   lookAhead(last);
+}
+
+/// For the pose after the newest step.
+bool PersonStream::waits() const {
+  return model_ == MotionModel::CubicLate && numKept_ > 1 && !hasEndedWait_;
+}
+
+void PersonStream::endWait() {
+  numSaid_ = 0;
+  if (!waits()) return;
+  StreamStep step;
+  step.session = session_;
+  step.sequenceTo = back(0)->sequence;
+  step.utimeToUs = back(0)->utimeUs;
+  sayStep(step, 0);
+  hasEndedWait_ = true;
+}
+
+bool PersonStream::isEndOfWait(const PersonMessage& message) const {
+  return waits() && message.kind == StepKind::Consecutive && message.session == session_ &&
+         message.sequence == back(0)->sequence && message.sequenceTo == message.sequence;
 }
 
 PersonMessage& PersonStream::begin(const StreamStep& step) {

@@ -5,7 +5,8 @@
 // alone, so that a recorded stream repeats it.
 //
 // - A step is answered when its poses are known: of MotionModel::CubicLate a pose later, or where a
-//   gap or another timeline begins. So a pose has one message, or two.
+//   gap or another timeline begins, or the wait for the pose ends (endWait()). So a pose has one
+//   message, or two.
 // - A bound is about poses at its rate: of a step that is not so long nothing is claimed.
 // - A link that a pose does not know is unclaimed in every step whose curve that pose bends.
 // - Across lost poses only LinkBound::speed and error count, at the rate that the lost ones had.
@@ -53,8 +54,13 @@ class PersonStream {
 
   /// Follows the step of one accepted pose, in the order of acceptance.
   void follow(const StreamStep& step);
-  /// What the last pose lets be said: one message or two, but for the stamps of receiving and
-  /// sending.
+  /// The pose that is waited for has not come for long, or never will: says the last step without
+  /// it. Nothing is said where nothing waits.
+  void endWait();
+  /// Whether this is what endWait() says now: a recorded stream says when a wait ended.
+  [[nodiscard]] bool isEndOfWait(const PersonMessage& message) const;
+  /// What the last pose, or the end of a wait, lets be said: one message or two, or none, but for
+  /// the stamps of receiving and sending.
   [[nodiscard]] std::size_t numSaid() const { return numSaid_; }
   [[nodiscard]] PersonMessage& said(std::size_t i) { return said_[i]; }
   [[nodiscard]] const PersonMessage& said(std::size_t i) const { return said_[i]; }
@@ -75,6 +81,7 @@ class PersonStream {
   [[nodiscard]] static PosedStep between(const Kept& from, const Kept& to);
   void keep(const StreamStep& step);
   [[nodiscard]] const Kept* back(int i) const;
+  [[nodiscard]] bool waits() const;
   const std::vector<LinkBound>& claimed(double rateHz, std::initializer_list<const Kept*> ends);
   PersonMessage& begin(const StreamStep& step);
   PersonMessage& begin(const StreamStep& step, StepKind kind, const Kept& from, const Kept& to);
@@ -97,6 +104,8 @@ class PersonStream {
   /// The newest is kept_[(numKept_ - 1) % size].
   std::array<Kept, 4> kept_;
   std::size_t numKept_ = 0;  // since the timeline began, or the last gap
+  std::int64_t session_ = 0;
+  bool hasEndedWait_ = false;  // the newest step is said already
   std::vector<std::int64_t> notBeforeUs_, nowNotBeforeUs_;
   std::vector<BrokenBound> broken_;  // of the pose at hand
   std::array<PersonMessage, 2> said_;

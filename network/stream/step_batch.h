@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "articulated/skeleton.h"
+#include "middleware/bracket/bracket.h"
 #include "network/stream/avatar_stream.h"
 #include "network/stream/step_observer.h"
 #include "network/wire/messages.h"
@@ -33,6 +34,12 @@ struct WatchedSolid {
   std::int64_t snapInUs = -1;
 };
 
+/// What a person surely touched, or may have touched, in a step.
+struct WatchedBracket {
+  LinkBracket bracket;
+  std::int64_t utimeFromUs = 0, utimeToUs = 0;
+};
+
 struct WatchedStep {
   Pose from, to;  ///< Parent-relative, of the avatar's joints.
   StepKind kind = StepKind::First;
@@ -46,8 +53,9 @@ struct WatchedStep {
 
 class StepBatch {
  public:
-  /// Adds a step after the others. `shown`: null if the avatar is not solid.
-  void add(const StreamStep& step, const ContactsMessage& answer, const ShownStep* shown);
+  /// Adds a step after the others, as StepObserver::observe() has it.
+  void add(const StreamStep& step, const ContactsMessage& answer, const ShownStep* shown,
+           const PersonStream* person);
   /// Keeps its memory.
   void clear();
 
@@ -58,6 +66,8 @@ class StepBatch {
   [[nodiscard]] const std::vector<LinkContact>& contacts() const { return contacts_; }
   /// The steps that have any of these, in order.
   [[nodiscard]] const std::vector<BatchedStep>& touchingSteps() const { return touchingSteps_; }
+  /// Of the person, step by step; beyond kMaxBatchContacts none.
+  [[nodiscard]] const std::vector<WatchedBracket>& brackets() const { return brackets_; }
   /// Contacts beyond kMaxBatchContacts.
   [[nodiscard]] std::uint64_t numLeftOut() const { return numLeftOut_; }
 
@@ -65,6 +75,7 @@ class StepBatch {
   WatchedStep newest_;
   std::vector<LinkContact> contacts_;
   std::vector<BatchedStep> touchingSteps_;
+  std::vector<WatchedBracket> brackets_;
   std::uint64_t numSteps_ = 0, numLeftOut_ = 0;
 };
 

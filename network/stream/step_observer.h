@@ -15,6 +15,8 @@ struct ShownStep {
   const SolidMessage& answer;
 };
 
+class PersonStream;
+
 class StepObserver {
  public:
   virtual ~StepObserver() = default;
@@ -22,10 +24,10 @@ class StepObserver {
   /// an atomic load.
   [[nodiscard]] virtual bool wants(std::size_t avatar) const noexcept = 0;
   /// One thread at a time per avatar, after its answer was sent. `shown`: null if the avatar is not
-  /// solid. Must copy what it needs later, and
+  /// solid; `person`: what it says now; null if it is not asked. Must copy what it needs later, and
   /// must never wait: it delays the avatar's next answer.
   virtual void observe(std::size_t avatar, const StreamStep& step, const ContactsMessage& answer,
-                       const ShownStep* shown) noexcept = 0;
+                       const ShownStep* shown, const PersonStream* person) noexcept = 0;
 };
 
 }  // namespace foretouch

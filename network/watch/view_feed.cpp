@@ -58,7 +58,7 @@ bool ViewFeed::wants(std::size_t avatar) const noexcept {
 }
 
 void ViewFeed::observe(std::size_t avatar, const StreamStep& step, const ContactsMessage& answer,
-                       const ShownStep* shown) noexcept {
+                       const ShownStep* shown, const PersonStream* person) noexcept {
   Box& box = boxes_[avatar];
   Wish one = Wish::One;
   const bool isOnlyOne = box.wish.load(std::memory_order_relaxed) == Wish::One &&
@@ -68,7 +68,7 @@ void ViewFeed::observe(std::size_t avatar, const StreamStep& step, const Contact
     if (!batch) batch = box.empty.take();
     if (!batch) batch = std::make_unique<StepBatch>();
     if (isOnlyOne) batch->clear();  // a sample replaces earlier ones
-    batch->add(step, answer, shown);
+    batch->add(step, answer, shown, person);
     box.full.put(std::move(batch));
   } catch (...) {
     box.numFailed.fetch_add(1, std::memory_order_relaxed);

@@ -39,7 +39,7 @@ class ViewFeed final : public StepObserver {
   // For the answering threads.
   [[nodiscard]] bool wants(std::size_t avatar) const noexcept override;
   void observe(std::size_t avatar, const StreamStep& step, const ContactsMessage& answer,
-               const ShownStep* shown) noexcept override;
+               const ShownStep* shown, const PersonStream* person) noexcept override;
 
   // For the watching thread.
   [[nodiscard]] std::size_t numAvatars() const { return numAvatars_; }

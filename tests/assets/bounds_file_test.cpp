@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "assets/bounds/bound_presets.h"
+
 namespace foretouch {
 namespace {
 
@@ -124,6 +126,56 @@ TEST(BoundsFile, NamesALinkThatTheAvatarDoesNotHave) {
   const auto bounds = boundsOf(file.value(), person(), MotionModel::Cubic, 30.0);
   ASSERT_FALSE(bounds.ok());
   EXPECT_NE(describe(bounds.error()).find("did you mean 'LeftHand'"), std::string::npos);
+}
+
+TEST(BoundPresets, StandForAFile) {
+  const auto file = readBounds("preset:sara-shield");
+  ASSERT_TRUE(file.ok()) << describe(file.error());
+  EXPECT_FALSE(file.value().source.empty());
+  const auto known = boundsOf(file.value(), person(), MotionModel::ConstantRate, 30.0);
+  ASSERT_TRUE(known.ok()) << describe(known.error());
+  const std::vector<LinkBound>& bounds = known.value().bounds;
+  // Twice 25 m/s^2 of trunk and head, twice 50 of hands, and of what has no known name.
+  const double wanted[] = {50.0, 50.0, 100.0, 100.0, 100.0};
+  for (std::size_t link = 0; link < bounds.size(); ++link) {
+    EXPECT_EQ(bounds[link].acceleration, wanted[link]) << link;
+    EXPECT_EQ(bounds[link].aheadAcceleration, wanted[link]) << link;
+    EXPECT_EQ(bounds[link].aheadSpeed, 0.1);
+    EXPECT_EQ(bounds[link].speed, 2.0);
+    EXPECT_EQ(bounds[link].error, 0.0);
+  }
+  EXPECT_FALSE(boundsOf(file.value(), person(), MotionModel::Cubic, 30.0).ok());
+}
+
+TEST(BoundPresets, ClaimNothingOfWhatIsNotTracked) {
+  const auto file = readBounds("preset:vr-trackers");
+  ASSERT_TRUE(file.ok());
+  const auto bounds = boundsOf(file.value(), person(), MotionModel::ConstantRate, 90.0).value();
+  EXPECT_EQ(bounds.bounds[2].error, 0.042);
+  EXPECT_EQ(bounds.bounds[2].aheadAcceleration, LinkBound::kNone);
+  EXPECT_EQ(bounds.bounds[0].acceleration, LinkBound::kNone);
+  EXPECT_EQ(bounds.entryOf[4], -1);
+  EXPECT_EQ(readBounds("preset:optical").value().entries.back().bound.error, 0.002);
+}
+
+TEST(BoundPresets, AreRefusedByNameWithThoseThatThereAre) {
+  const auto none = readBounds("preset:optcal");
+  ASSERT_FALSE(none.ok());
+  const std::string said = describe(none.error());
+  for (const char* const word : {"preset:sara-shield", "preset:optical", "preset:vr-trackers",
+                                 "'preset:optcal'", "did you mean"}) {
+    EXPECT_NE(said.find(word), std::string::npos) << said;
+  }
+}
+
+TEST(BoundPresets, SurviveWriting) {
+  for (const char* const name : {"preset:sara-shield", "preset:optical", "preset:vr-trackers"}) {
+    const BoundsFile preset = readBounds(name).value();
+    const std::string text = formatBounds(preset);
+    const auto read = parseBounds(text, name);
+    ASSERT_TRUE(read.ok()) << describe(read.error());
+    EXPECT_EQ(formatBounds(read.value()), text);
+  }
 }
 
 }  // namespace

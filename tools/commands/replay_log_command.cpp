@@ -55,6 +55,9 @@ Result<LogReplayReport> runLogReplay(const LogReplayJob& job,
   });
   if (!replayed.ok() || guard.requested()) return replayed;
   for (const std::string& remark : replayed.value().remarks) printNote(remark);
+  for (const PersonMessage& said : replayed.value().ended) {
+    file.write(personStepLine(said, Stamps::Without));
+  }
   touches.finish();
   summary.add(touches.counts());
   file.write(touches.lines());

@@ -16,6 +16,7 @@
 #include "tools/progress.h"
 #include "tools/report/document_parts.h"
 #include "tools/report/report_file.h"
+#include "tools/report/view_person.h"
 #include "tools/report/world_report.h"
 #include "tools/results_output.h"
 #include "tools/world/followed_world.h"
@@ -137,7 +138,11 @@ class WorldReplay {
     if (asked_.report.path.empty() || guard.requested()) return Done{};
     return writeReport(asked_.report.path, guard,
                        [&](const ReportProgress& watch) -> Result<ViewDocument> {
-                         return report.document(&summary_, &touches, watch);
+                         ViewDocument document = report.document(&summary_, &touches, watch);
+                         if (persons_ && document.avatars.size() == world_.bodies.size()) {
+                           addPersons(world_, *persons_, document);
+                         }
+                         return document;
                        });
   }
 

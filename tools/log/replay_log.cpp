@@ -139,6 +139,8 @@ class LogReplay {
       auto remark = remarkOnMeshes(solvers_[i].options(), inputs_.request.avatars[i].path);
       if (remark) report_.remarks.push_back(std::move(*remark));
     }
+    if (!compares_.persons)
+      std::for_each(persons_.begin(), persons_.end(), [this](auto& person) { endWait(person); });
     if (log.isTruncated || log.tailEvents > 0) closeAtEnd();
     for (const StreamSolver& solver : solvers_) {
       const StreamCounts& counts = solver.counts();
@@ -195,6 +197,16 @@ class LogReplay {
 
   void sayPerson(PersonStream& person, const StreamStep& step) {
     person.follow(step);
+    addSaid(person);
+  }
+
+  void endWait(PersonStream& person) {
+    person.endWait();
+    for (std::size_t i = 0; i < person.numSaid(); ++i) report_.ended.push_back(person.said(i));
+    addSaid(person);
+  }
+
+  void addSaid(PersonStream& person) {
     for (std::size_t i = 0; i < person.numSaid(); ++i) {
       ++report_.said;
       if (!compares_.persons) continue;
@@ -256,6 +268,9 @@ class LogReplay {
     } else if (decode(event.payload, recordedPerson_) != Reject::None) {
       ++report_.unreadableAnswers;
     } else if (solverOf(recordedPerson_.avatar) != nullptr) {
+      // When a wait ended the clock said, and only the log knows.
+      PersonStream& person = persons_[indexOf_.at(recordedPerson_.avatar)];
+      if (person.isEndOfWait(recordedPerson_)) endWait(person);
       report_.persons.addRecorded(recordedPerson_, event.payload);
     }
   }

@@ -61,6 +61,7 @@ struct LogReplayReport {
   JournalCheck solids{AnswerKind::Solid};  ///< Of the shown poses, if solid avatars are asked for.
   std::int64_t solidsNotAsked = 0;         ///< Shown poses in the log otherwise.
   std::int64_t said = 0;                   ///< Messages about persons.
+  std::vector<PersonMessage> ended;        ///< Of these, last steps whose next pose did not come.
   JournalCheck persons{AnswerKind::Person};  ///< Of these, if they are asked for.
   std::int64_t personsNotAsked = 0;          ///< In the log otherwise.
   std::int64_t eventsNotAsked = 0;           ///< Of a moving world, in the log; without one.

@@ -19,6 +19,17 @@ void writeBeginAndEnd(const PersonTouch& touch, const char* begins, const char* 
   out.endArray();
 }
 
+void writeShownTouch(const PersonTouch& touch, const std::string& object, JsonWriter& out) {
+  out.field("link", touch.link);
+  if (touch.other != kNoParent) out.field("other", touch.other);
+  if (!object.empty()) out.field("object", object);
+  out.field("verdict", touch.isCertain ? "certain" : "possible");
+  writeBeginAndEnd(touch, "begins", "ends", out);
+  if (touch.beginsBefore) out.field("began_before", true);
+  if (touch.endsAfter) out.field("goes_on", true);
+  out.field("growth", touch.growth);
+}
+
 std::string personTouchLine(const PersonNames& names, const PersonTouch& touch) {
   std::string text;
   JsonWriter out(text);

@@ -34,6 +34,8 @@ struct PersonNames {
 /// is not certain is null.
 void writeBeginAndEnd(const PersonTouch& touch, const char* begins, const char* ends,
                       JsonWriter& out);
+/// The fields of a touch that a page shows (docs/formats.md, "View documents").
+void writeShownTouch(const PersonTouch& touch, const std::string& object, JsonWriter& out);
 /// {"person_touch": {...}} (docs/formats.md).
 [[nodiscard]] std::string personTouchLine(const PersonNames& names, const PersonTouch& touch);
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "articulated/try.h"
+#include "assets/bounds/bound_presets.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
 #include "middleware/bracket/axis_places.h"
@@ -171,7 +172,7 @@ void PersonCounts::addExcluded(std::int64_t more) {
 
 Result<LinkBounds> personBounds(const ReplayInputs& inputs, const PersonRequest& request) {
   if (!request.isAsked()) return LinkBounds{};
-  FORETOUCH_TRY(const BoundsFile file, readBoundsFile(request.boundsPath));
+  FORETOUCH_TRY(const BoundsFile file, readBounds(request.boundsPath));
   return inFile(boundsOf(file, inputs.avatar.skeleton(), request.model, rateOf(inputs)),
                 request.boundsPath);
 }

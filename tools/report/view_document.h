@@ -166,15 +166,17 @@ struct ViewFoot {
   std::vector<ViewStance> stances;
 };
 
-/// What a link of the only avatar's person surely touched, or may have touched.
+/// What a link of a person surely touched, or may have touched.
 struct ViewPersonTouch {
   PersonTouch touch;
-  std::string object;  ///< Of the scene; empty: not known.
+  std::string object;      ///< Of the scene, or of another body; empty: not known.
+  std::size_t avatar = 0;  ///< Whose link it is; `touch.other` is an own one.
 };
 
+/// Of the only avatar's person, or of all of a world's.
 struct ViewPerson {
   std::string bounds, between;
-  double rateHz = 0.0;
+  double rateHz = 0.0;                   ///< 0: each has its own.
   std::vector<ViewPersonTouch> touches;  ///< In the order of their begins.
 };
 

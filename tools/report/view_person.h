@@ -7,6 +7,7 @@
 #include "tools/inputs/replay_inputs.h"
 #include "tools/person/person_touches.h"
 #include "tools/report/view_document.h"
+#include "tools/world/world_person.h"
 
 namespace foretouch::tools {
 
@@ -14,5 +15,8 @@ namespace foretouch::tools {
 /// without an answer.
 void addPerson(const ReplayInputs& inputs, const PersonRequest& request,
                const std::optional<PersonAnswer>& answer, ViewDocument& document);
+
+/// The same of all persons of a world.
+void addPersons(const LoadedWorld& world, const WorldPersons& persons, ViewDocument& document);
 
 }  // namespace foretouch::tools

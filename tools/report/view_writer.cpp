@@ -337,16 +337,9 @@ void write(const ViewFoot& foot, Writer& out) {
 }
 
 void write(const ViewPersonTouch& shown, Writer& out) {
-  const PersonTouch& touch = shown.touch;
   out.beginObject();
-  out.field("link", touch.link);
-  if (touch.other != kNoParent) out.field("other", touch.other);
-  if (!shown.object.empty()) out.field("object", shown.object);
-  out.field("verdict", touch.isCertain ? "certain" : "possible");
-  writeBeginAndEnd(touch, "begins", "ends", out);
-  if (touch.beginsBefore) out.field("began_before", true);
-  if (touch.endsAfter) out.field("goes_on", true);
-  out.field("growth", touch.growth);
+  if (shown.avatar > 0) out.field("avatar", shown.avatar);
+  writeShownTouch(shown.touch, shown.object, out);
   out.endObject();
   out.handOnPieces();
 }
@@ -355,7 +348,7 @@ void write(const ViewPerson& person, Writer& out) {
   out.beginObject();
   out.field("bounds", person.bounds);
   out.field("between", person.between);
-  out.field("rate_hz", person.rateHz);
+  if (person.rateHz > 0.0) out.field("rate_hz", person.rateHz);
   out.list("touches", person.touches, [&](const ViewPersonTouch& touch) { write(touch, out); });
   out.endObject();
 }

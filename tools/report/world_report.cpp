@@ -38,11 +38,6 @@ bool isToldOfOther(const LoadedWorld& world, BodyId a, BodyId b) {
   return links(a) == 1 && links(b) > 1;
 }
 
-std::string labelOf(const LoadedWorld& world, BodyId body, LinkId link) {
-  const std::string name = world.linkNameOf(body, link);
-  return name.empty() ? world.nameOf(body) : world.nameOf(body) + ": " + name;
-}
-
 /// The step of a track that covers an instant; nothing if none does.
 std::optional<std::size_t> stepAt(const ViewTrack& track, double timeS) {
   const auto begins = [&](double time, std::uint32_t from) {
@@ -89,7 +84,7 @@ std::optional<ReportedContact> rowOf(const LoadedWorld& world, const WorldContac
   }
   row.other = other.link;
   row.otherBody = other.body == own.body ? -1 : other.body;
-  row.object = labelOf(world, other.body, other.link);
+  row.object = world.labelOf(other.body, other.link);
   return row;
 }
 
@@ -146,7 +141,7 @@ std::optional<ViewTouch> viewOf(const LoadedWorld& world, const WorldTouch& touc
   if (sides.b != kStillScene) {
     const BodyId other = isTurned ? sides.a : sides.b;
     view.touch.other = isTurned ? sides.linkOfA : sides.linkOfB;
-    view.touch.object = labelOf(world, other, view.touch.other);
+    view.touch.object = world.labelOf(other, view.touch.other);
     if (sides.a != sides.b) view.otherAvatar = slotOf(other);
   }
   const ViewTrack& track = *document.avatars[view.avatar].track;
@@ -314,7 +309,7 @@ void WorldReport::addUnresolved(ViewDocument& document) const {
     view.touch.link = std::max(0, part.a.link);
     view.touch.object = part.b.body == kEveryBody    ? "everybody"
                         : part.b.body == kStillScene ? "the scene"
-                                                     : labelOf(world_, part.b.body, part.b.link);
+                                                     : world_.labelOf(part.b.body, part.b.link);
     view.touch.beginS = LoadedWorld::secondsOf(part.from);
     view.touch.endS = LoadedWorld::secondsOf(part.to);
     view.touch.isOpen = part.goesOn;

@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <vector>
 
+#include "assets/bounds/bound_presets.h"
+
 namespace foretouch::tools {
 
 std::string besideFile(const std::string& path, const std::string& from) {
-  if (path.empty()) return path;
+  if (path.empty() || path.rfind(kBoundPresetPrefix, 0) == 0) return path;
   return (std::filesystem::path(from).parent_path() / path).string();
 }
 

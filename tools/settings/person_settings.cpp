@@ -24,7 +24,8 @@ void addPersonSettings(Settings& settings, PersonRequest& request) {
   settings
       .path("--bounds", "FILE", request.boundsPath,
             "Also what the person surely touched, perhaps, or not at all, within these bounds on "
-            "how far they are from the motion between two poses (foretouch bounds)")
+            "how far they are from the motion between two poses (foretouch bounds), or "
+            "preset:sara-shield, preset:optical or preset:vr-trackers")
       .files("json")
       .in(kPersonGroup)
       .inConfig("person", "bounds");

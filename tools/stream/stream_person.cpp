@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "articulated/try.h"
+#include "assets/bounds/bound_presets.h"
 
 namespace foretouch::tools {
 
@@ -11,7 +12,7 @@ Result<std::vector<PersonStream>> makePersons(const PersonRequest& request,
                                               const Scene& scene) {
   std::vector<PersonStream> persons;
   if (!request.isAsked()) return persons;
-  FORETOUCH_TRY(const auto bounds, readBoundsFile(request.boundsPath));
+  FORETOUCH_TRY(const auto bounds, readBounds(request.boundsPath));
   for (const StreamSolver& solver : solvers) {
     const PersonStreamOptions options{bounds, request.model, request.aheadUs,
                                       bracketOptionsOf(solver.options())};

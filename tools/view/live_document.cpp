@@ -48,6 +48,11 @@ std::string liveDocument(const ServeConfig& config, const ServedWorld& world) {
   for (std::size_t i = 0; i < world.avatars.size(); ++i) {
     document.avatars.push_back(viewOf(config.avatars[i], world.avatars[i], document.notes));
   }
+  if (config.person.isAsked()) {
+    document.person.emplace();
+    document.person->bounds = fileName(config.person.boundsPath);
+    document.person->between = toString(config.person.model);
+  }
   // The avatars' paths are unknown: all of the scene.
   addScene(world.scene, config.world.scenePath, kDefaultViewTriangles, Eigen::AlignedBox3d(),
            document);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tools/contact_json.h"
+#include "tools/person/bracket_joiner.h"
 #include "tools/reported_contact.h"
 #include "tools/stream/contacts_line.h"
 
@@ -120,7 +121,31 @@ std::string LiveEvents::stepFields(std::size_t avatar) const {
   writePose("from", step.from, out);
   writePose("to", step.to, out);
   if (step.isSolid) writeSolidStep(step.solid, out);
+  if (!batch_.brackets().empty()) writePerson(out);
   return text;
+}
+
+/// Of all steps of the batch; a report's touches of a person, step by step.
+void LiveEvents::writePerson(JsonWriter& out) const {
+  out.list("person", batch_.brackets(), [&](const WatchedBracket& watched) {
+    const LinkBracket& bracket = watched.bracket;
+    const double from = secondsOf(watched.utimeFromUs), to = secondsOf(watched.utimeToUs);
+    const auto at = [&](double t) { return from + t * (to - from); };
+    PersonTouch touch;
+    touch.link = bracket.link;
+    touch.other = bracket.other;
+    touch.isCertain = bracket.verdict == BracketVerdict::Certain;
+    touch.beginsS[0] = at(bracket.possibleFrom);
+    touch.beginsS[1] = at(bracket.certainFrom);
+    touch.endsS[0] = at(bracket.certainUntil);
+    touch.endsS[1] = at(bracket.possibleUntil);
+    touch.growth = bracket.growth;
+    const bool isOfScene = bracket.triangle >= 0;
+    out.beginObject();
+    writeShownTouch(touch, isOfScene ? world_.objectNames[world_.objectOf(bracket.triangle)] : "",
+                    out);
+    out.endObject();
+  });
 }
 
 ViewEvent LiveEvents::stepEvent(std::size_t avatar) const {

@@ -38,6 +38,7 @@ class LiveEvents final : public EventSource {
   [[nodiscard]] ViewEvent statusEvent() const;
   [[nodiscard]] ViewEvent stepEvent(std::size_t avatar) const;
   [[nodiscard]] std::string stepFields(std::size_t avatar) const;
+  void writePerson(JsonWriter& out) const;
   void write(const LinkContact& contact, const BatchedStep& step, JsonWriter& out) const;
   [[nodiscard]] double secondsOf(std::int64_t utimeUs) const;
 

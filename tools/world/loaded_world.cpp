@@ -15,4 +15,9 @@ std::string LoadedWorld::linkNameOf(BodyId body, LinkId link) const {
   return skeleton.numJoints() == 1 ? "" : skeleton.name(link);
 }
 
+std::string LoadedWorld::labelOf(BodyId body, LinkId link) const {
+  const std::string name = linkNameOf(body, link);
+  return name.empty() ? nameOf(body) : nameOf(body) + ": " + name;
+}
+
 }  // namespace foretouch::tools

@@ -60,6 +60,8 @@ struct LoadedWorld {
   }
   /// "LeftHand" of an avatar, "" of what has but one link.
   [[nodiscard]] std::string linkNameOf(BodyId body, LinkId link) const;
+  /// "anna: LeftHand"; the body's name if it has one link.
+  [[nodiscard]] std::string labelOf(BodyId body, LinkId link) const;
 };
 
 }  // namespace foretouch::tools

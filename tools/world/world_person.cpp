@@ -9,7 +9,7 @@
 
 #include "articulated/quoted.h"
 #include "articulated/try.h"
-#include "assets/bounds/bounds_file.h"
+#include "assets/bounds/bound_presets.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
 #include "middleware/bracket/bracket_query.h"
@@ -188,7 +188,7 @@ class Persons {
     if (!claimed.isPerson || claimed.knots.size() < 2) return claimed;
     claimed.model = file.between;
     claimed.stepS = usualStepS(claimed.knots);
-    FORETOUCH_TRY(const auto bounds, readBoundsFile(file.boundsPath));
+    FORETOUCH_TRY(const auto bounds, readBounds(file.boundsPath));
     FORETOUCH_TRY(auto known, inFile(boundsOf(bounds, body.shape.avatar->skeleton(), file.between,
                                               1.0 / claimed.stepS),
                                      file.boundsPath));

@@ -1,6 +1,6 @@
 // The document and what is derived from it, in one place: what all views look at.
 
-import type { Avatar, ViewDocument } from "./data/document.js";
+import type { Avatar, PersonTouch, RecordedPerson, ViewDocument } from "./data/document.js";
 import type { Contact } from "./contacts/contact.js";
 import { allContacts, longestStep } from "./contacts/contact.js";
 import { stancesOf } from "./contacts/feet.js";
@@ -26,8 +26,8 @@ export class Model {
   private barList: readonly Touch[];
   /** How feet stand, as bars; by foot, then by begin. */
   readonly stances: readonly Touch[];
-  /** What the person touched, as bars. */
-  readonly personTouches: readonly Touch[];
+  private personBars: readonly Touch[];
+  private recordedPerson: RecordedPerson | null;
   private touchOfContact = new Map<Contact, Touch>();
   private shown: { search: string; showsGround: boolean; of: readonly Touch[]; touches: readonly Touch[] } | null = null;
   private longest: number;
@@ -40,7 +40,8 @@ export class Model {
     this.contactList = allContacts(this.avatars, this.clips);
     this.touchList = this.touchesOf(this.contactList);
     this.stances = stancesOf(document.feet, document.avatars);
-    this.personTouches = personTouchesOf(document.person, document.avatars);
+    this.recordedPerson = document.person;
+    this.personBars = personTouchesOf(document.person, document.avatars);
     this.barList = this.barsOf();
     this.longest = longestStep(this.contactList);
   }
@@ -57,6 +58,24 @@ export class Model {
   /** One an avatar: of a solid one where its tracker says that it is, null of others. */
   get tracked(): readonly (Clip | null)[] {
     return this.trackedList;
+  }
+
+  /** What the person touched, not the model; null where nobody asked. */
+  get person(): RecordedPerson | null {
+    return this.recordedPerson;
+  }
+
+  /** The same as bars. */
+  get personTouches(): readonly Touch[] {
+    return this.personBars;
+  }
+
+  /** Of a stream, which goes on. */
+  replacePerson(touches: readonly PersonTouch[]): void {
+    if (this.recordedPerson === null) return;
+    this.recordedPerson = { ...this.recordedPerson, touches };
+    this.personBars = personTouchesOf(this.recordedPerson, this.avatarList);
+    this.barList = this.barsOf();
   }
 
   get isSolid(): boolean {

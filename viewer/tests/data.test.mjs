@@ -8,7 +8,7 @@ import { allContacts, contactsAt, firstAfter, longestStep } from "../build/conta
 import { discreteCount, isSeenAtPose, touchingLinks } from "../build/contacts/discrete.js";
 import { byBadness, worstBy } from "../build/contacts/feet.js";
 import { openingOf } from "../build/contacts/opening.js";
-import { countPerson } from "../build/contacts/person.js";
+import { countPerson, joinedPerson } from "../build/contacts/person.js";
 import { mostTelling } from "../build/contacts/telling.js";
 import { Model } from "../build/model.js";
 import { RecordedClip } from "../build/motion/recorded_clip.js";
@@ -386,6 +386,52 @@ test("a touch of the person lasts from when on it is possible until when; certai
   assert.deepEqual([perhaps.begin, perhaps.end, perhaps.object, perhaps.isOwn], [0.5, 0.75, "", false]);
   assert.deepEqual([perhaps.person.certain, perhaps.person.growth, perhaps.begins, perhaps.ends], [null, null, "contact", "left"]);
   assert.deepEqual([rounded.begin, rounded.end, rounded.person.certain.from], [1.2000001, 1.2000001, 1.2000001]);
+});
+
+test("persons of a world are told apart, and have no rate in common", () => {
+  const view = withPerson(copy()), [avatar] = view.avatars;
+  view.avatars.push({ ...structuredClone(avatar), id: 1, name: "ben", contacts: [] });
+  delete view.person.rate_hz;
+  view.person.touches = [
+    { link: 9, object: "shelf", verdict: "possible", begins: [1, null], ends: [null, 1.2] },
+    { avatar: 1, link: 9, object: "anna: Hips", verdict: "certain", begins: [1, 1.1], ends: [1.05, 1.5] },
+    { avatar: 1, link: 3, other: 2, verdict: "possible", begins: [1, null], ends: [null, 1.5] },
+  ];
+  const model = new Model(decoded(view)), [first, other, own] = model.personTouches;
+  assert.equal(model.person.rateHz, null);
+  assert.deepEqual([first.avatar, other.avatar, other.object, other.isOwn], [0, 1, "anna: Hips", false]);
+  // A passage: it had begun by the second instant, and had not ended before the first.
+  assert.deepEqual(other.person.certain, { from: 1.1, to: 1.05 });
+  assert.deepEqual([own.object, own.isOwn], [avatar.links[2].name, true]);
+  const [heading, ...lanes] = rowsOf(model.personTouches, model.avatars, "limb", new Set(), view.person.bounds);
+  assert.equal(heading.touches.length, 3);
+  assert.deepEqual(lanes.map(({ avatar, link }) => [avatar, link]), [[0, 9], [1, 3], [1, 9]]);
+  assert.ok(lanes[1].name.startsWith("ben: "), lanes[1].name);
+  view.person.touches[1].link = 99;
+  assert.throws(() => decoded(view), /touches\[1\]\.link is 99/);
+});
+
+test("of a stream, what a step leaves possible and the next one goes on with is one touch", () => {
+  const served = live();
+  served.person = { bounds: "walker.bounds.json", between: "cubic-late", touches: [] };
+  const document = decoded(served), model = new Model(document);
+  const step = (t0, person) => decodeStep(JSON.stringify({ ...stepEvent(t0, t0 + 0.1, 0), person }), document.avatars).person;
+  const possible = step(0, [{ link: 9, object: "shelf", verdict: "possible", begins: [0.05, null], ends: [null, 0.1], growth: 0.01 }]);
+  const certain = step(0.1, [
+    { link: 9, object: "shelf", verdict: "certain", begins: [0.1, 0.12], ends: [0.2, 0.2], growth: 0.02 },
+    { link: 3, object: "shelf", verdict: "possible", begins: [0.1, null], ends: [null, 0.15], growth: 0.02 },
+  ]);
+  const later = step(0.3, [{ link: 9, object: "shelf", verdict: "certain", begins: [0.3, 0.3], ends: [0.35, 0.36], growth: 0.01 }]);
+  model.replacePerson([possible, certain, later].reduce(joinedPerson, []));
+  const bars = model.personTouches.map(({ link, begin, end, person }) => [link, begin, end, person.certain, person.growth]);
+  assert.deepEqual(bars, [
+    [9, 0.05, 0.2, { from: 0.12, to: 0.2 }, 0.02],
+    [3, 0.1, 0.15, null, 0.02],
+    [9, 0.3, 0.36, { from: 0.3, to: 0.35 }, 0.01],
+  ]);
+  assert.deepEqual(model.shownTouches("", true).filter(({ person }) => person !== null).length, 3);
+  assert.deepEqual(decodeStep(JSON.stringify(stepEvent(0, 0.1, 0)), document.avatars).person, []);
+  assert.throws(() => step(0, [{ link: 99, verdict: "possible", begins: [0, null], ends: [null, 1] }]), /person\[0\]\.link is 99/);
 });
 
 for (const [what, change, reason] of [

@@ -301,7 +301,9 @@ class Brackets(NamedTuple):
     """(k, n, 2), t of the step: nothing is touched before the first and after the second; NaN
     where nothing is touched or claimed."""
     certain: Doubles
-    """(k, n, 2): something is touched at both; NaN where the verdict is not CERTAIN."""
+    """(k, n, 2): something is touched at both; or, where the second comes first, at an instant
+    between the two, at which the link passed through a surface. NaN where the verdict is not
+    CERTAIN."""
     triangles: npt.NDArray[np.int32]
     """(k, n), of the scene, what is, or may be, touched first; -1: none, or not known."""
     growths: Doubles

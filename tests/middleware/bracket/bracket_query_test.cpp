@@ -109,12 +109,13 @@ TEST_F(BallOverPlate, WhatStaysFartherThanTheBoundIsExcluded) {
             BracketVerdict::Possible);
 }
 
-TEST_F(BallOverPlate, AShrunkRadiusBelowZeroIsCertainOfNothing) {
+TEST_F(BallOverPlate, AShrunkRadiusBelowZeroIsCertainOfAPassageAlone) {
   LinkBound bound;
   bound.error = 1.01 * kRadius;
   bound.acceleration = 0.0;
   EXPECT_EQ(ask(0.0, 0.0, bound).verdict, BracketVerdict::Possible);
-  EXPECT_EQ(ask(0.3, -0.3, bound).verdict, BracketVerdict::Possible);
+  EXPECT_EQ(ask(0.3, -0.1, bound).verdict, BracketVerdict::Possible);
+  EXPECT_EQ(ask(0.3, -0.3, bound).verdict, BracketVerdict::Certain);
   bound.error = 0.99 * kRadius;
   EXPECT_EQ(ask(0.0, 0.0, bound).verdict, BracketVerdict::Certain);
 }

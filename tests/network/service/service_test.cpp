@@ -243,7 +243,7 @@ TEST(Service, SaysOfEveryPersonWhatPosesAllowAfterTheirAnswers) {
     EXPECT_TRUE(same(verdictsByAvatar(stage.outbox->on(kContacts)), expected));
     std::map<std::int32_t, std::vector<Bytes>> said;
     std::map<std::int32_t, std::int64_t> answered;
-    std::uint64_t links = 0, inJournal = 0;
+    std::uint64_t links = 0, inJournal = 0, ended = 0;
     for (const test::Recorded& event : stage.book->events()) {
       if (event.channel == kContacts) {
         const ContactsMessage answer = answerIn(event.payload);
@@ -254,9 +254,13 @@ TEST(Service, SaysOfEveryPersonWhatPosesAllowAfterTheirAnswers) {
         EXPECT_EQ(answered[message.avatar], message.sequence);
         said[message.avatar].push_back(verdictsIn(event.payload));
         if (message.kind != StepKind::First) links += message.verdicts.size();
+        // The step that the service's last pose ends: no later one bends it.
+        if (message.kind == StepKind::Consecutive && message.sequenceTo == message.sequence)
+          ++ended;
         ++inJournal;
       }
     }
+    EXPECT_GE(ended, 1U);
     if (first.empty()) first = said;
     EXPECT_TRUE(same(said, first));
     for (const auto& [avatar, verdicts] : expected) {
@@ -298,7 +302,8 @@ class Onlooker final : public StepObserver {
     return avatar != kUnwanted;
   }
   void observe(std::size_t avatar, const StreamStep& step, const ContactsMessage& answer,
-               const ShownStep* /*shown*/) noexcept override {
+               const ShownStep* /*shown*/, const PersonStream* person) noexcept override {
+    EXPECT_EQ(person, nullptr);
     EXPECT_EQ(answer.avatar, static_cast<std::int32_t>(avatar));
     shown[avatar].push_back({answer.sequenceTo, answer.contacts.size(),
                              step.from->translations[0].x(), step.to->translations[0].x()});
@@ -550,7 +555,8 @@ class Straggler final : public StepObserver {
   explicit Straggler(const std::atomic<int>& seen) : seen_(seen) {}
   [[nodiscard]] bool wants(std::size_t /*avatar*/) const noexcept override { return seen_ == 0; }
   void observe(std::size_t /*avatar*/, const StreamStep& /*step*/,
-               const ContactsMessage& /*answer*/, const ShownStep* /*shown*/) noexcept override {
+               const ContactsMessage& /*answer*/, const ShownStep* /*shown*/,
+               const PersonStream* /*person*/) noexcept override {
     EXPECT_TRUE(eventually([&] { return seen_ > 0; }));
   }
 

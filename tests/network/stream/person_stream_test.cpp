@@ -164,6 +164,54 @@ TEST_F(PersonStreams, EndTheWaitWhereNoPoseCanCome) {
   }
 }
 
+TEST_F(PersonStreams, SayTheLastStepWhenTheWaitEnds) {
+  begin(MotionModel::CubicLate);
+  for (std::int64_t n = 1; n <= 5; ++n) follow(hipsAt(swing(n), n));
+  PersonMessage other = last();
+  EXPECT_FALSE(person_->isEndOfWait(other));
+  person_->endWait();
+  ASSERT_EQ(person_->numSaid(), 1U);
+  const PersonMessage ended = last();
+  EXPECT_EQ(ended.kind, StepKind::Consecutive);
+  EXPECT_EQ(ended.sequenceFrom, 4);
+  EXPECT_EQ(ended.sequenceTo, 5);
+  EXPECT_EQ(ended.sequence, 5);
+  expectSaid(ended, asked(poses_, 3, MotionModel::CubicLate));
+  Bytes bytes;
+  encode(ended, bytes);
+  ASSERT_EQ(decode(bytes, other), Reject::None);
+  person_->endWait();
+  EXPECT_EQ(person_->numSaid(), 0U);  // it is said
+  EXPECT_FALSE(person_->isEndOfWait(ended));
+  follow(hipsAt(swing(6), 6));  // it came after all
+  ASSERT_EQ(person_->numSaid(), 1U);
+  EXPECT_EQ(last().kind, StepKind::First);
+  follow(hipsAt(swing(7), 7));
+  ASSERT_EQ(person_->numSaid(), 1U);
+  EXPECT_EQ(last().sequenceFrom, 5);
+  EXPECT_EQ(last().sequenceTo, 6);
+  begin(MotionModel::Cubic);
+  for (std::int64_t n = 1; n <= 3; ++n) follow(hipsAt(swing(n), n));
+  person_->endWait();
+  EXPECT_EQ(person_->numSaid(), 0U);
+}
+
+/// What was recorded decides when a wait ended; what is said then follows from the poses.
+TEST_F(PersonStreams, KnowAnEndOfAWaitThatWasRecorded) {
+  begin(MotionModel::CubicLate);
+  for (std::int64_t n = 1; n <= 4; ++n) follow(hipsAt(swing(n), n));
+  person_->endWait();
+  const PersonMessage ended = last();
+  begin(MotionModel::CubicLate);
+  for (std::int64_t n = 1; n <= 4; ++n) {
+    EXPECT_FALSE(person_->isEndOfWait(ended));
+    follow(hipsAt(swing(n), n));
+  }
+  EXPECT_TRUE(person_->isEndOfWait(ended));
+  follow(hipsAt(swing(5), 5));
+  EXPECT_FALSE(person_->isEndOfWait(ended));
+}
+
 TEST_F(PersonStreams, ExcludeAcrossAGapWhatTheSpeedExcludes) {
   begin(MotionModel::Cubic);
   follow(hipsAt(0.0, 1));

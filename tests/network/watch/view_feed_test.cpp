@@ -37,7 +37,7 @@ class Steps {
       answer_.contacts[i].contact.link = static_cast<LinkId>(i);
       shown_.emplace_back(sequence_, static_cast<LinkId>(i));
     }
-    observer.observe(avatar, step, answer_, nullptr);
+    observer.observe(avatar, step, answer_, nullptr, nullptr);
   }
   [[nodiscard]] std::int64_t sequence() const { return sequence_; }
   [[nodiscard]] const std::vector<ContactId>& shown() const { return shown_; }

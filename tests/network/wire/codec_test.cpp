@@ -495,6 +495,25 @@ TEST(DecodePerson, RefusesCodesThatDoNotExist) {
   EXPECT_EQ(personAfter([](M& m) { m.broken[0].claim = static_cast<BrokenBound::Claim>(2); }), out);
 }
 
+/// The decoder of LCM is used again, and leaves arrays of no length as they were.
+TEST(DecodePerson, KeepsNothingOfTheMessageBefore) {
+  Bytes bytes;
+  PersonMessage read;
+  encode(twoBrackets(), bytes);
+  ASSERT_EQ(decode(bytes, read), Reject::None);
+  ASSERT_FALSE(read.notBeforeUs.empty());
+  PersonMessage none = twoBrackets();
+  none.verdicts.clear();
+  none.notBeforeUs.clear();
+  none.brackets.clear();
+  none.broken.clear();
+  encode(none, bytes);
+  ASSERT_EQ(decode(bytes, read), Reject::None);
+  EXPECT_TRUE(read.notBeforeUs.empty());
+  EXPECT_TRUE(read.verdicts.empty());
+  EXPECT_TRUE(read.brackets.empty());
+}
+
 TEST(DecodePerson, RefusesNumbersOutOfRange) {
   using M = PersonMessage;
   const auto out = Reject::OutOfRange;

@@ -242,7 +242,9 @@ TEST(ReplayOfALog, SaysOfThePersonWhatAServiceSaid) {
     const json one = json::parse(line);
     if (one.contains("person_step")) steps.push_back(one["person_step"]);
   }
-  ASSERT_EQ(steps.size(), 60U);
+  // One per pose, and the last step, as no pose comes after it.
+  ASSERT_EQ(steps.size(), 61U);
+  EXPECT_EQ(steps[60]["sequence_to"], steps[60]["sequence"]);
   int certain = 0, excluded = 0;
   for (const json& step : steps) {
     for (const json& verdict : step["verdicts"]) {
@@ -265,26 +267,30 @@ TEST(ReplayOfALog, SaysOfThePersonWhatAServiceSaid) {
       EXPECT_TRUE(writer.write(event.utimeUs, event.channel, event.payload).ok());
     }
     const auto inputs = tools::loadLogReplayInputs(request).value();
-    EXPECT_TRUE(tools::replayLog(inputs, [&](const tools::AnsweredPose& answered) {
-                  Bytes payload;
-                  PersonMessage said = answered.person->said(0);
-                  said.sendUtimeUs = 77;
-                  said.notBeforeUs[0] += said.sequence == 30 ? later : 0;
-                  encode(said, payload);
-                  EXPECT_TRUE(writer.write(said.utimeUs, kPersonChannel, payload).ok());
-                  return true;
-                }).ok());
+    const auto write = [&](PersonMessage said) {
+      Bytes payload;
+      said.sendUtimeUs = 77;
+      said.notBeforeUs[0] += said.sequence == 30 ? later : 0;
+      encode(said, payload);
+      EXPECT_TRUE(writer.write(said.utimeUs, kPersonChannel, payload).ok());
+    };
+    const auto replayed = tools::replayLog(inputs, [&](const tools::AnsweredPose& answered) {
+      write(answered.person->said(0));
+      return true;
+    });
+    EXPECT_EQ(replayed.value().ended.size(), 1U);
+    for (const PersonMessage& said : replayed.value().ended) write(said);
     EXPECT_TRUE(writer.close().ok());
     return world.folder / name;
   };
   const std::string same = journal("same.lcmlog", 0);
   const Ended equal = world.replayLog(same, asked);
   EXPECT_EQ(equal.exitCode, 0) << equal.out;
-  EXPECT_TRUE(holds(equal.out, "60 of 60 messages about the person equal the journal's"))
+  EXPECT_TRUE(holds(equal.out, "61 of 61 messages about the person equal the journal's"))
       << equal.out;
   const Ended notAsked = world.replayLog(same);
   EXPECT_EQ(notAsked.exitCode, 0);
-  EXPECT_TRUE(holds(notAsked.out, "60 messages about the person: --bounds")) << notAsked.out;
+  EXPECT_TRUE(holds(notAsked.out, "61 messages about the person: --bounds")) << notAsked.out;
   const Ended other = world.replayLog(journal("other.lcmlog", 1), asked);
   EXPECT_EQ(other.exitCode, 1);
   EXPECT_TRUE(holds(other.out,

@@ -162,6 +162,29 @@ TEST(WorldProgram, SaysWhatIsWrongWithAFileAndItsLine) {
             2);
 }
 
+TEST(WorldProgram, ShowsOnItsPageWhatPersonsTouched) {
+  const SmallStage stage;
+  std::string man = kManWalks;
+  man.insert(man.find("[body.clip]"), "bounds = \"preset:sara-shield\"\n");
+  const std::string path = stage.write(man + sphereNamed("post", "position = [0.3, 0, 0]\n"));
+  const std::string report = stage.folder / "report.html";
+  const Ended ended =
+      runForetouch({"world", "replay", path, "-o", stage.folder / "o.jsonl", "--report", report});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const json person = documentOf(report)["person"];
+  EXPECT_EQ(person["bounds"], "preset:sara-shield");
+  EXPECT_EQ(person["between"], "constant-rate");
+  EXPECT_EQ(person.count("rate_hz"), 0u);
+  std::set<std::string> objects;
+  for (const json& touch : person["touches"]) {
+    objects.insert(touch["object"].get<std::string>());
+    EXPECT_EQ(touch.count("avatar"), 0u);
+    EXPECT_LE(touch["begins"][0].get<double>(), touch["ends"][1].get<double>());
+    EXPECT_GT(touch["growth"].get<double>(), 0.0);
+  }
+  EXPECT_EQ(objects, std::set<std::string>{"post"});
+}
+
 TEST(WorldProgram, WritesPagesInWhichTheCarriedGoAlong) {
   const SmallStage stage;
   const std::string path = stage.write(

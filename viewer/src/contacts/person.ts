@@ -1,6 +1,6 @@
 // The person: what they surely touched and what perhaps, as bars beside those of the model's touches.
 
-import type { Avatar, RecordedPerson } from "../data/document.js";
+import type { Avatar, PersonTouch, RecordedPerson } from "../data/document.js";
 import type { Touch } from "./touch.js";
 import { plainBar } from "./touch.js";
 
@@ -8,8 +8,9 @@ import { plainBar } from "./touch.js";
 export function personTouchesOf(person: RecordedPerson | null, avatars: readonly Avatar[]): Touch[] {
   return (person?.touches ?? []).map((touch): Touch => ({
     ...plainBar,
+    avatar: touch.avatar,
     link: touch.link,
-    linkName: avatars[0].links[touch.link].name,
+    linkName: avatars[touch.avatar].links[touch.link].name,
     object: touch.object,
     isOwn: touch.isOwn,
     begin: touch.begin,
@@ -28,4 +29,30 @@ export interface PersonCount {
 export function countPerson({ touches }: RecordedPerson): PersonCount {
   const certain = touches.filter((touch) => touch.certain !== null).length;
   return { certain, possible: touches.length - certain };
+}
+
+/** Two steps meet to within this, seconds. */
+const sameInstant = 1e-6;
+
+/** Those of the next steps as well: what is possible where a step ends and where the next one begins is one touch. */
+export function joinedPerson(known: readonly PersonTouch[], fresh: readonly PersonTouch[]): PersonTouch[] {
+  const joined = [...known];
+  for (const touch of fresh) {
+    const isSame = (one: PersonTouch): boolean => one.avatar === touch.avatar && one.link === touch.link && one.isOwn === touch.isOwn && (!one.isOwn || one.object === touch.object);
+    const at = joined.findIndex((one) => isSame(one) && Math.abs(one.end - touch.begin) <= sameInstant);
+    if (at < 0) joined.push(touch);
+    else joined[at] = both(joined[at], touch);
+  }
+  return joined.sort((a, b) => a.begin - b.begin);
+}
+
+function both(earlier: PersonTouch, later: PersonTouch): PersonTouch {
+  const { certain } = earlier, { certain: more } = later;
+  return {
+    ...earlier,
+    end: later.end,
+    goesOn: later.goesOn,
+    certain: certain === null || more === null ? (certain ?? more) : { from: certain.from, to: more.to },
+    growth: Math.max(earlier.growth ?? 0, later.growth ?? 0),
+  };
 }

@@ -2,18 +2,18 @@ import { rounding } from "./decode_touch.js";
 import type { Avatar, PersonTouch, RecordedPerson } from "./document.js";
 import { present, type Reader } from "./reader.js";
 
-/** Links are those of the first avatar. */
 export function decodePerson(item: Reader, avatars: readonly Avatar[]): RecordedPerson {
   if (avatars[0] === undefined) item.fail("is what a person touched, but there is no avatar");
   return {
     bounds: item.field("bounds").text(),
     between: item.field("between").text(),
-    rateHz: item.field("rate_hz").number(0),
-    touches: item.field("touches").items().map((touch) => decodePersonTouch(touch, avatars[0])),
+    rateHz: present(item, "rate_hz")?.number(0) ?? null,
+    touches: item.field("touches").items().map((touch) => decodePersonTouch(touch, avatars, touch.optional("avatar")?.index(avatars.length) ?? 0)),
   };
 }
 
-function decodePersonTouch(item: Reader, { links }: Avatar): PersonTouch {
+export function decodePersonTouch(item: Reader, avatars: readonly Avatar[], avatar: number): PersonTouch {
+  const { links } = avatars[avatar];
   const other = item.optional("other")?.index(links.length) ?? null;
   const isCertain = item.field("verdict").oneOf(["certain", "possible"] as const) === "certain";
   const [first, begun] = two(item, "begins"), [ended, last] = two(item, "ends");
@@ -21,6 +21,7 @@ function decodePersonTouch(item: Reader, { links }: Avatar): PersonTouch {
   const within = (time: Reader): number => Math.min(end, Math.max(begin, time.number(begin - rounding, end + rounding)));
   for (const time of [begun, ended]) if (!isCertain && time.value !== null) time.fail("is known, but the touch is only possible");
   return {
+    avatar,
     link: item.field("link").index(links.length),
     object: item.optional("object")?.text() ?? (other === null ? "" : links[other].name),
     isOwn: other !== null,

@@ -23,7 +23,7 @@ export interface ViewDocument {
   readonly frameTime: number | null;
   /** Of a replay: how feet rest. */
   readonly feet: readonly RecordedFoot[];
-  /** Of a replay with bounds: what the person touched, not the model; null where nobody asked. */
+  /** Of a replay or a world with bounds: what the persons touched, not the model; null where nobody asked. */
   readonly person: RecordedPerson | null;
   /** Of inspections: what the program says about unit, axis and place. */
   readonly checks: readonly Check[];
@@ -259,16 +259,17 @@ export interface RecordedPerson {
   /** The file of the bounds, and the motion between two poses that they are about. */
   readonly bounds: string;
   readonly between: string;
-  /** Of the poses that were asked. */
-  readonly rateHz: number;
+  /** Of the poses that were asked; null where each person has a rate of their own. */
+  readonly rateHz: number | null;
   readonly touches: readonly PersonTouch[];
 }
 
 /** What the person touched, whatever they did within the bounds. Seconds. */
 export interface PersonTouch {
-  /** Of the first avatar. */
+  /** Whose; indices into the document's avatars, and into their links. */
+  readonly avatar: number;
   readonly link: number;
-  /** The other one's name where it is an own link; "" where it is not known. */
+  /** Of the scene, or of another body; the other one's name where it is an own link; "" where it is not known. */
   readonly object: string;
   readonly isOwn: boolean;
   /** Nothing is touched before, and nothing after. */

@@ -1,11 +1,12 @@
 // Live events, decoded: as little trusted as the document.
 
-import type { Avatar, ContactFields, SolidState } from "./document.js";
+import type { Avatar, ContactFields, PersonTouch, SolidState } from "./document.js";
 import { solidStates } from "./document.js";
 import type { LocalPose } from "../motion/chain.js";
 import { emptyPose } from "../motion/chain.js";
 import { normalise } from "../motion/quaternion.js";
 import { decodeContact } from "./decode_contact.js";
+import { decodePersonTouch } from "./decode_person.js";
 import { Malformed, Reader } from "./reader.js";
 
 export type StepKind = "consecutive" | "first" | "across-gap";
@@ -36,6 +37,8 @@ export interface StepEvent {
   /** Null: the avatar is not solid. */
   readonly shown: ShownStep | null;
   readonly contacts: readonly ContactFields[];
+  /** What the person touched in this step and those before it, surely or perhaps; step by step. */
+  readonly person: readonly PersonTouch[];
   readonly queryUs: number;
   readonly addedUs: number;
   /** Steps not sent to this page since the last one. */
@@ -83,6 +86,7 @@ export function decodeStep(text: string, avatars: readonly Avatar[]): StepEvent 
     to: decodePose(event.field("to"), links),
     shown: avatars[avatar].isLiveSolid ? decodeShown(event, links) : null,
     contacts: (event.optional("contacts")?.items() ?? []).map((item) => decodeContact(item, links)),
+    person: (event.optional("person")?.items() ?? []).map((item) => decodePersonTouch(item, avatars, avatar)),
     queryUs: event.optional("query_us")?.number() ?? 0,
     addedUs: event.optional("added_us")?.number() ?? 0,
     skipped: event.optional("skipped")?.number(0) ?? 0,

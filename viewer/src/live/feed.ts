@@ -3,6 +3,7 @@
 
 import type { Contact } from "../contacts/contact.js";
 import { contactOf } from "../contacts/contact.js";
+import { joinedPerson } from "../contacts/person.js";
 import type { ShownStep, StatusEvent, StepEvent } from "../data/events.js";
 import type { Touch } from "../contacts/touch.js";
 import { decodeDocument } from "../data/decode.js";
@@ -115,6 +116,7 @@ export class Feed {
     const fresh = event.contacts.map((fields) => contactOf(event.avatar, links[fields.link].name, span, { ...fields, step }));
     this.count(event, fresh);
     this.keep(fresh);
+    this.keepPerson(event);
   }
 
   /** In words first: a drawing is never waited for. */
@@ -140,6 +142,14 @@ export class Feed {
     this.model.replaceContacts([...this.contacts]);
     const isFresh = new Set(fresh);
     this.onTouch(this.model.touches.filter(({ rows, isUndecided }) => !isUndecided && isFresh.has(rows[0])));
+    this.store.listChanged("contacts");
+  }
+
+  /** As long as the steps that they belong to. */
+  private keepPerson({ person }: StepEvent): void {
+    const known = this.model.person?.touches ?? [], kept = known.filter(({ avatar, end }) => end >= this.model.clips[avatar].start);
+    if (person.length === 0 && kept.length === known.length) return;
+    this.model.replacePerson(joinedPerson(kept, person));
     this.store.listChanged("contacts");
   }
 

@@ -93,14 +93,14 @@ export class Details {
   /** What is true of the person, whatever they did within the bounds. */
   private ofPerson(touch: Touch, person: PersonTouch): Node[] {
     const [began, ended] = whenOfPerson(person, this.model.timeZero), isCertain = ended !== undefined;
-    const { bounds = "", between = "", rateHz = 0 } = this.model.document.person ?? {};
+    const { bounds = "", between = "", rateHz = null } = this.model.document.person ?? {};
     const lines: Line[] = [
       isCertain ? ["certain", "surely touched"] : ["possible", "may have touched"],
       [isCertain ? "began" : "when", began, person.beganBefore ? "the clip begins in it" : ""],
       ...(isCertain ? [["ended", ended, person.goesOn ? "the clip ends in it" : ""] as const] : []),
       ...this.linesOfBadness(touch),
       ...(person.growth === null ? [] : [["apart", length(person.growth), "at most: the person, and the model that is shown"] as const]),
-      ["bounds", bounds, `${between}, ${Number(rateHz.toFixed(2))} poses a second`],
+      ["bounds", bounds, rateHz === null ? between : `${between}, ${Number(rateHz.toFixed(2))} poses a second`],
     ];
     return [who(isCertain ? "person" : "perhaps", touch.linkName, besides(touch.object)), definitionTable(lines)];
   }

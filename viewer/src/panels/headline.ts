@@ -24,10 +24,10 @@ function ofFeet(model: Model): string {
 }
 
 /** What is true of the person, not of the model. */
-function ofPerson({ document: { person } }: Model): string {
-  if (person === null) return "";
+function ofPerson({ person, avatars, document }: Model): string {
+  if (person === null || document.kind === "live") return "";
   const { certain, possible } = countPerson(person);
-  return ` The person: ${count(certain)} surely touched, ${count(possible)} perhaps.`;
+  return ` The ${avatars.length > 1 ? "persons" : "person"}: ${count(certain)} surely touched, ${count(possible)} perhaps.`;
 }
 
 function framed(model: Model, time: number): string {

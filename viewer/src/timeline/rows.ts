@@ -48,10 +48,11 @@ export function rowsOf(
   return [...withHeading(rowsOfFeet(of("foot")), feetGroup, folded), ...person, ...rows];
 }
 
-/** A row a link, in their order. */
+/** A row a link, in their order, body by body. */
 function rowsOfPerson(touches: readonly Touch[], avatars: readonly Avatar[]): Row[] {
-  const short = shortNames((avatars[0]?.links ?? []).map(({ name }) => name));
-  return [...gathered(touches, ({ link }) => String(link)).values()].map((one) => rowOfGroup(one, short[one[0].link], personGroup)).sort((a, b) => a.link - b.link);
+  const names = avatars.map(({ links, name }) => shortNames(links.map((link) => link.name)).map((short) => (avatars.length === 1 ? short : links.length === 1 ? name : `${name}: ${short}`)));
+  const rows = [...gathered(touches, ({ avatar, link }) => `${avatar}:${link}`).values()].map((one) => rowOfGroup(one, names[one[0].avatar][one[0].link], personGroup));
+  return rows.sort((a, b) => a.avatar - b.avatar || a.link - b.link);
 }
 
 /** Of touches of one link. */

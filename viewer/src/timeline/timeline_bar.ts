@@ -49,9 +49,9 @@ function legendOf(model: Model): HTMLElement {
   if (ground > 0) legend.append(entry("ground", `${ground} ground`, "Touches that stand on the ground."));
   const slides = model.stances.filter(({ stance }) => stance !== null && isSlide(stance)).length;
   if (slides > 0) legend.append(entry("slide", `${slides} ${slides === 1 ? "slides" : "slide"}`, "Touches of feet that slide 2 mm or more; the notch in a bar says how deep the foot is."));
-  if (model.document.person !== null) {
-    const { certain, possible } = countPerson(model.document.person);
-    legend.append(element("span", { text: "the person:" }), entry("person", `${certain} certain`, meaningOf("certain")), entry("perhaps", `${possible} possible`, meaningOf("possible")));
+  if (model.person !== null) {
+    const { certain, possible } = countPerson(model.person), counted = (count: number, word: string): string => (model.isLive ? word : `${count} ${word}`);
+    legend.append(element("span", { text: "the person:" }), entry("person", counted(certain, "certain"), meaningOf("certain")), entry("perhaps", counted(possible, "possible"), meaningOf("possible")));
   }
   return legend;
 }

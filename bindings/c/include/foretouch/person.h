@@ -33,7 +33,8 @@ typedef struct ft_link_bound {
 
 /* Claims nothing, and no error. */
 FT_API ft_status ft_link_bound_init(ft_link_bound* bound);
-/* One per link, from a file of format "foretouch-bounds", for one way between poses of this rate.
+/* One per link, from a file of format "foretouch-bounds", or of "preset:sara-shield", ":optical" or
+ * ":vr-trackers" (docs/person.md), for one way between poses of this rate.
  * Errors: those of the file; a name that is no link; no entry for them. */
 FT_API ft_status ft_bounds_read(const char* path, const ft_avatar* avatar, int32_t between,
                                 double rate_hz, ft_link_bound* bounds, size_t capacity,
@@ -92,7 +93,8 @@ enum {
 };
 
 /* Nothing was touched on [0, possible_from) and (possible_until, 1]; of a certain one, something
- * was at certain_from and at certain_until. */
+ * was at certain_from and at certain_until, or, where certain_until comes first, at an instant
+ * between the two, at which the link passed through a surface. */
 typedef struct ft_link_bracket {
   uint32_t size;
   int32_t link;

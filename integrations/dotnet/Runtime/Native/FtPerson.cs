@@ -74,7 +74,8 @@ namespace Foretouch {
     public const int Certain = 3;
   }
   /// <summary>Nothing was touched on [0, possible_from) and (possible_until, 1]; of a certain one,
-  /// something was at certain_from and at certain_until.</summary>
+  /// something was at certain_from and at certain_until, or, where certain_until comes first, at an
+  /// instant between the two, at which the link passed through a surface.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtLinkBracket {
     public uint size;
@@ -155,8 +156,9 @@ namespace Foretouch {
   public static unsafe partial class FtNative {
     /// <summary>Claims nothing, and no error.</summary>
     [DllImport(Library)] public static extern int ft_link_bound_init(FtLinkBound* bound);
-    /// <summary>One per link, from a file of format "foretouch-bounds", for one way between poses of this
-    /// rate. Errors: those of the file; a name that is no link; no entry for them.</summary>
+    /// <summary>One per link, from a file of format "foretouch-bounds", or of "preset:sara-shield",
+    /// ":optical" or ":vr-trackers" (docs/person.md), for one way between poses of this rate. Errors: those
+    /// of the file; a name that is no link; no entry for them.</summary>
     [DllImport(Library)] public static extern int ft_bounds_read(byte* path, FtAvatar avatar, int between, double rateHz, FtLinkBound* bounds, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_bracket_options_init(FtBracketOptions* options, ulong size);
     /// <summary>`options` may be NULL. For one thread; keeps scene and avatar alive, the rules are
