@@ -36,9 +36,23 @@ gltf_oracle() {  # gltf_oracle [--record]
     build/release/share/foretouch/examples build/release/gltf-oracle "${record[@]}" "${files[@]}"
 }
 
+moments() {  # moments FOLDER SCENE AVATAR REPLAY OPTIONS...
+  if [ $# -lt 4 ]; then echo "run: moments: expected a folder, a scene, an avatar and options of replay" >&2; exit 2; fi
+  local folder=$1 files=(--scene "$2" --avatar "$3")
+  shift 3
+  mkdir -p "$folder"
+  "${FORETOUCH:-build/release/bin/foretouch}" replay "${files[@]}" --solid -q -o "$folder/shown.jsonl" "$@" >/dev/null
+  build/release/bin/solid_moments "$folder/shown.jsonl" "${files[@]}" --output "$folder"
+  PYTHONDONTWRITEBYTECODE=1 python3 docs/pictures/moment_strips.py "$folder"
+}
+
 task=$1
 shift
 case "$task" in
+  moments)
+    build_tests >&2
+    moments "$@"
+    ;;
   gltf-oracle)
     build_tests >&2
     gltf_oracle "$@"

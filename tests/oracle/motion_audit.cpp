@@ -17,12 +17,14 @@ constexpr double kLiftSpeed = 0.05, kRounding = 1e-6;
 /// A link so deep in another, beyond the tracked one (m), is seen.
 constexpr double kSeen = 0.05;
 constexpr double kDegrees = 180.0 / 3.14159265358979;
-constexpr std::size_t kMostFindings = 20;
+constexpr std::size_t kMostFindings = 20, kHistory = 3;
+
+double cosineBetween(const std::array<double, 4>& one, const std::array<double, 4>& other) {
+  return one[0] * other[0] + one[1] * other[1] + one[2] * other[2] + one[3] * other[3];
+}
 
 double angleBetween(const std::array<double, 4>& one, const std::array<double, 4>& other) {
-  double cosine = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) cosine += one[i] * other[i];
-  return 2.0 * std::acos(std::min(1.0, std::abs(cosine)));
+  return 2.0 * std::acos(std::min(1.0, std::abs(cosineBetween(one, other))));
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -37,6 +39,9 @@ double quantile(std::vector<double> values, double share) {
 void MotionTally::add(const MotionTally& other) {
   ticks += other.ticks;
   outrun += other.outrun;
+  headOutrun += other.headOutrun;
+  lifted = std::max(lifted, other.lifted);
+  headBeyond = std::max(headBeyond, other.headBeyond);
   liftJumped += other.liftJumped;
   deeper += other.deeper;
   head.insert(head.end(), other.head.begin(), other.head.end());
@@ -58,11 +63,11 @@ void MotionTally::add(const MotionTally& other) {
 
 std::string MotionTally::table() const {
   std::string text = fmt::format(
-      "{} ticks: {} in which a point outran the tracked ones, {} in which the lift jumped, {} with "
-      "a link {:g} m deeper in another than tracked\n{:24} {:>8} {:>8} {:>8} {:>9} {:>9} {:>8} "
-      "{:>8}\n",
-      ticks, outrun, liftJumped, deeper, kSeen, "link, at worst", "beyond", "turned", "unseen",
-      "turning", "in itself", "m/s2", "tracked");
+      "{} ticks: {} in which a point outran the tracked ones, {} in which the head outran the "
+      "tracked head, {} in which the lift (at most {:.3f} m) jumped, {} with a link {:g} m deeper "
+      "in another than tracked\n{:24} {:>8} {:>8} {:>8} {:>9} {:>9} {:>8} {:>8}\n",
+      ticks, outrun, headOutrun, liftJumped, lifted, deeper, kSeen, "link, at worst", "beyond",
+      "turned", "unseen", "turning", "in itself", "m/s2", "tracked");
   for (const auto& [name, link] : links) {
     text += fmt::format("{:24} {:>8.2f} {:>8.0f} {:>8.0f} {:>9.0f} {:>9.0f} {:>8.0f} {:>8.0f}\n",
                         name, link.beyond, kDegrees * link.turn, kDegrees * link.unseen,
@@ -70,9 +75,9 @@ std::string MotionTally::table() const {
                         link.tracked);
   }
   return text + fmt::format(
-                    "head, m/s2: shown p99 {:.1f}, p99.9 {:.1f}, most {:.1f}; tracked p99 "
-                    "{:.1f}, p99.9 {:.1f}, most {:.1f}\n",
-                    quantile(head, 0.99), quantile(head, 0.999), quantile(head, 1.0),
+                    "head: faster than tracked by {:.2f} m/s at most; m/s2: shown p99 {:.1f}, "
+                    "p99.9 {:.1f}, most {:.1f}; tracked p99 {:.1f}, p99.9 {:.1f}, most {:.1f}\n",
+                    headBeyond, quantile(head, 0.99), quantile(head, 0.999), quantile(head, 1.0),
                     quantile(trackedHead, 0.99), quantile(trackedHead, 0.999),
                     quantile(trackedHead, 1.0));
 }
@@ -123,6 +128,7 @@ void MotionAudit::find(const std::string& what) {
 void MotionAudit::look(const Pose& tracked, const SolidTick& tick, double dtS) {
   ++tickOfRun_;
   ++tally_.ticks;
+  ugly_ = {};
   const Body shown = placed(tick.shown), there = placed(tracked);
   seen_.push_back(there.turns);
   if (tick.hasAppeared || tick.state == SolidState::Placing) {
@@ -139,9 +145,11 @@ void MotionAudit::look(const Pose& tracked, const SolidTick& tick, double dtS) {
       find(fmt::format("the lift changes by {:.3g} m/s", change));
     }
   }
-  if (shown_.size() == 2) lookAtHead(shown, there, dtS);
+  if (shown_.size() >= 2) lookAtHead(shown, there, dtS);
+  if (shown_.size() == kHistory) lookAtJerk(shown, there, dtS);
   lift_ = tick.lift;
-  if (shown_.size() == 2) {
+  tally_.lifted = std::max(tally_.lifted, tick.lift);
+  if (shown_.size() == kHistory) {
     shown_.erase(shown_.begin());
     tracked_.erase(tracked_.begin());
   }
@@ -149,28 +157,41 @@ void MotionAudit::look(const Pose& tracked, const SolidTick& tick, double dtS) {
   tracked_.push_back(there);
 }
 
-void MotionAudit::lookAtSpeed(const Body& shown, const Body& tracked, double dtS) {
-  const Body &shownBefore = shown_.back(), &trackedBefore = tracked_.back();
-  double fastest = 0.0;
-  for (std::size_t i = 0; i < tracked.axes.size(); ++i) {
+MotionAudit::Fastest MotionAudit::fastest(const Body& before, const Body& now, double dtS,
+                                          bool ofHead) const {
+  Fastest most;
+  for (std::size_t i = 0; i < now.axes.size(); ++i) {
+    if (ofHead && !isHead_[linkOf_[i]]) continue;
     for (std::size_t end = 0; end < 2; ++end) {
-      fastest = std::max(fastest, norm(tracked.axes[i][end] - trackedBefore.axes[i][end]) / dtS);
+      const double speed = norm(now.axes[i][end] - before.axes[i][end]) / dtS;
+      if (speed > most.speed) most = {speed, linkOf_[i]};
     }
   }
-  double worst = 0.0;
-  std::size_t link = 0;
+  return most;
+}
+
+void MotionAudit::lookAtSpeed(const Body& shown, const Body& tracked, double dtS) {
+  const double most = fastest(tracked_.back(), tracked, dtS, false).speed;
   for (std::size_t i = 0; i < shown.axes.size(); ++i) {
     for (std::size_t end = 0; end < 2; ++end) {
-      const double beyond = norm(shown.axes[i][end] - shownBefore.axes[i][end]) / dtS - fastest;
-      of(linkOf_[i]).beyond = std::max(of(linkOf_[i]).beyond, beyond);
-      if (beyond > worst) link = linkOf_[i];
-      worst = std::max(worst, beyond);
+      const double speed = norm(shown.axes[i][end] - shown_.back().axes[i][end]) / dtS;
+      of(linkOf_[i]).beyond = std::max(of(linkOf_[i]).beyond, speed - most);
     }
   }
-  if (worst <= catchUp_ + kRounding) return;
-  ++tally_.outrun;
-  find(fmt::format("{} outruns the tracked ones, which move at {:.2f} m/s, by {:.3f} m/s",
-                   names_[link], fastest, worst));
+  const Fastest worst = fastest(shown_.back(), shown, dtS, false);
+  if (worst.speed - most > catchUp_ + kRounding) {
+    ++tally_.outrun;
+    find(fmt::format("{} outruns the tracked ones, which move at {:.2f} m/s, by {:.3f} m/s",
+                     names_[worst.link], most, worst.speed - most));
+  }
+  // So what it accelerates by is at most the sum of two such speeds over the tick.
+  const double head = fastest(shown_.back(), shown, dtS, true).speed;
+  const double beyond = head - fastest(tracked_.back(), tracked, dtS, true).speed;
+  tally_.headBeyond = std::max(tally_.headBeyond, beyond);
+  if (beyond <= catchUp_ + kRounding) return;
+  ++tally_.headOutrun;
+  find(fmt::format("the head outruns the tracked one, which moves at {:.2f} m/s, by {:.3f} m/s",
+                   head - beyond, beyond));
 }
 
 void MotionAudit::lookAtTurns(const Body& shown, const Body& tracked, double dtS) {
@@ -181,11 +202,13 @@ void MotionAudit::lookAtTurns(const Body& shown, const Body& tracked, double dtS
     own.turn = std::max(own.turn, turn);
     own.turnSpeed =
         std::max(own.turnSpeed, angleBetween(shown.turns[j], shown_.back().turns[j]) / dtS);
-    double unseen = turn;
-    for (std::size_t i = 0; i < seen_.size() && unseen > own.unseen; ++i) {
-      unseen = std::min(unseen, angleBetween(shown.turns[j], seen_[i][j]));
+    double nearest = 0.0;
+    for (const auto& turns : seen_) {
+      nearest = std::max(nearest, std::abs(cosineBetween(shown.turns[j], turns[j])));
     }
+    const double unseen = 2.0 * std::acos(std::min(1.0, nearest));
     own.unseen = std::max(own.unseen, unseen);
+    ugly_.unseen.take(unseen, j);
   }
 }
 
@@ -197,7 +220,6 @@ double MotionAudit::ownDepth(const Body& body, std::size_t i, std::size_t k) con
 }
 
 void MotionAudit::lookAtDepth(const Body& shown, const Body& tracked) {
-  double worst = 0.0;
   for (const auto& [i, k] : pairs_) {
     const double depth = ownDepth(shown, i, k);
     if (!(depth > 0.0)) continue;
@@ -205,9 +227,9 @@ void MotionAudit::lookAtDepth(const Body& shown, const Body& tracked) {
     for (const std::size_t lss : {i, k}) {
       of(linkOf_[lss]).ownDepth = std::max(of(linkOf_[lss]).ownDepth, deeper);
     }
-    worst = std::max(worst, deeper);
+    ugly_.ownDepth.take(deeper, linkOf_[k]);  // a limb comes after its trunk
   }
-  if (worst > kSeen) ++tally_.deeper;
+  if (ugly_.ownDepth.value > kSeen) ++tally_.deeper;
 }
 
 void MotionAudit::lookAtHead(const Body& shown, const Body& tracked, double dtS) {
@@ -215,12 +237,13 @@ void MotionAudit::lookAtHead(const Body& shown, const Body& tracked, double dtS)
     return norm(now - 2.0 * then + before) / (dtS * dtS);
   };
   double head = 0.0, trackedHead = 0.0;
+  const std::size_t then = shown_.size() - 1, before = then - 1;
   for (std::size_t i = 0; i < shown.axes.size(); ++i) {
     for (std::size_t end = 0; end < 2; ++end) {
       const double here =
-          acceleration(shown_[0].axes[i][end], shown_[1].axes[i][end], shown.axes[i][end]);
-      const double there =
-          acceleration(tracked_[0].axes[i][end], tracked_[1].axes[i][end], tracked.axes[i][end]);
+          acceleration(shown_[before].axes[i][end], shown_[then].axes[i][end], shown.axes[i][end]);
+      const double there = acceleration(tracked_[before].axes[i][end], tracked_[then].axes[i][end],
+                                        tracked.axes[i][end]);
       LinkMotion& own = of(linkOf_[i]);
       own.acceleration = std::max(own.acceleration, here);
       own.tracked = std::max(own.tracked, there);
@@ -231,6 +254,20 @@ void MotionAudit::lookAtHead(const Body& shown, const Body& tracked, double dtS)
   }
   tally_.head.push_back(head);
   tally_.trackedHead.push_back(trackedHead);
+}
+
+void MotionAudit::lookAtJerk(const Body& shown, const Body& tracked, double dtS) {
+  const auto jerk = [dtS](const std::vector<Body>& before, const Body& now, std::size_t i,
+                          std::size_t end) {
+    const Vec &x0 = before[0].axes[i][end], &x1 = before[1].axes[i][end],
+              &x2 = before[2].axes[i][end];
+    return norm((now.axes[i][end] - x0) + 3.0 * (x1 - x2)) / (dtS * dtS * dtS);
+  };
+  for (std::size_t i = 0; i < shown.axes.size(); ++i) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      ugly_.jerk.take(jerk(shown_, shown, i, end) - jerk(tracked_, tracked, i, end), linkOf_[i]);
+    }
+  }
 }
 
 }  // namespace foretouch::test

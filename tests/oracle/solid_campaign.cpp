@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -141,22 +142,29 @@ SolidCampaignTally judgeSolid(const tools::SolidStage& stage, const tools::Solid
   request.count = campaign.places;
   request.seconds = std::min(campaign.seconds, actor.clip.durationS());
   request.seed = campaign.seed;
+  const bool isBeside = campaign.beside != Obstacles::None;
+  if (isBeside) request.leastInside = 0.0;  // what is beside makes any place busy
   std::uint64_t seed = campaign.seed;
   for (const tools::BusyPlace& place : tools::busyPlaces(stage, actor, request)) {
     auto poses =
         tools::trackedPoses(actor, place.placement, campaign.rateHz, place.fromS, request.seconds);
-    auto solid = SolidAvatar::build(actor.avatar, stage.scene, options);
-    if (poses.size() < 2 || !solid.ok()) continue;
+    if (poses.size() < 2) continue;
+    std::optional<tools::SolidStage> made;
+    if (isBeside) made = withObstacles(stage, campaign.beside, actor.avatar, poses, seed + 1);
+    const tools::SolidStage& here = isBeside ? *made : stage;
+    auto solid = SolidAvatar::build(actor.avatar, here.scene, options);
+    if (!solid.ok()) continue;
     ++tally.places;
     TargetMaker targets(campaign, std::move(poses), ++seed);
-    tools::WayAudit audit(stage.judged, actor.avatar, ownPairs);
-    const std::string name =
-        fmt::format("{} in {}, {} targets, {:g} Hz, skin {:g}, self {}, seed {}, place {}",
-                    actor.name, stage.name, toString(campaign.targets), campaign.rateHz,
-                    campaign.skin, campaign.self, campaign.seed, tally.places);
+    tools::WayAudit audit(here.judged, actor.avatar, ownPairs);
+    const std::string name = fmt::format(
+        "{} in {}, {} targets, {:g} Hz, skin {:g}, sunk {:g}, self {}, seed {}, place "
+        "{}",
+        actor.name, here.name, toString(campaign.targets), campaign.rateHz, campaign.skin,
+        campaign.sunk, campaign.self, campaign.seed, tally.places);
     audit.begin(name);
     const bool isPerson = campaign.targets != SolidTargets::Hostile;
-    MotionAudit motion(stage.judged, actor.avatar, options);
+    MotionAudit motion(here.judged, actor.avatar, options);
     motion.begin(name);
     SolidTick tick;
     for (std::size_t i = 0; i < targets.count(); ++i) {

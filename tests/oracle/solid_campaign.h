@@ -8,6 +8,7 @@
 #include "bench/solid/stage.h"
 #include "bench/solid/way_audit.h"
 #include "tests/oracle/motion_audit.h"
+#include "tests/oracle/obstacles.h"
 
 namespace foretouch::test {
 
@@ -25,6 +26,7 @@ struct SolidCampaign {
   SolidTargets targets = SolidTargets::Clip;
   double rateHz = 90.0, skin = 2e-3, seconds = 4.0;
   double sunk = 0.0;  ///< How far the tracked body is below where it belongs (m).
+  Obstacles beside = Obstacles::None;
   bool self = false;  ///< Whether own links stop each other, too.
   int places = 1;
   std::uint64_t seed = 1;

@@ -17,10 +17,10 @@ using test::SolidTargets;
 
 struct Arguments {
   std::vector<std::string> scenes{"kitchen", "office", "collision-world", "undulating"}, clips,
-      targets{"clip", "random", "hostile"};
-  std::vector<double> rates{90, 30, 10}, skins{2e-3, 1e-3};
+      targets{"clip", "random", "hostile"}, beside{"none"};
+  std::vector<double> rates{90, 30, 10}, skins{2e-3, 1e-3}, sunk{0.0};
   std::string data, self = "both";
-  double seconds = 4.0, sunk = 0.0;
+  double seconds = 4.0;
   int places = 1;
   std::uint64_t seeds = 1, first = 1;
 };
@@ -31,25 +31,49 @@ Result<tools::SolidStage> loadStage(const std::string& name, const std::string& 
   return tools::SolidStage{name, scene.value().scene, std::move(scene.value().oracle)};
 }
 
-std::vector<SolidCampaign> campaignsOf(const Arguments& a) {
+/// Each of `campaigns` once for each value, which `set` sets.
+template <typename Value, typename Set>
+std::vector<SolidCampaign> timesEach(const std::vector<SolidCampaign>& campaigns,
+                                     const std::vector<Value>& values, const Set& set) {
   std::vector<SolidCampaign> all;
-  for (std::uint64_t seed = a.first; seed < a.first + a.seeds; ++seed) {
-    for (const double rate : a.rates) {
-      for (const double skin : a.skins) {
-        for (std::uint8_t t = 0; t < test::kNumSolidTargets; ++t) {
-          const auto kind = static_cast<SolidTargets>(t);
-          if (std::find(a.targets.begin(), a.targets.end(), toString(kind)) == a.targets.end()) {
-            continue;
-          }
-          for (const bool self : {false, true}) {
-            if (a.self != "both" && (a.self == "on") != self) continue;
-            all.push_back({kind, rate, skin, a.seconds, a.sunk, self, a.places, seed});
-          }
-        }
-      }
+  for (SolidCampaign campaign : campaigns) {
+    for (const Value& value : values) {
+      set(campaign, value);
+      all.push_back(campaign);
     }
   }
   return all;
+}
+
+/// The kinds that the words name, in their own order.
+template <typename Kind>
+std::vector<Kind> kindsOf(const std::vector<std::string>& words, std::uint8_t count) {
+  std::vector<Kind> kinds;
+  for (std::uint8_t i = 0; i < count; ++i) {
+    const auto kind = static_cast<Kind>(i);
+    if (std::find(words.begin(), words.end(), toString(kind)) != words.end()) kinds.push_back(kind);
+  }
+  return kinds;
+}
+
+std::vector<SolidCampaign> campaignsOf(const Arguments& a) {
+  SolidCampaign one;
+  one.seconds = a.seconds;
+  one.places = a.places;
+  std::vector<std::uint64_t> seeds;
+  for (std::uint64_t seed = a.first; seed < a.first + a.seeds; ++seed) seeds.push_back(seed);
+  std::vector<bool> selves;
+  if (a.self != "on") selves.push_back(false);
+  if (a.self != "off") selves.push_back(true);
+  auto all = timesEach({one}, seeds, [](auto& c, std::uint64_t seed) { c.seed = seed; });
+  all = timesEach(all, a.rates, [](auto& c, double rate) { c.rateHz = rate; });
+  all = timesEach(all, a.skins, [](auto& c, double skin) { c.skin = skin; });
+  all = timesEach(all, a.sunk, [](auto& c, double sunk) { c.sunk = sunk; });
+  all = timesEach(all, kindsOf<test::Obstacles>(a.beside, test::kNumObstacles),
+                  [](auto& c, test::Obstacles beside) { c.beside = beside; });
+  all = timesEach(all, kindsOf<SolidTargets>(a.targets, test::kNumSolidTargets),
+                  [](auto& c, SolidTargets targets) { c.targets = targets; });
+  return timesEach(all, selves, [](auto& c, bool self) { c.self = self; });
 }
 
 int judgeAll(const Arguments& a) {
@@ -98,7 +122,11 @@ int main(int argc, char** argv) {
   app.add_option("--skins", a.skins, "Metres")->delimiter(',')->check(CLI::PositiveNumber);
   app.add_option("--self", a.self, "on, off or both")->check(CLI::IsMember({"on", "off", "both"}));
   app.add_option("--seconds", a.seconds, "Of each clip at each place")->check(CLI::PositiveNumber);
-  app.add_option("--sunk", a.sunk, "How far the tracked body is too low, in metres");
+  app.add_option("--sunk", a.sunk, "How far the tracked body is too low, in metres")
+      ->delimiter(',');
+  app.add_option("--beside", a.beside, "none, plates, cage, spikes: what stands where limbs go")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"none", "plates", "cage", "spikes"}));
   app.add_option("--places", a.places, "Per combination")->check(CLI::PositiveNumber);
   app.add_option("--seeds", a.seeds, "How often, each time at other places");
   app.add_option("--first", a.first, "The first seed");

@@ -204,22 +204,64 @@ RawScene wallAcross() {
   return raw;
 }
 
-class SnapOf : public testing::TestWithParam<double> {};
+/// Bars all around the figure, a hand's breadth apart, and above it.
+RawScene cage() {
+  RawScene raw;
+  constexpr double kHalf = 1.2, kTop = 2.2, kGap = 0.1, kBar = 0.01;
+  for (double at = -kHalf; at < kHalf; at += kGap) {
+    for (const double side : {-kHalf, kHalf}) {
+      addBox(raw, {at, -0.2, side}, {at + kBar, kTop, side + kBar});
+      addBox(raw, {side, -0.2, at}, {side + kBar, kTop, at + kBar});
+    }
+    addBox(raw, {at, kTop, -kHalf}, {at + kBar, kTop + kBar, kHalf});
+  }
+  return raw;
+}
+
+/// Where somebody is tracked from whom the shown body is kept: `at` t seconds later, from rest.
+struct SnapTarget {
+  const char* name;
+  RawScene (*scene)();
+  Vector3d (*at)(double t);
+};
+void PrintTo(const SnapTarget& target, std::ostream* out) {
+  *out << target.name;
+}
+
+/// Two metres on, within two thirds of a second.
+double gone(double t) {
+  return -2.0 * std::min(1.0, 1.5 * t);
+}
+
+const SnapTarget kSnapTargets[] = {
+    {"still", wallAcross, [](double t) { return Vector3d(0, 0, gone(t)); }},
+    {"living", wallAcross, [](double t) { return Vector3d(0.03 * std::sin(6.3 * t), 0, gone(t)); }},
+    {"pacing", wallAcross, [](double t) { return Vector3d(0.3 * std::sin(6.3 * t), 0, gone(t)); }},
+    {"wandering", wallAcross,
+     [](double t) {
+       return Vector3d(1.2 * t + 0.2 * std::sin(3.0 * t), 0, gone(t) - 0.4 * std::sin(1.7 * t));
+     }},
+    {"caged", cage, [](double t) { return Vector3d(0.1 * std::sin(4.0 * t), 0, 1.5 * gone(t)); }},
+};
+
+class SnapOf : public testing::TestWithParam<SnapTarget> {};
 
 TEST_P(SnapOf, ComesWhenItWasAnnounced) {
   SolidOptions options;
   options.maySnap = true;
-  SolidRunner run(wallAcross(), options);
+  SolidRunner run(GetParam().scene(), options);
   run.follow(run.rest());
   double announced = -1.0;
   int announcements = 0, snapped = -1;
   for (int i = 0; i < 450 && snapped < 0; ++i) {
     Pose pose = run.rest();
-    pose.translations[0].z() -= 2.0 * std::min(1.0, i / 60.0);
-    // A living user: he wanders by a hand's breadth all the time.
-    pose.translations[0].x() += GetParam() * std::sin(0.07 * i);
+    pose.translations[0] += GetParam().at(i * kTickS);
     const SolidTick& tick = run.follow(pose);
-    if (tick.state == SolidState::Snapped) snapped = i;
+    if (tick.state == SolidState::Snapped) {
+      snapped = i;
+      EXPECT_GE(announced, 0.0) << "without a word";
+      EXPECT_LE(announced, kTickS) << "too early";
+    }
     if (announced >= 0.0) {
       EXPECT_NEAR(tick.snapInS, std::max(0.0, announced - kTickS), 1e-9) << i;
     } else if (tick.snapInS >= 0.0) {
@@ -231,8 +273,10 @@ TEST_P(SnapOf, ComesWhenItWasAnnounced) {
   EXPECT_EQ(announcements, 1);
   EXPECT_GT(snapped, 90);
   EXPECT_LT(snapped, 250);
+  EXPECT_EQ(run.violations(), 0u);
 }
-INSTANTIATE_TEST_SUITE_P(SolidFeel, SnapOf, testing::Values(0.0, 0.03, 0.3));
+INSTANTIATE_TEST_SUITE_P(SolidFeel, SnapOf, testing::ValuesIn(kSnapTargets),
+                         [](const auto& of) { return std::string(of.param.name); });
 
 TEST(SolidFeel, ASnapIntoSomethingIsWithdrawn) {
   SolidOptions options;
