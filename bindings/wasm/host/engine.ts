@@ -6,17 +6,17 @@ import { ForetouchError } from "../machine.js";
 import type { Avatar, Link, Lss, PoseLike, Scene, SceneArrays } from "../shapes.js";
 import type { SolidOptions } from "../solid.js";
 import type { SolidBodyTick, SolidTarget, SolidWorld, SolidWorldOptions } from "../solid_world.js";
-import type { BodyOptions, TriggerOptions, WorldEvents } from "../world.js";
+import type { BodyOptions, WorldEvents } from "../world.js";
 
 /** What a body is made of. */
-export type Shape = { readonly links: readonly Link[] } | { readonly mesh: SceneArrays } | { readonly halfExtents: readonly [number, number, number] } | { readonly sphere: number };
+export type Shape = { readonly links: readonly Link[] } | { readonly mesh: SceneArrays };
 
 export interface BodyOrder {
   /** As of Engine.shape(). */
   readonly shape: number;
   /** A solid avatar, which follows its targets; else it moves as it is told. */
   readonly isSolid: boolean;
-  readonly options: SolidOptions & BodyOptions & TriggerOptions;
+  readonly options: SolidOptions & BodyOptions;
   /** Where it is at the first instant; of a solid one there is no need to say. */
   readonly pose: PoseLike | null;
 }
@@ -42,7 +42,7 @@ export interface Tick {
 }
 
 /** What a tick answers: solid avatars by number, and what happened. */
-export interface Told extends WorldEvents {
+export interface Told extends Pick<WorldEvents, "events"> {
   readonly solids: readonly SolidBodyTick[];
 }
 
@@ -51,10 +51,8 @@ const nowhere: SceneArrays = { positions: [0, -9e6, 0, 1, -9e6, 0, 0, -9e6, 1] }
 
 export class Engine {
   private still: Scene | null = null;
-  private readonly shapes = new Map<number, Avatar | Scene | Shape>();
+  private readonly shapes = new Map<number, Avatar | Scene>();
   private world: SolidWorld | null = null;
-  /** By number of the body: of triggers, which have a number of their own as well. */
-  private triggers: number[] = [];
 
   constructor(readonly library: Foretouch) {}
 
@@ -70,13 +68,12 @@ export class Engine {
   }
 
   shape(number: number, shape: Shape): void {
-    this.shapes.set(number, "links" in shape ? this.library.avatar(shape.links) : "mesh" in shape ? this.library.scene(shape.mesh) : shape);
+    this.shapes.set(number, "links" in shape ? this.library.avatar(shape.links) : this.library.scene(shape.mesh));
   }
 
   /** Lets go of a shape that no body of the next begin() has. */
   forget(number: number): void {
-    const shape = this.shapes.get(number);
-    if (shape !== undefined && "dispose" in shape) shape.dispose();
+    this.shapes.get(number)?.dispose();
     this.shapes.delete(number);
   }
 
@@ -86,19 +83,14 @@ export class Engine {
     const world = this.library.solidWorld(this.still as Scene, timeUs, options);
     this.world?.dispose();
     this.world = world;
-    this.triggers = [];
     for (const body of bodies) this.join(timeUs, body);
   }
 
   join(timeUs: number, { shape, isSolid, options, pose }: BodyOrder): void {
-    const made = this.shapes.get(shape), { world } = this.begun();
+    const made = this.shapes.get(shape), all = this.begun();
     if (made === undefined) throw new ForetouchError(`shape: expected one that was made, found ${shape}`);
-    let body: number;
-    if (isSolid) body = this.begun().add(made as Avatar, options);
-    else if ("halfExtents" in made) body = this.watched(world.triggers.addBox(made.halfExtents, options));
-    else if ("sphere" in made) body = this.watched(world.triggers.addSphere(made.sphere, options));
-    else body = world.add(made as Avatar | Scene, options);
-    if (pose !== null) world.push(body, timeUs, pose);
+    const body = isSolid ? all.add(made as Avatar, options) : all.world.add(made, options);
+    if (pose !== null) all.world.push(body, timeUs, pose);
   }
 
   tick({ timeUs, moves, targets, holds }: Tick): Told {
@@ -109,10 +101,10 @@ export class Engine {
     }
     for (const { body, pose } of moves) world.push(body, timeUs, pose);
     const solids = all.tick(timeUs, targets);
-    const told = all.follow();
+    const { events } = all.follow();
     // Whoever is held or let go of next, is so from this tick's end on.
     world.forgetBefore(beganUs);
-    return { solids, ...told, triggers: told.triggers.map((event) => ({ ...event, trigger: this.triggers[event.trigger] })) };
+    return { solids, events };
   }
 
   dispose(): void {
@@ -121,12 +113,6 @@ export class Engine {
     for (const number of [...this.shapes.keys()]) this.forget(number);
     this.still?.dispose();
     this.still = null;
-  }
-
-  private watched(trigger: number): number {
-    const body = this.begun().world.triggers.body(trigger);
-    this.triggers[trigger] = body;
-    return body;
   }
 
   private begun(): SolidWorld {

@@ -4,12 +4,12 @@ import { ForetouchError } from "../machine.js";
 import type { Link, Pose } from "../shapes.js";
 import type { SolidOptions, SolidState } from "../solid.js";
 import type { SolidBodyTick } from "../solid_world.js";
-import type { BodyOptions, TriggerOptions } from "../world.js";
+import type { BodyOptions } from "../world.js";
 import type { Shape } from "./engine.js";
 import { type Frames, framesOf, localPose, type Matrix, poseRoom, type RigidPart } from "./frames.js";
 import type { Touch } from "./touches.js";
 
-/** How the host has something that moves as a whole: a door, a ball, a volume. */
+/** How the host has something that moves as a whole: a door, a ball. */
 export interface RigidSource<O> {
   /** What events name. */
   readonly object: O;
@@ -47,7 +47,7 @@ export abstract class Member<O> {
     readonly shape: number,
     readonly made: Shape,
     readonly source: RigidSource<O> | JointSource<O>,
-    readonly options: SolidOptions & BodyOptions & TriggerOptions,
+    readonly options: SolidOptions & BodyOptions,
     readonly isSolid: boolean,
     readonly pose: Pose,
   ) {}
@@ -70,7 +70,7 @@ export class RigidMember<O> extends Member<O> {
     override readonly source: RigidSource<O>,
     private readonly part: RigidPart,
     private readonly objects: readonly O[],
-    options: BodyOptions & TriggerOptions,
+    options: BodyOptions,
   ) {
     super(shape, made, source, options, false, poseRoom(1));
   }

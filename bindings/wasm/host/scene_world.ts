@@ -3,7 +3,7 @@
 import { Foretouch } from "../foretouch.js";
 import { ForetouchError } from "../machine.js";
 import type { SolidOptions } from "../solid.js";
-import type { BodyOptions, TriggerOptions } from "../world.js";
+import type { BodyOptions } from "../world.js";
 import { Engine, type EngineLike } from "./engine.js";
 import type { Matrix } from "./frames.js";
 import type { HostMesh, Note } from "./geometry.js";
@@ -68,10 +68,6 @@ export class SceneWorld<O> {
     this.setApart(object);
     const meshes = this.host.meshesOf(object, this.world.say, (other) => other !== object && this.apart.has(other));
     return this.world.addRigid(this.rigid(object, tell), meshes, options);
-  }
-
-  addTrigger(object: O, shape: readonly [number, number, number] | number, tell: Tell<O>, options: TriggerOptions): RigidMember<O> {
-    return this.world.addTrigger(this.rigid(object, tell), typeof shape === "number" ? { sphere: shape } : { halfExtents: shape }, options);
   }
 
   /** With `shown` it is solid. `then`: once it is in the world. */

@@ -5,8 +5,8 @@
 import { ForetouchError, type Point } from "../machine.js";
 import type { SolidContact, SolidOptions } from "../solid.js";
 import type { SolidTarget, SolidWorldOptions } from "../solid_world.js";
-import { type BodyOptions, type ContactSide, stillScene, type TriggerEvent, type TriggerOptions, type WorldEvent } from "../world.js";
-import type { BodyOrder, EngineLike, Hold, Move, Shape, Told } from "./engine.js";
+import { type BodyOptions, type ContactSide, stillScene, type WorldEvent } from "../world.js";
+import type { BodyOrder, EngineLike, Hold, Move, Told } from "./engine.js";
 import { framesOf, intoFrame, localPose, poseRoom, RigidPart, worldFrames } from "./frames.js";
 import { gathered, type HostMesh, type Note } from "./geometry.js";
 import { JointMember, type JointSource, type Member, RigidMember, type RigidSource } from "./members.js";
@@ -61,11 +61,6 @@ export class TouchWorld<O> {
     return this.join(new RigidMember(this.shapes, { mesh: mesh.arrays }, source, part, mesh.objects, options));
   }
 
-  /** A volume that tells who is in it, in the place of something that moves, or not. */
-  addTrigger(source: RigidSource<O>, shape: Extract<Shape, { halfExtents: unknown } | { sphere: unknown }>, options: TriggerOptions = {}): RigidMember<O> {
-    return this.join(new RigidMember(this.shapes, shape, source, new RigidPart(source.name, source.matrix(), this.mirror), [], options));
-  }
-
   /** Something with joints. Solid: it is shown where nothing is in its way; `then`: once its links are known. */
   addJoints(source: JointSource<O>, options: SolidOptions & BodyOptions, isSolid: boolean, then: (member: JointMember<O>) => void): void {
     const add = (links: Parameters<(typeof this.waiting)[number]["add"]>[0]): void => then(this.join(new JointMember(this.shapes, links, source, options, isSolid)));
@@ -115,6 +110,9 @@ export class TouchWorld<O> {
     this.admit();
     const isGap = timeUs <= this.timeUs || timeUs - this.timeUs > 1e6 * (this.options.longestStep ?? 0.5);
     const seen = this.members.filter((member) => this.reads(member));
+    // Of nobody there is nothing to ask: it begins with the first.
+    if (seen.length === 0) this.mustBegin = true;
+    if (seen.length === 0 && this.byBody.length === 0) return;
     let done: Later;
     try {
       done = this.mustBegin || isGap ? this.begin(timeUs, seen) : this.step(timeUs, seen);
@@ -245,7 +243,6 @@ export class TouchWorld<O> {
     }
     for (const member of this.byBody) if (member instanceof RigidMember && member.held !== null) this.carry(member, member.held);
     for (const event of told.events) this.tell(event);
-    for (const event of told.triggers) this.tellTrigger(event);
   }
 
   private carry(member: RigidMember<O>, { by, link, pose }: NonNullable<RigidMember<O>["held"]>): void {
@@ -287,23 +284,6 @@ export class TouchWorld<O> {
     };
     member.source.tell?.(touch);
     if (isFirst) this.told(touch);
-  }
-
-  private tellTrigger({ kind, trigger, body, link, timeUs, timeFraction, isAssumed }: TriggerEvent): void {
-    const member = this.byBody[trigger];
-    member?.source.tell?.({
-      kind,
-      cause: "apart",
-      reason: "none",
-      time: 1e-6 * (timeUs + timeFraction),
-      link: null,
-      object: this.objectAt(body, -1),
-      otherLink: this.byBody[body]?.linkName(link) ?? null,
-      point: [0, 0, 0],
-      normal: [0, 0, 0],
-      approachSpeed: 0,
-      isAssumed,
-    });
   }
 
   private objectAt(body: number, object: number): O | null {
