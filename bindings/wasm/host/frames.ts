@@ -98,6 +98,8 @@ const cube = (x: number): number => x * x * x;
 export class RigidPart {
   /** 3 x 3, column after column. */
   readonly stretch = new Float64Array(9);
+  /** Where it is the same along every axis, be it mirrored; else null. */
+  readonly scale: number | null;
   private readonly back = new Float64Array(9);
   private readonly rotation = new Float64Array(9);
 
@@ -125,12 +127,8 @@ export class RigidPart {
       this.stretch[3 * column + row] = r[3 * row] * l[3 * column] + r[3 * row + 1] * l[3 * column + 1] + r[3 * row + 2] * l[3 * column + 2];
     }
     invert(this.stretch, this.back);
-  }
-
-  /** The scale, where it is the same along every axis, be it mirrored; else null. */
-  get scale(): number | null {
-    const s = Math.abs(this.stretch[0]);
-    return this.stretch.every((value, i) => Math.abs((i % 4 === 0 ? Math.abs(value) : value) - (i % 4 === 0 ? s : 0)) < 1e-4 * s) ? s : null;
+    const s = Math.abs(this.stretch[0]), isEven = this.stretch.every((value, i) => Math.abs(i % 4 === 0 ? Math.abs(value) - s : value) < 1e-4 * s);
+    this.scale = isEven ? s : null;
   }
 
   /** Into frame number `at`; false where the rest is no longer as it was. */

@@ -12,7 +12,8 @@ import { gathered, type HostMesh, type Note } from "./geometry.js";
 import { JointMember, type JointSource, type Member, RigidMember, type RigidSource } from "./members.js";
 import type { Press, Touch } from "./touches.js";
 
-export interface TouchWorldOptions extends SolidWorldOptions {
+/** Two meshes are not asked about each other: a world that tells touches cannot. */
+export interface TouchWorldOptions extends Omit<SolidWorldOptions, "asksMeshes"> {
   /** Seconds between two updates beyond which nothing is swept: the page was away. Left out: 0.5. */
   readonly longestStep?: number;
 }

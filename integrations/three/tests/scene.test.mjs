@@ -7,7 +7,7 @@ import * as THREE from "three";
 import { clone } from "three/addons/utils/SkeletonUtils.js";
 import { ForetouchError } from "foretouch";
 import { TouchWorld, three } from "../index.js";
-import { box, frames, ft, handSpace, lead, module, worm } from "./things.mjs";
+import { box, frames, ft, handSpace, lead, worm } from "./things.mjs";
 
 const silent = () => undefined;
 const worldOf = (still, notes = []) => new TouchWorld(ft, still, { note: (words, of) => notes.push([words, of]) });
@@ -130,12 +130,4 @@ test("what a host's bad habits are told, and what happens then", async () => {
   now = frames(world, 3, undefined, now);
   assert.ok(told().has("prop: prop: its scale has changed; expected the one that it was added with: remove it and add it anew"));
   assert.equal(hand.state, "equal");
-});
-
-test("load() says what a server sends in place of the module", async () => {
-  const { Foretouch } = await import("foretouch");
-  const answer = (body, init) => Foretouch.load(new Response(body, init));
-  await assert.rejects(answer("<h1>no</h1>", { status: 404, statusText: "Not Found" }), (error) => error instanceof ForetouchError && /^expected foretouch\.wasm, found 404 Not Found/.test(error.message));
-  await assert.rejects(answer("<h1>home</h1>", { headers: { "content-type": "text/html" } }), /^ForetouchError: expected foretouch\.wasm, found text\/html/);
-  assert.equal((await answer(module, { headers: { "content-type": "application/wasm" } })).version, ft.version);
 });
