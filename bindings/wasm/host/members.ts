@@ -103,6 +103,8 @@ export class JointMember<O> extends Member<O> {
   isTracked = false;
   /** Of the last tick. */
   tick: SolidBodyTick | null = null;
+  /** Where a solid one was shown before the world began anew, and begins. */
+  resumes: Pose | null = null;
 
   constructor(
     shape: number,

@@ -14,9 +14,12 @@ import type { Press, Touch } from "./touches.js";
 
 /** Two meshes are not asked about each other: a world that tells touches cannot. */
 export interface TouchWorldOptions extends Omit<SolidWorldOptions, "asksMeshes"> {
-  /** Seconds between two updates beyond which nothing is swept: the page was away. Left out: 0.5. */
+  /** Seconds between two updates beyond which nothing is swept: the page was away. Left out: 0.5. Solid bodies go on from where they are shown, or after five seconds from where they are tracked. */
   readonly longestStep?: number;
 }
+
+/** Microseconds; a solid body that was away for longer is placed anew where it is tracked. */
+const longestAway = 5e6;
 
 type Later = void | Promise<void>;
 const isLater = (value: unknown): value is Promise<unknown> => value instanceof Promise;
@@ -34,6 +37,7 @@ export class TouchWorld<O> {
   private shapes = 0;
   private timeUs = -Infinity;
   private mustBegin = true;
+  private isAnew = true;
   private running: Promise<void> | null = null;
 
   /** `note`: what a person should know; `of`: about which of the host's objects. Each is told once. */
@@ -99,7 +103,7 @@ export class TouchWorld<O> {
 
   /** Nothing between the last update and the next one is swept: the user was teleported. */
   restart(): void {
-    this.mustBegin = true;
+    this.mustBegin = this.isAnew = true;
   }
 
   /** Once per frame, `timeMs` on any clock that goes on: reads where all are, and shows and tells what follows. With an engine in a worker it goes on meanwhile, and frames that come too early are left out. */
@@ -109,6 +113,7 @@ export class TouchWorld<O> {
     if (!Number.isSafeInteger(timeUs)) throw new ForetouchError(`update(): expected milliseconds, as requestAnimationFrame() gives them, found ${timeMs}`);
     if (timeUs <= this.timeUs && this.timeUs - timeUs < 1e5 && !this.mustBegin) return;
     this.admit();
+    this.isAnew = this.isAnew || timeUs <= this.timeUs || timeUs - this.timeUs > longestAway;
     const isGap = timeUs <= this.timeUs || timeUs - this.timeUs > 1e6 * (this.options.longestStep ?? 0.5);
     const seen = this.members.filter((member) => this.reads(member));
     // Of nobody there is nothing to ask: it begins with the first.
@@ -196,7 +201,10 @@ export class TouchWorld<O> {
     for (const member of this.members) {
       member.body = -1;
       if (member instanceof RigidMember) member.held = null;
-      if (member instanceof JointMember) member.tick = null;
+      if (!(member instanceof JointMember)) continue;
+      // No wall is passed for a frame that took too long.
+      member.resumes = this.isAnew ? null : (member.tick?.tick.shown ?? member.resumes);
+      member.tick = null;
     }
     for (const member of this.members.filter(({ isOut }) => isOut)) this.send(this.engine.forget(member.shape));
     this.members.splice(0, this.members.length, ...this.members.filter(({ isOut }) => !isOut));
@@ -205,7 +213,7 @@ export class TouchWorld<O> {
     const { longestStep, ...options } = this.options;
     this.send(this.engine.begin(timeUs, options, this.byBody.map((member) => this.orderOf(member))));
     this.timeUs = timeUs;
-    this.mustBegin = false;
+    this.mustBegin = this.isAnew = false;
     return this.settled(() => undefined);
   }
 
@@ -215,8 +223,9 @@ export class TouchWorld<O> {
       const { body, pose, isSolid } = member;
       if (isSolid) {
         if (body < 0) this.comes(timeUs, member);
-        const { isTracked, links } = member as JointMember<O>;
-        targets.push({ body: member.body, pose, isTracked: isTracked ? undefined : links.map(() => false) });
+        const { isTracked, links, resumes } = member as JointMember<O>;
+        targets.push({ body: member.body, pose: resumes ?? pose, isTracked: isTracked || resumes !== null ? undefined : links.map(() => false) });
+        (member as JointMember<O>).resumes = null;
       } else if (body < 0) this.comes(timeUs, member);
       else if (!(member instanceof RigidMember && member.held !== null)) moves.push({ body, pose });
     }

@@ -117,6 +117,21 @@ test("away for a minute is a gap: no wall is swept through, and what was touched
   assert.ok(hand.shown.joints.wrist.position.x > 0.99);
 });
 
+test("a frame that takes a second lets no hand through: it goes on from where it is shown", () => {
+  const room = new THREE.Scene(), space = handSpace();
+  box("case", [0.6, 2, 2], [0.8, 0, 0], room);
+  const world = new TouchWorld(ft, room), hand = world.addHand(space), foremost = () => Math.max(...Object.values(hand.shown.joints).map(({ position, jointRadius }) => position.x + jointRadius));
+  let now = frames(world, 5, () => lead(space, [0, 0, 0]));
+  now = frames(world, 20, () => lead(space, [0.8, 0, 0]), now);
+  assert.ok(foremost() < 0.5);
+  now = frames(world, 5, undefined, now + 1000);
+  assert.ok(foremost() < 0.5 && foremost() > 0.4, `${foremost()}`);
+  assert.ok(hand.state === "held" || hand.state === "sliding", hand.state);
+  world.restart();
+  now = frames(world, 3, undefined, now);
+  assert.equal(hand.state, "equal");
+});
+
 test("a hand that is lost stays, and one above which the rig moves or is scaled follows", () => {
   const room = new THREE.Scene(), rig = new THREE.Group(), space = handSpace();
   box("floor", [8, 0.1, 8], [0, -4, 0], room);
