@@ -29,7 +29,7 @@ export class TouchViewer {
       mesh.color = this.color;
       this.capsules = { lines, mesh };
     }
-    this.capsules.mesh.updateVerticesData("position", this.capsules.lines.update(member.isSolid && member.tick !== null ? member.shown : member.tracked));
+    this.capsules.mesh.updateVerticesData("position", this.capsules.lines.update(member.drawn));
     this.arrows?.dispose();
     const points = linesOfPresses(this.body.presses.map((press) => ({ ...press, point: press.point.asArray() as [number, number, number], normal: press.normal.asArray() as [number, number, number] })));
     this.arrows = points.length === 0 ? null : CreateLineSystem("Foretouch presses", { lines: pairs(points) }, this.scene);

@@ -29,7 +29,7 @@ export class TouchHelper extends Group {
       this.capsules = new BodyLines(member.links, 1);
       this.lines.geometry.setAttribute("position", new BufferAttribute(this.capsules.positions, 3));
     }
-    this.capsules.update(member.isSolid && member.tick !== null ? member.shown : member.tracked);
+    this.capsules.update(member.drawn);
     this.lines.geometry.attributes["position"].needsUpdate = true;
     const presses = this.body.presses.map((press) => ({ ...press, point: press.point.toArray(), normal: press.normal.toArray() }));
     this.arrows.geometry.setAttribute("position", new BufferAttribute(linesOfPresses(presses), 3));

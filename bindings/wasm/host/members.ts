@@ -117,6 +117,11 @@ export class JointMember<O> extends Member<O> {
     [this.tracked, this.shown] = [framesOf(links.length), framesOf(links.length)];
   }
 
+  /** Where it is to be drawn. */
+  get drawn(): Frames {
+    return this.isSolid && (this.tick !== null || this.resumes !== null) ? this.shown : this.tracked;
+  }
+
   override read(): boolean {
     this.isTracked = this.source.read(this.tracked);
     if (this.isTracked) localPose(this.source.parents, this.tracked, this.pose);

@@ -102,7 +102,7 @@ async function headset(query) {
   // Down on the table, whose top is at y = 0.87.
   await rightTo([0.15, 1.15, -0.25]);
   await frames(60);
-  await rightTo([0.15, 0.6, -0.25]);
+  await rightTo([0.15, 0.85, -0.25]);
   await page.waitForFunction(() => window.shown().some(({ presses }) => presses.includes("table")));
   await frames(30);
   const lowest = Math.min(...(await right()).joints.map(([, y, , radius]) => y - radius));
@@ -120,7 +120,7 @@ async function headset(query) {
   // Over the platform, which comes up.
   await page.evaluate(() => window.headset.hands.left.position.set(-0.5, 1.2, -0.4));
   await frames(60);
-  await page.evaluate(() => window.headset.hands.left.position.set(-0.5, 0.8, -0.4));
+  await page.evaluate(() => window.headset.hands.left.position.set(-0.5, 0.86, -0.4));
   await page.waitForFunction(() => window.shown().some(({ presses }) => presses.includes("platform")));
   for (let i = 0; i < 20; ++i) {
     await frames(5);
@@ -143,6 +143,7 @@ async function pointer() {
   await page.evaluate(() => window.example.pointer.position.set(0.5, 1.1, -0.3));
   await page.waitForFunction(() => window.example.hands[2].presses.some(({ object }) => object.name === "board"));
   await page.waitForTimeout(1500);
+  await page.waitForFunction(() => window.example.hands[2].presses.some(({ object }) => object.name === "board"));
   await page.screenshot({ path: join(shots, "three.png") });
   const joints = await page.evaluate(() => Object.values(window.example.hands[2].shown.joints).map(({ position, jointRadius }) => position.x + jointRadius));
   assert.ok(Math.max(...joints) < 0.298);
