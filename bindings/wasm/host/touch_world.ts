@@ -20,6 +20,7 @@ export interface TouchWorldOptions extends Omit<SolidWorldOptions, "asksMeshes">
 
 /** Microseconds; a solid body that was away for longer is placed anew where it is tracked. */
 const longestAway = 5e6;
+const moment = 1000;
 
 type Later = void | Promise<void>;
 const isLater = (value: unknown): value is Promise<unknown> => value instanceof Promise;
@@ -121,7 +122,8 @@ export class TouchWorld<O> {
     if (seen.length === 0 && this.byBody.length === 0) return;
     let done: Later;
     try {
-      done = this.mustBegin || isGap ? this.begin(timeUs, seen) : this.step(timeUs, seen);
+      const first = this.mustBegin || isGap ? this.begins(timeUs, seen) : undefined, second = this.step(timeUs, seen);
+      done = isLater(first) || isLater(second) ? Promise.all([first, second]).then(() => undefined) : undefined;
     } catch (reason) {
       return this.failed(reason);
     }
@@ -194,7 +196,13 @@ export class TouchWorld<O> {
     }
   }
 
-  private begin(timeUs: number, seen: readonly Member<O>[]): Later {
+  /** Two moments before, of which the first is for being where one was: so there is an answer even where every frame takes too long. */
+  private begins(timeUs: number, seen: readonly Member<O>[]): Later {
+    this.begin(timeUs - 2 * moment, seen);
+    return this.step(timeUs - moment, seen);
+  }
+
+  private begin(timeUs: number, seen: readonly Member<O>[]): void {
     for (const event of this.open.values()) this.tellBoth({ ...event, kind: "leave", timeUs: this.timeUs, timeFraction: 0 }, "gap");
     this.open.clear();
     this.holds = [];
@@ -214,7 +222,6 @@ export class TouchWorld<O> {
     this.send(this.engine.begin(timeUs, options, this.byBody.map((member) => this.orderOf(member))));
     this.timeUs = timeUs;
     this.mustBegin = this.isAnew = false;
-    return this.settled(() => undefined);
   }
 
   private step(timeUs: number, seen: readonly Member<O>[]): Later {

@@ -102,13 +102,13 @@ test("a hand, a door and a board: every shown pose and event as the package's ow
   // By hand, with nothing of foretouch/host but what says where things are.
   const still = three.meshesOf(room, () => undefined, (object) => object === door)[0], panel = door.children[0];
   const placed = (mesh, matrix) => Array.from({ length: mesh.geometry.attributes.position.count }, (_, i) => new THREE.Vector3().fromBufferAttribute(mesh.geometry.attributes.position, i).applyMatrix4(matrix).toArray()).flat();
-  const bare = ft.solidWorld(ft.scene({ positions: placed(still.object, still.object.matrixWorld), indices: still.indices }), Math.round(1e3 * run[0].ms));
+  const bare = ft.solidWorld(ft.scene({ positions: placed(still.object, still.object.matrixWorld), indices: still.indices }), Math.round(1e3 * run[0].ms) - 2000);
   const body = bare.world.add(ft.scene({ positions: placed(panel, panel.matrix), indices: panel.geometry.index.array })), user = bare.add(ft.avatar(hand.member.links), { liftsFeet: false }), events = [];
   run.forEach(({ ms, tracked, shown, door }, i) => {
     const turn = new THREE.Quaternion(), place = new THREE.Vector3(), us = Math.round(1e3 * ms);
     door.decompose(place, turn, new THREE.Vector3());
-    bare.world.push(body, us, { rotations: [turn.w, turn.x, turn.y, turn.z], translations: place.toArray() });
-    if (i === 0) return;
+    for (const at of i === 0 ? [us - 2000, us - 1000, us] : [us]) bare.world.push(body, at, { rotations: [turn.w, turn.x, turn.y, turn.z], translations: place.toArray() });
+    if (i === 0) bare.tick(us - 1000, [{ body: user, pose: tracked }]);
     const [{ tick }] = bare.tick(us, [{ body: user, pose: tracked }]);
     for (const { kind, timeUs, timeFraction, a, b } of bare.follow().events) {
       const [own] = [a, b].filter(({ body }) => body >= 0);

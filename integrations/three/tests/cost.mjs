@@ -51,10 +51,12 @@ const timed = (call) => {
 };
 tracked(1);
 world.update(tickMs);
-const members = [...hands, body].map(({ member }) => member), own = ft.solidWorld(scene, Math.round(1e3 * tickMs));
+const members = [...hands, body].map(({ member }) => member), own = ft.solidWorld(scene, Math.round(1e3 * tickMs) - 1000);
 const users = hands.map(({ member }) => own.add(ft.avatar(member.links), { liftsFeet: false })), other = own.world.add(ft.avatar(body.member.links));
 const queries = hands.map(({ member }) => ft.query(scene, ft.avatar(member.links)));
-own.world.push(other, Math.round(1e3 * tickMs), body.member.pose);
+for (const us of [Math.round(1e3 * tickMs) - 1000, Math.round(1e3 * tickMs)]) own.world.push(other, us, body.member.pose);
+own.tick(Math.round(1e3 * tickMs), users.map((user, side) => ({ body: user, pose: hands[side].member.pose })));
+own.follow();
 let lastUs = Math.round(1e3 * tickMs), poses = members.map(({ pose }) => structuredClone(pose));
 for (let i = 2; i <= count; ++i) {
   const us = Math.round(1e3 * i * tickMs), before = poses;

@@ -95,7 +95,7 @@ async function headset(query) {
   // Through the board of 4 mm, whose front is at x = 0.298: in one frame.
   await rightTo([0.5, 1.15, -0.4]);
   await page.waitForFunction(() => window.shown().some(({ presses }) => presses.includes("board")));
-  await frames(60);
+  await frames(30);
   const atBoard = await right();
   const foremost = Math.max(...atBoard.joints.map(([x, , , radius]) => x + radius));
   assert.ok(foremost < 0.298, `a joint is at ${foremost}`);
@@ -103,7 +103,7 @@ async function headset(query) {
   await page.screenshot({ path: join(shots, `${host}-board${query.replace("?", "-")}.png`) });
   // Down on the table, whose top is at y = 0.87.
   await rightTo([0.15, 1.15, -0.25]);
-  await frames(60);
+  await frames(20);
   await rightTo([0.15, 0.85, -0.25]);
   await page.waitForFunction(() => window.shown().some(({ presses }) => presses.includes("table")));
   await frames(30);
@@ -112,7 +112,7 @@ async function headset(query) {
   // Against the drawer, which gives way.
   const before = await page.evaluate(() => window.moved().drawer);
   await rightTo([0.0, 1.1, 0.1]);
-  await frames(60);
+  await frames(20);
   await rightTo([0.0, 0.96, 0.1]);
   await frames(30);
   await rightTo([0.0, 0.96, -0.35]);
@@ -121,7 +121,7 @@ async function headset(query) {
   assert.ok(pushed.joints.every(([x, y, z, radius]) => Math.abs(x) > 0.17 || Math.abs(y - 0.96) > 0.09 || z - radius > pushed.drawer + 0.009), "a joint is in the drawer");
   // Over the platform, which comes up.
   await page.evaluate(() => window.headset.hands.left.position.set(-0.5, 1.2, -0.4));
-  await frames(60);
+  await frames(20);
   await page.evaluate(() => window.headset.hands.left.position.set(-0.5, 0.86, -0.4));
   await page.waitForFunction(() => window.shown().some(({ presses }) => presses.includes("platform")));
   for (let i = 0; i < 20; ++i) {
