@@ -4,10 +4,10 @@
 // promise: docs/guarantees.md. Everything here is for one thread at a time, and answers at once; a
 // page with much to do asks from a worker.
 
-import { type Machine, started } from "./machine.js";
+import { type Machine, moduleOf, started } from "./machine.js";
 import { type BracketOptions, BracketQuery, type LinkBound, type MotionModel, readBounds } from "./person.js";
 import { Query } from "./query.js";
-import { Avatar, Clip, type Link, Scene, type SceneArrays } from "./shapes.js";
+import { Avatar, Clip, fitted, type Link, type Lss, Scene, type SceneArrays } from "./shapes.js";
 import { Solid, type SolidOptions } from "./solid.js";
 import { SolidWorld, type SolidWorldOptions } from "./solid_world.js";
 import { World, type WorldOptions } from "./world.js";
@@ -34,8 +34,7 @@ export class Foretouch {
   /** `module`: the content of foretouch.wasm, or the answer of a fetch() of it. */
   static async load(module: BufferSource | WebAssembly.Module | Response | PromiseLike<Response>): Promise<Foretouch> {
     const given = await module;
-    const source = typeof Response !== "undefined" && given instanceof Response ? await given.arrayBuffer() : (given as BufferSource | WebAssembly.Module);
-    const machine = await started(source);
+    const machine = await started(typeof Response !== "undefined" && given instanceof Response ? await moduleOf(given) : (given as BufferSource | WebAssembly.Module));
     return new Foretouch(machine, machine.text(machine.call("ft_version")));
   }
 
@@ -47,6 +46,11 @@ export class Foretouch {
   /** From an avatar file, or its links. */
   avatar(file: string | readonly Link[]): Avatar {
     return Avatar.parsed(this.machine, typeof file === "string" ? file : JSON.stringify({ format: "foretouch-avatar", version: 1, links: file }));
+  }
+
+  /** Capsules, `most` at most, of which at least one contains each triangle: of these nine numbers each. */
+  fit(triangles: ArrayLike<number>, { most = 4 }: { most?: number } = {}): Lss[] {
+    return fitted(this.machine, triangles, most);
   }
 
   /** A BVH file, for an avatar, or with one made of it. `scale`: metres per unit of the file. */

@@ -19,6 +19,7 @@
 #include "bindings/c/last_step.h"
 #include "bindings/c/link_bounds.h"
 #include "lss/index.h"
+#include "lss/lss_cover.h"
 #include "tessellation/swept_surface.h"
 
 #define FTW_EXPORT extern "C" __attribute__((used, visibility("default")))
@@ -48,12 +49,31 @@ ft_status checkedLink(const ft_query* query, std::int32_t link) {
   return failure(FT_ERROR_OUT_OF_RANGE, link, "link: expected 0 to %d, found %d", count - 1, link);
 }
 
-/// Until the next text or surface.
+/// Until the next text, surface or fit.
 std::string lastText;
 std::vector<double> lastPositions;
 std::vector<std::uint32_t> lastIndices;
 
 }  // namespace
+
+/// LSS of which at least one contains each triangle, a, b and radius of each in `lss`. Of the
+/// triangles nine finite numbers each, which JavaScript has checked.
+FTW_EXPORT ft_status ftw_fit(const double* triangles, std::uint32_t count, std::int32_t most,
+                             const double** lss, std::uint32_t* lssCount) {
+  return guarded(__func__, [&]() -> ft_status {
+    std::vector<Triangle> all(count);
+    for (std::size_t i = 0; i < 3 * all.size(); ++i) {
+      all[i / 3].vertices[i % 3] = Eigen::Map<const Eigen::Vector3d>(triangles + 3 * i);
+    }
+    lastPositions.clear();
+    for (const auto& [p, q, radius] : coverTriangles(all, most)) {
+      lastPositions.insert(lastPositions.end(), {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), radius});
+    }
+    *lss = lastPositions.data();
+    *lssCount = static_cast<std::uint32_t>(lastPositions.size() / 7);
+    return FT_OK;
+  });
+}
 
 /// A BVH file as text.
 FTW_EXPORT ft_status ftw_avatar_of_clip(const char* bvh, std::size_t length, double scale,

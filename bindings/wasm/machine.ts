@@ -329,6 +329,16 @@ function surroundings(): WebAssembly.Imports {
   return { wasi_snapshot_preview1: anything, env: anything } as unknown as WebAssembly.Imports;
 }
 
+/** What a server sends in its place is told, not compiled. */
+export async function moduleOf(answer: Response): Promise<ArrayBuffer> {
+  const where = answer.url === "" ? "" : ` at ${answer.url}`;
+  if (!answer.ok) throw new ForetouchError(`expected foretouch.wasm${where}, found ${`${answer.status} ${answer.statusText}`.trim()}: copy it there, or name where it is`);
+  const bytes = await answer.arrayBuffer();
+  const isModule = bytes.byteLength >= 4 && new DataView(bytes).getUint32(0) === 0x0061736d;
+  if (!isModule) throw new ForetouchError(`expected foretouch.wasm${where}, found ${answer.headers.get("content-type") ?? "something else"}: copy it there, or name where it is`);
+  return bytes;
+}
+
 export async function started(module: BufferSource | WebAssembly.Module): Promise<Machine> {
   const compiled = module instanceof WebAssembly.Module ? module : await WebAssembly.compile(module);
   const { exports } = await WebAssembly.instantiate(compiled, surroundings());

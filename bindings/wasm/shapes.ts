@@ -1,6 +1,6 @@
 // What is asked about: triangles at rest, avatars, their poses and clips.
 
-import { ForetouchError, Held, handleOf, type Machine, type Point, real, type Room, whole } from "./machine.js";
+import { ForetouchError, Held, handleOf, type Machine, type Point, pointAt, real, type Room, whole } from "./machine.js";
 import * as structs from "./structs.js";
 
 /** Of every joint in its parent's frame, roots in W: w, x, y, z per joint, and x, y, z per joint. */
@@ -117,6 +117,21 @@ export class Avatar extends Held {
       translations: Float64Array.from(this.links.flatMap(({ offset }) => offset)),
     };
   }
+}
+
+export function fitted(machine: Machine, triangles: ArrayLike<number>, most: number): Lss[] {
+  if (triangles.length % 9 !== 0) throw new ForetouchError(`triangles: expected nine numbers each, found ${triangles.length} in all`);
+  for (let i = 0; i < triangles.length; ++i) if (!Number.isFinite(triangles[i])) throw new ForetouchError(`triangles: expected finite numbers, found ${triangles[i]} in triangle ${Math.floor(i / 9)}`);
+  return machine.within((room) => {
+    const at = room.integers([0, 0]);
+    machine.ask("ftw_fit", room.doubles(triangles), triangles.length / 9, whole(most, "most", 1, 64), at, at + 4);
+    const memory = machine.view(), from = memory.getUint32(at, true), numbers = 7 * 8;
+    return Array.from({ length: memory.getUint32(at + 4, true) }, (_, i) => ({
+      a: pointAt(memory, from + i * numbers),
+      b: pointAt(memory, from + i * numbers + 24),
+      radius: memory.getFloat64(from + i * numbers + 48, true),
+    }));
+  });
 }
 
 /** Poses at constant spacing. */

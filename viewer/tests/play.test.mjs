@@ -5,7 +5,8 @@ import { test } from "node:test";
 import { dancerLinks, handLinks } from "../build/play/viewer/play/src/bodies.js";
 import { planesAt } from "../build/play/viewer/play/src/certificate.js";
 import { ownRoom } from "../build/play/viewer/play/src/room.js";
-import { handJoints, linksOfHand, poseOfHand } from "../build/play/viewer/play/src/xr_hands.js";
+import { handJoints, handParents, linksOfHand, trackedHand } from "../build/play/bindings/wasm/host/webxr_hand.js";
+import { localPose, poseRoom } from "../build/play/bindings/wasm/host/frames.js";
 import { compose, pointAt, transformSize } from "../build/motion/chain.js";
 
 test("of a certificate, the planes whose span contains the instant", () => {
@@ -17,32 +18,36 @@ test("of a certificate, the planes whose span contains the instant", () => {
 });
 
 /** 25 joints at random places, turned at random. */
-function trackedHand(seed) {
+function randomHand(seed) {
   let state = seed;
   const random = () => (state = (state * 16807) % 2147483647) / 2147483647 - 0.5;
-  return handJoints.map(() => {
+  const { frames, radii } = trackedHand();
+  handJoints.forEach((_, joint) => {
     const rotation = [random(), random(), random(), random()], length = Math.hypot(...rotation);
-    return { place: [random(), random(), random()], rotation: rotation.map((value) => value / length), radius: 0.005 + 0.01 * (random() + 0.5) };
+    frames.rotations.set(rotation.map((value) => value / length), 4 * joint);
+    frames.places.set([random(), random(), random()], 3 * joint);
+    radii[joint] = 0.005 + 0.01 * (random() + 0.5);
   });
+  return { frames, radii };
 }
 
 test("a tracked hand has 25 joints, and its pose puts each back where it is tracked", () => {
   assert.equal(handJoints.length, 25);
   assert.ok(handJoints.every(({ parent }, joint) => parent < joint));
   for (let seed = 1; seed < 20; ++seed) {
-    const joints = trackedHand(seed), pose = poseOfHand(joints), world = new Float64Array(transformSize * 25);
-    compose(Int32Array.from(handJoints, ({ parent }) => parent), pose, world);
-    joints.forEach(({ place }, joint) => {
-      for (let i = 0; i < 3; ++i) assert.ok(Math.abs(world[transformSize * joint + 9 + i] - place[i]) < 1e-12);
+    const hand = randomHand(seed), { frames, radii } = hand, pose = localPose(handParents, frames, poseRoom(25)), world = new Float64Array(transformSize * 25);
+    compose(handParents, pose, world);
+    handJoints.forEach((_, joint) => {
+      for (let i = 0; i < 3; ++i) assert.ok(Math.abs(world[transformSize * joint + 9 + i] - frames.places[3 * joint + i]) < 1e-12);
     });
-    // Each bone ends at the next joint.
-    linksOfHand(joints).forEach(({ lss }, joint) => {
+    // Each bone ends at the next joint, and each joint's ball is in one of its link's capsules.
+    linksOfHand(hand).forEach(({ lss }, joint) => {
       const children = handJoints.flatMap(({ parent }, child) => (parent === joint ? [child] : []));
       children.forEach((child, bone) => {
         const end = pointAt(world, transformSize * joint, lss[bone].b);
-        for (let i = 0; i < 3; ++i) assert.ok(Math.abs(end[i] - joints[child].place[i]) < 1e-12);
-        assert.ok(lss[bone].radius <= joints[child].radius);
+        for (let i = 0; i < 3; ++i) assert.ok(Math.abs(end[i] - frames.places[3 * child + i]) < 1e-12);
       });
+      assert.ok(lss.some(({ a, radius }) => Math.hypot(...a) === 0 && radius >= radii[joint]));
     });
   }
 });

@@ -1,9 +1,11 @@
-// Hands led at a board of 4 mm, ours beside Rapier's, and what two hands cost in a furnished room.
+// Hands led at a board of 4 mm, ours beside Rapier's and Havok's, and what two hands cost in a furnished room.
 //   node bindings/wasm/tests/hands.mjs [--paths N] [--seconds S] [--json FILE]
 // Ends with 1 where one of ours touches the board on its way.
 
 import { readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { parseArgs } from "node:util";
+import HavokPhysics from "@babylonjs/havok";
 import RAPIER from "@dimforge/rapier3d-compat";
 import { Foretouch } from "../foretouch.js";
 import { bonesAt, handLinks, handPose, axisTurn, seeded } from "./hand.mjs";
@@ -60,6 +62,12 @@ function ours(tracked, scene) {
   return least;
 }
 
+/** The bones of a straight hand: what the fingers bend is left out. */
+const straight = (() => {
+  const pose = handPose(links, [0, 0, 0], [1, 0, 0, 0], 0);
+  return bonesAt(links, pose, pose, 0);
+})();
+
 /** Whether most of Rapier's hand, one body of 25 capsules, is behind the board in the end. */
 function rapiers(tracked, isKinematic) {
   const world = new RAPIER.World({ x: 0, y: 0, z: 0 });
@@ -69,12 +77,9 @@ function rapiers(tracked, isKinematic) {
   const [w, x, y, z] = tracked[0].rotations;
   const [px, py, pz] = tracked[0].translations;
   const body = world.createRigidBody(kind.setCcdEnabled(true).setTranslation(px, py, pz).setRotation({ w, x, y, z }));
-  const still = { rotations: tracked[0].rotations.slice(), translations: tracked[0].translations.slice() };
-  still.rotations.set([1, 0, 0, 0]);
-  still.translations.set([0, 0, 0]);
-  for (const { a, b, radius } of bonesAt(links, still, still, 0)) {
+  for (const { a, b, radius } of straight) {
     const half = Math.hypot(...a.map((value, i) => value - b[i])) / 2, middle = a.map((value, i) => (value + b[i]) / 2);
-    // Along -z, as the bones are while the fingers are straight: what they bend is left out.
+    // Along -z, as straight bones are.
     world.createCollider(RAPIER.ColliderDesc.capsule(half, radius).setTranslation(...middle).setRotation({ w: Math.SQRT1_2, x: Math.SQRT1_2, y: 0, z: 0 }), body);
   }
   for (const { rotations, translations } of tracked) {
@@ -92,6 +97,46 @@ function rapiers(tracked, isKinematic) {
   }
   const isBehind = body.translation().x > thickness;
   world.free();
+  return isBehind;
+}
+
+/** The same of Havok's: kinematic, led by targets; or driven by velocities, as fast as they are. */
+function havoks(HK, tracked, isKinematic) {
+  const made = ([, thing]) => thing, none = [0, 0, 0, 1];
+  const world = made(HK.HP_World_Create()), board = made(HK.HP_Body_Create()), hand = made(HK.HP_Body_Create()), shapes = made(HK.HP_Shape_CreateContainer());
+  HK.HP_World_SetGravity(world, [0, 0, 0]);
+  HK.HP_World_SetIdealStepTime(world, 1 / rate);
+  HK.HP_World_SetSpeedLimit(world, 100, 100);
+  const box = made(HK.HP_Shape_CreateBox([0, 0, 0], none, [thickness, 2 * halfWidth, 2 * halfWidth]));
+  HK.HP_Body_SetShape(board, box);
+  HK.HP_Body_SetMotionType(board, HK.MotionType.STATIC);
+  HK.HP_Body_SetQTransform(board, [[thickness / 2, 0, 0], none]);
+  for (const { a, b, radius } of straight) {
+    const capsule = made(HK.HP_Shape_CreateCapsule(a, b, radius));
+    HK.HP_Shape_AddChild(shapes, capsule, [[0, 0, 0], none, [1, 1, 1]]);
+    HK.HP_Shape_Release(capsule);
+  }
+  const place = ({ rotations: [w, x, y, z], translations: [px, py, pz] }) => [[px, py, pz], [x, y, z, w]];
+  HK.HP_Body_SetShape(hand, shapes);
+  HK.HP_Body_SetMotionType(hand, isKinematic ? HK.MotionType.KINEMATIC : HK.MotionType.DYNAMIC);
+  HK.HP_Body_SetMassProperties(hand, made(HK.HP_Shape_BuildMassProperties(shapes)));
+  HK.HP_Body_SetQTransform(hand, place(tracked[0]));
+  for (const body of [board, hand]) HK.HP_World_AddBody(world, body, false);
+  for (const pose of tracked) {
+    const [at, turn] = place(pose);
+    if (isKinematic) HK.HP_Body_SetTargetQTransform(hand, [at, turn]);
+    else {
+      const from = made(HK.HP_Body_GetPosition(hand));
+      HK.HP_Body_SetOrientation(hand, turn);
+      HK.HP_Body_SetAngularVelocity(hand, [0, 0, 0]);
+      HK.HP_Body_SetLinearVelocity(hand, at.map((value, i) => (value - from[i]) * rate));
+    }
+    HK.HP_World_Step(world, 1 / rate);
+  }
+  const isBehind = made(HK.HP_Body_GetPosition(hand))[0] > thickness;
+  for (const body of [board, hand]) HK.HP_Body_Release(body);
+  for (const shape of [box, shapes]) HK.HP_Shape_Release(shape);
+  HK.HP_World_Release(world);
   return isBehind;
 }
 
@@ -132,8 +177,9 @@ function room() {
 }
 
 await RAPIER.init();
+const HK = await HavokPhysics({ wasmBinary: readFileSync(createRequire(import.meta.url).resolve("@babylonjs/havok/lib/esm/HavokPhysics.wasm")) });
 const random = seeded(1), scene = ft.scene(board());
-const count = { paths: 0, touching: 0, gap_mm: Infinity, unseen: 0, kinematic: 0, dynamic: 0 };
+const count = { paths: 0, touching: 0, gap_mm: Infinity, unseen: 0, kinematic: 0, dynamic: 0, havok_kinematic: 0, havok_dynamic: 0 };
 for (let i = 0; i < paths; ++i) {
   const tracked = path(random);
   const least = ours(tracked, scene);
@@ -145,12 +191,15 @@ for (let i = 0; i < paths; ++i) {
   if (!isSeen) ++count.unseen;
   if (rapiers(tracked, true)) ++count.kinematic;
   if (rapiers(tracked, false)) ++count.dynamic;
+  if (havoks(HK, tracked, true)) ++count.havok_kinematic;
+  if (havoks(HK, tracked, false)) ++count.havok_dynamic;
 }
 const hands = room();
 const table = (name, title, columns, rows) => ({ name, title, command: "./run npm --hands", date: new Date().toISOString().slice(0, 10), columns: Object.entries(columns).map(([key, title]) => ({ key, title })), rows });
 const tables = [
   table("board", `Hands of 25 joints led at a board of ${1e3 * thickness} mm at up to 10 m/s, ${rate} Hz`, {
     paths: "paths", touching: "ours that touch it", gap_mm: "ours: least gap, mm", unseen: "that no check of the poses sees", kinematic: "Rapier's kinematic hand, behind it", dynamic: "Rapier's driven hand with CCD, behind it",
+    havok_kinematic: "Havok's kinematic hand, behind it", havok_dynamic: "Havok's driven hand, behind it",
   }, [count]),
   table("room", `Two such hands at ${rate} Hz in a room of 105,914 triangles, both per frame`, {
     asked: "asked", frames: "frames", contact_percent: "in contact, %", mean_us: "mean, us", p50_us: "median", p99_us: "99 in 100", longest_us: "longest",

@@ -2,12 +2,15 @@
 //   FORETOUCH_EXAMPLES  their folder; FORETOUCH_PROGRAM  the program foretouch
 
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
 export const examples = process.env.FORETOUCH_EXAMPLES ?? "";
 export const program = process.env.FORETOUCH_PROGRAM ?? "";
+
+/** For tests that need both: false, or why they are skipped. */
+export const skip = existsSync(program) && existsSync(join(examples, "room.obj")) ? false : `there is no native program, or no examples (FORETOUCH_PROGRAM: '${program}', FORETOUCH_EXAMPLES: '${examples}')`;
 
 export function example(name) {
   return readFileSync(join(examples, name), "utf8");

@@ -2,15 +2,13 @@
 // library's hands; where the tracker says that they are is a ghost.
 
 import type { Point, Pose, SolidTick } from "../../../bindings/wasm/foretouch.js";
+import { localPose, poseRoom } from "../../../bindings/wasm/host/frames.js";
+import { handJoints, handParents, linksOfHand, readHand, type TrackedHand, trackedHand } from "../../../bindings/wasm/host/webxr_hand.js";
 import type { Engine } from "./engine.js";
 import { Refused } from "./engine.js";
 import type { PlayView } from "./play_view.js";
-import type { TrackedJoint } from "./xr_hands.js";
-import { handJoints, linksOfHand, poseOfHand } from "./xr_hands.js";
 
 const sides = ["left", "right"] as const;
-/** Where a browser does not say how thick a joint is, metres. */
-const usualRadius = 0.008;
 const longestTick = 0.1;
 /** Of what a session has shown, pieces and answers. */
 const mostKept = 10000;
@@ -35,7 +33,7 @@ export class Reach {
   private isAsking = false;
   private areHandsMade = false;
   private lastTime = 0;
-  private readonly kept: (TrackedJoint[] | null)[] = [null, null];
+  private readonly kept: (TrackedHand | null)[] = [null, null];
 
   constructor(
     private readonly engine: Engine,
@@ -83,26 +81,20 @@ export class Reach {
   }
 
   /** Null where the hand is not tracked: it then stays where it is. */
-  private joints(frame: XRFrame, space: XRReferenceSpace, side: (typeof sides)[number]): TrackedJoint[] | null {
+  private joints(frame: XRFrame, space: XRReferenceSpace, side: (typeof sides)[number]): TrackedHand | null {
     const source = Array.from(frame.session.inputSources).find(({ handedness, hand }) => handedness === side && hand);
-    if (source?.hand === undefined || source.hand === null || frame.getJointPose === undefined) return null;
-    const joints: TrackedJoint[] = [];
-    for (const { name } of handJoints) {
-      const jointSpace = source.hand.get(name as XRHandJoint), pose = jointSpace === undefined ? undefined : frame.getJointPose(jointSpace, space);
-      if (pose === undefined || pose === null) return null;
-      const { position: p, orientation: q } = pose.transform;
-      joints.push({ place: [p.x, p.y, p.z], rotation: [q.w, q.x, q.y, q.z], radius: pose.radius ?? usualRadius });
-    }
-    return joints;
+    if (source === undefined) return null;
+    const joints = trackedHand();
+    return readHand(frame, source, space, joints) ? joints : null;
   }
 
-  private async ask(tracked: readonly (TrackedJoint[] | null)[], seconds: number): Promise<void> {
-    const joints = this.kept as TrackedJoint[][];
+  private async ask(tracked: readonly (TrackedHand | null)[], seconds: number): Promise<void> {
+    const joints = this.kept as TrackedHand[];
     if (!this.areHandsMade) {
       this.view.setHands(await this.engine.ask("makeHands", { links: joints.map(linksOfHand) }));
       this.areHandsMade = true;
     }
-    const poses = joints.map(poseOfHand);
+    const poses = joints.map(({ frames }) => localPose(handParents, frames, poseRoom(handJoints.length)));
     const hands = poses.map((pose, side) => ({ tracked: pose, isTracked: handJoints.map(() => tracked[side] !== null) }));
     const { ticks, ways, microseconds } = await this.engine.ask("hands", { hands, seconds });
     ticks.forEach((tick, side) => {

@@ -1,0 +1,165 @@
+// The example pages of three.js and Babylon.js in Chromium, with an emulated headset (iwer): hands meet a
+// board, a drawer and a platform, and pass through none of them.
+//   node tests/pages.mjs three|babylon FOLDER [SHOTS]
+// FOLDER: where npm has installed the packages, and hand.html is. Exit code 77: no browser, as the last line says.
+
+import assert from "node:assert/strict";
+import { existsSync, readFileSync } from "node:fs";
+import { createServer } from "node:http";
+import { createRequire } from "node:module";
+import { extname, join, normalize, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const [host, folder, shots = "."] = process.argv.slice(2);
+const viewer = fileURLToPath(new URL("../../../viewer", import.meta.url)), chromiumAt = process.env.CHROMIUM ?? "/usr/bin/chromium";
+const iwer = join(viewer, "node_modules/iwer/build/iwer.min.js");
+for (const [path, words] of [[chromiumAt, "no Chromium (Debian: apt install chromium)"], [iwer, "no iwer in viewer/node_modules (npm ci there)"], [join(viewer, "node_modules/playwright-core"), "no playwright-core in viewer/node_modules (npm ci there)"]]) {
+  if (existsSync(path)) continue;
+  console.log(`left out: the pages of ${host}: there is ${words}`);
+  process.exit(77);
+}
+const { chromium } = createRequire(join(viewer, "package.json"))("playwright-core");
+
+const kinds = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm", ".json": "application/json" };
+const server = createServer(({ url }, answer) => {
+  const path = join(resolve(folder), normalize(decodeURIComponent(new URL(url, "http://x").pathname)));
+  if (!existsSync(path) || extname(path) === "") return void answer.writeHead(404).end();
+  answer.writeHead(200, { "content-type": kinds[extname(path)] ?? "application/octet-stream" }).end(readFileSync(path));
+}).listen(0, "127.0.0.1");
+await new Promise((listening) => server.once("listening", listening));
+const address = `http://127.0.0.1:${server.address().port}/hand.html`;
+
+const browser = await chromium.launch({ executablePath: chromiumAt, args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"], timeout: 120_000 });
+const complaints = [];
+
+async function opened(query, isHeadset) {
+  const page = await (await browser.newContext({ viewport: { width: 1000, height: 640 } })).newPage();
+  page.setDefaultTimeout(180_000);
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("console", (message) => message.type() === "error" && !/favicon|404/.test(message.text()) && complaints.push(message.text()));
+  if (isHeadset) {
+    await page.addInitScript(readFileSync(iwer, "utf8"));
+    await page.addInitScript(() => {
+      const device = new IWER.XRDevice(IWER.metaQuest3);
+      device.installRuntime({ polyfillLayers: false, forceInstall: true });
+      device.primaryInputMode = "hand";
+      device.position.set(0, 1.6, 0.4);
+      device.hands.left.position.set(-0.2, 1.15, 0.05);
+      device.hands.right.position.set(0.15, 1.15, -0.2);
+      window.headset = device;
+    });
+  }
+  await page.goto(address + query);
+  await page.waitForFunction(() => window.example !== undefined);
+  return page;
+}
+
+/** By host: what the page's own objects say of a hand. */
+const inPage = {
+  three: () => {
+    window.enter = () => document.getElementById("VRButton").click();
+    // In WebXR's axes; of each hand that is shown.
+    window.shown = () => window.example.hands.filter(({ state }) => state !== null).map((hand) => ({
+      state: hand.state,
+      isCertified: hand.tick.tick.isCertified,
+      joints: Object.values(hand.shown.joints).map(({ position: { x, y, z }, jointRadius }) => [x, y, z, jointRadius]),
+      presses: hand.presses.map(({ object }) => object?.name),
+    }));
+    window.moved = () => ({ drawer: window.example.drawer.position.z, platform: window.example.platform.position.y });
+  },
+  babylon: () => {
+    window.enter = () => window.example.enter();
+    window.shown = () => window.example.hands().filter(({ state }) => state !== null).map((hand) => ({
+      state: hand.state,
+      isCertified: hand.tick.tick.isCertified,
+      joints: Object.entries(hand.joints).map(([name, { position: { x, y, z } }]) => [x, y, -z, hand.radii.get(name)]),
+      presses: hand.presses.map(({ object }) => object?.name),
+    }));
+    window.moved = () => ({ drawer: -window.example.drawer.position.z, platform: window.example.platform.position.y });
+  },
+};
+
+async function headset(query) {
+  const page = await opened(query, true);
+  await page.evaluate(inPage[host]);
+  await page.evaluate(() => window.enter());
+  await page.waitForFunction(() => window.shown().length === 2 && window.shown().every(({ state }) => state === "equal"));
+  const rightTo = (place) => page.evaluate(([x, y, z]) => window.headset.hands.right.position.set(x, y, z), place);
+  const frames = (count) => page.evaluate((count) => new Promise((done) => {
+    const tick = () => (count-- > 0 ? requestAnimationFrame(tick) : done());
+    tick();
+  }), count);
+  // After a frame that took too long nobody is shown until the next one.
+  const whenBoth = async (told) => (await page.waitForFunction((told) => window.shown().length === 2 && new Function("hands", `return ${told}`)(window.shown().sort((a, b) => a.joints[0][0] - b.joints[0][0])), told)).jsonValue();
+  const right = () => whenBoth("hands[1]");
+  // Through the board of 4 mm, whose front is at x = 0.298: in one frame.
+  await rightTo([0.5, 1.15, -0.4]);
+  await page.waitForFunction(() => window.shown().some(({ presses }) => presses.includes("board")));
+  await frames(30);
+  const atBoard = await right();
+  const foremost = Math.max(...atBoard.joints.map(([x, , , radius]) => x + radius));
+  assert.ok(foremost < 0.298, `a joint is at ${foremost}`);
+  assert.ok(atBoard.isCertified && atBoard.state !== "equal", atBoard.state);
+  await page.screenshot({ path: join(shots, `${host}-board${query.replace("?", "-")}.png`) });
+  // Down on the table, whose top is at y = 0.87.
+  await rightTo([0.15, 1.15, -0.25]);
+  await frames(20);
+  await rightTo([0.15, 0.85, -0.25]);
+  await page.waitForFunction(() => window.shown().some(({ presses }) => presses.includes("table")));
+  await frames(30);
+  const lowest = Math.min(...(await right()).joints.map(([, y, , radius]) => y - radius));
+  assert.ok(lowest > 0.87, `a joint is at y = ${lowest}`);
+  // Against the drawer, which gives way.
+  const before = await page.evaluate(() => window.moved().drawer);
+  await rightTo([0.0, 1.1, 0.1]);
+  await frames(20);
+  await rightTo([0.0, 0.96, 0.1]);
+  await frames(30);
+  await rightTo([0.0, 0.96, -0.35]);
+  await page.waitForFunction((before) => window.moved().drawer < before - 0.05, before);
+  const pushed = await whenBoth("({ ...window.moved(), joints: hands[1].joints })");
+  assert.ok(pushed.joints.every(([x, y, z, radius]) => Math.abs(x) > 0.17 || Math.abs(y - 0.96) > 0.09 || z - radius > pushed.drawer + 0.009), "a joint is in the drawer");
+  // Over the platform, which comes up.
+  await page.evaluate(() => window.headset.hands.left.position.set(-0.5, 1.2, -0.4));
+  await frames(20);
+  await page.evaluate(() => window.headset.hands.left.position.set(-0.5, 0.86, -0.4));
+  await page.waitForFunction(() => window.shown().some(({ presses }) => presses.includes("platform")));
+  for (let i = 0; i < 20; ++i) {
+    await frames(5);
+    const { platform, low } = await whenBoth("({ ...window.moved(), low: Math.min(...hands[0].joints.map(([, y, , radius]) => y - radius)) })");
+    // In a worker the shown hand is of a frame before, in which the platform was elsewhere.
+    assert.ok(low > platform + 0.01 - (query === "" ? 0 : 0.02), `a joint is at y = ${low}, the platform at ${platform}`);
+  }
+  const met = await page.evaluate(() => [...new Set(window.example.touches.map(({ object }) => object))].sort());
+  assert.ok(["board", "drawer", "platform", "table"].every((name) => met.includes(name)), met.join());
+  await page.screenshot({ path: join(shots, `${host}-platform${query.replace("?", "-")}.png`) });
+  await page.context().close();
+  return `the foremost joint ${(1e3 * (0.298 - foremost)).toFixed(1)} mm before the board; met ${met.join(", ")}`;
+}
+
+async function pointer() {
+  const page = await opened("", false);
+  await page.mouse.move(430, 200);
+  await page.waitForFunction(() => window.example.hands[2].state === "equal");
+  // Into the cupboard behind the board.
+  await page.evaluate(() => window.example.pointer.position.set(0.5, 1.1, -0.3));
+  await page.waitForFunction(() => window.example.hands[2].presses.some(({ object }) => object.name === "board"));
+  await page.waitForTimeout(1500);
+  await page.waitForFunction(() => window.example.hands[2].presses.some(({ object }) => object.name === "board"));
+  await page.screenshot({ path: join(shots, "three.png") });
+  const joints = await page.evaluate(() => Object.values(window.example.hands[2].shown.joints).map(({ position, jointRadius }) => position.x + jointRadius));
+  assert.ok(Math.max(...joints) < 0.298);
+  await page.context().close();
+  return "a pointer's hand stays before the board";
+}
+
+try {
+  if (host === "three") console.log(await pointer());
+  console.log(await headset(""));
+  if (host === "three") console.log(`in a worker: ${await headset("?worker")}`);
+  assert.deepEqual(complaints, []);
+} finally {
+  if (complaints.length > 0) console.log(complaints);
+  await browser.close();
+  server.close();
+}
