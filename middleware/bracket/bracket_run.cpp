@@ -302,15 +302,20 @@ class BracketRun {
       const double end = std::min(static_cast<double>(i) / count, bracket.possibleUntil);
       if (end <= begin) continue;
       ModelPiece& piece = pieces.piece(pieces.at(0.5 * (begin + end)));
-      const PassagePart part = passagePart(piece, bracket.link, p_L, begin, end);
-      // The halves of a gap stand at different places.
-      if (!ask_.isContinuous && !way.empty() && way.back().to != part.from) {
-        const PassagePart& last = way.back();
-        const double radius = std::max(last.radiusTo, part.radiusFrom);
-        way.push_back({begin, begin, last.to, part.from, radius, radius, radius});
-      }
+      PassagePart part = passagePart(piece, bracket.link, p_L, begin, end);
+      if (!way.empty()) joinTo(way.back(), part);
       way.push_back(part);
       begin = end;
+    }
+  }
+
+  /// Pieces meet to within rounding, which the radii hold; the halves of a gap stand apart.
+  void joinTo(const PassagePart& last, PassagePart& part) {
+    if (ask_.isContinuous) {
+      part.from = last.to;
+    } else if (last.to != part.from) {
+      const double radius = std::max(last.radiusTo, part.radiusFrom);
+      memory_.way.push_back({part.begin, part.begin, last.to, part.from, radius, radius, radius});
     }
   }
 
