@@ -131,7 +131,8 @@ async function headset(query) {
   await rightTo([0.0, 0.96, -0.35]);
   await page.waitForFunction((before) => window.moved().drawer < before - 0.05, before);
   const pushed = await whenBoth("({ ...window.moved(), joints: hands[1].joints })");
-  assert.ok(pushed.joints.every(([x, y, z, radius]) => Math.abs(x) > 0.17 || Math.abs(y - 0.96) > 0.09 || z - radius > pushed.drawer + 0.009), "a joint is in the drawer");
+  // It may reach over the front, into the drawer, but is never in its board of 2 cm.
+  assert.ok(pushed.joints.every(([x, y, z, radius]) => Math.abs(x) > 0.15 || Math.abs(y - 0.96) > 0.07 || Math.abs(z - pushed.drawer) > 0.01 + radius - 1e-4), "a joint is in the drawer's front");
   // Over the platform, which comes up.
   await page.evaluate(() => window.headset.hands.left.position.set(-0.5, 1.2, -0.4));
   await frames(20);
