@@ -10,6 +10,7 @@ const minBarPixels = 1.8;
 export async function clickBars(page) {
   await page.keyboard.press("Escape");
   await page.getByLabel("Rows of the timeline").selectOption("link");
+  await drawn(page);
   const axis = await axisOf(page);
   const touches = await page.evaluate(() => Array.from({ length: window.foretouch.state().touches }, (_, index) => {
     const { link, avatar, begin, end, moment } = window.foretouch.touch(index);
@@ -44,7 +45,11 @@ async function axisOf(page) {
   return { secondsPerPixel, xOf: (time) => x0 + (time - t0) / secondsPerPixel };
 }
 
+/** Rows have their places once they are drawn, which waits for the frame of the 3D view. */
+const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
 async function clickRow(page, row, rows, x) {
+  await drawn(page);
   const bars = page.locator("canvas.bars");
   const y = await bars.evaluate((canvas, [row, rows]) => {
     const y = ((row + 0.5) * canvas.clientHeight) / rows;
