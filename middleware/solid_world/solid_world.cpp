@@ -151,6 +151,10 @@ class SolidWorld::Parts {
     isMover_.assign(n, 1);
     holders_.assign(n, {});
     for (std::size_t i = 0; i < n; ++i) {
+      if (parts().bodies[i].options.isVolume) {
+        isMover_[i] = 0;
+        continue;
+      }
       holders_[i] = internal::holderOf(parts(), isSolid_, static_cast<BodyId>(i), atUs_);
       if (isSolid_[i] != 0 || holders_[i].body != kStillScene) isMover_[i] = 0;
     }
@@ -190,6 +194,7 @@ class SolidWorld::Parts {
 
   /// Nobody takes or lets go of anything within a tick, and what is held is held fast.
   Result<Done> checkedHolder(BodyId id, std::int64_t utimeUs) const {
+    if (parts().body(id).options.isVolume) return Done{};
     const internal::Holder& holder = holders_[slotOf(id)];
     if (holder.body != kStillScene && !holder.isHeldFast) {
       return ofBody(id, ErrorCode::Mismatch,

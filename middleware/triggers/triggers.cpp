@@ -270,6 +270,7 @@ Result<TriggerId> Triggers::add(World& world, const TriggerVolume& volume,
   BodyOptions ofBody;
   ofBody.group = options.group;
   ofBody.whenSilent = options.whenSilent;
+  ofBody.isVolume = true;
   const auto& shape = volume.parts();
   FORETOUCH_TRY(const BodyId body, shape.solid ? world.add(*shape.solid, ofBody)
                                                : world.add(shape.mesh->scene(), ofBody));

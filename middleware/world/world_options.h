@@ -58,6 +58,8 @@ struct BodyOptions {
   /// The avatar touches by these triangles (exact fidelity), whoever it meets, and so do its own
   /// links; an LSS that holds none of its link's triangles is its own surface. Nothing: by its LSS.
   std::optional<AvatarSurface> surface;
+  /// A volume that others are in, as a trigger's is: solid bodies go through it.
+  bool isVolume = false;
 };
 
 /// Who moves a body.

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "middleware/solid_world/solid_world.h"
+#include "middleware/triggers/triggers.h"
 
 namespace foretouch::test {
 namespace {
@@ -114,6 +115,10 @@ class SolidHand : public testing::Test {
     way_.add(static_cast<double>(toUs), own.shown.translations[0]);
     ASSERT_TRUE(world_->follow(events_).ok());
     told_.events.insert(told_.events.end(), events_.events.begin(), events_.events.end());
+    if (triggers_.numTriggers() > 0) {
+      ASSERT_TRUE(triggers_.update(world_->world(), events_, triggered_).ok());
+      inside_.insert(inside_.end(), triggered_.events.begin(), triggered_.events.end());
+    }
     world_->world().forgetBefore(toUs - kTickUs);
   }
   [[nodiscard]] double endUs() const { return static_cast<double>(world_->utimeUs()); }
@@ -124,6 +129,9 @@ class SolidHand : public testing::Test {
   WorldEvents events_;
   ShownWay way_;
   Told told_;
+  Triggers triggers_;
+  TriggerEvents triggered_;
+  std::vector<TriggerEvent> inside_;
 };
 
 TEST_F(SolidHand, EntersAWallThatStopsItAndLeavesIt) {
@@ -166,6 +174,38 @@ TEST_F(SolidHand, EntersAndLeavesWhatMoves) {
   ASSERT_GE(near.size(), 3U);
   std::vector<WorldEvent> events = told_.of(hand_, lift);
   expectTold(events, near, 8'000.0);
+}
+
+TEST_F(SolidHand, GoesThroughVolumesThatTellOfIt) {
+  build(boardAt(-1.0, 3.0));
+  // One that stands in its way, and one that it carries.
+  const TriggerId zone = triggers_.add(world_->world(), TriggerVolume::sphere(0.2).value()).value();
+  const TriggerId about =
+      triggers_.add(world_->world(), TriggerVolume::sphere(0.3).value()).value();
+  ASSERT_TRUE(triggers_.stand(world_->world(), zone, 0, {}).ok());
+  const RigidPose inHand{Quaternion::Identity(), Vector3d(0.4, 0, 0)};
+  tick({0.0, 0.0, 1.0});
+  const std::int64_t taken = world_->utimeUs();
+  ASSERT_TRUE(world_->world().attach(triggers_.body(about), {hand_, 0, false}, taken, inHand).ok());
+  for (int i = 1; i <= 150; ++i) {
+    const Vector3d target(0.0, 0.0, 1.0 - 0.0125 * i);  // from 1 m before the zone to 0.875 behind
+    tick(target);
+    EXPECT_TRUE(ticks_[0].tools.empty());
+    EXPECT_EQ(ticks_[0].tick.shown.translations[0], target) << i;
+  }
+  std::vector<TriggerEvent> ofZone;
+  for (const TriggerEvent& event : inside_) {
+    if (event.trigger == zone && event.body == hand_) ofZone.push_back(event);
+  }
+  const auto gap = [&](double us) { return std::abs(way_.at(us).z()) - 0.2 - kRadius - kSkin; };
+  const std::vector<double> times = crossings(endUs(), 0.0, 0.0, gap);
+  ASSERT_EQ(times.size(), 2U);
+  ASSERT_EQ(ofZone.size(), 2U);
+  EXPECT_EQ(ofZone[0].kind, EventKind::Enter);
+  EXPECT_EQ(ofZone[1].kind, EventKind::Leave);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(microsecondsAfter(0, ofZone[i].time), times[i], 3'000.0);
+  }
 }
 
 TEST_F(SolidHand, OrdinaryBodiesAreToldBesideIt) {
