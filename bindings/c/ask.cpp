@@ -149,9 +149,10 @@ ft_unknown_body unknownOf(const UnknownBody& body) {
   return told;
 }
 
-ft_status checkedAsked(const ft_world* world, bool isAnswered) {
+/// `isAnswered`: which of the answers there must be.
+ft_status checkedAsked(const ft_world* world, bool ft_world::Asked::*isAnswered) {
   if (const auto s = checked(world); s != FT_OK) return s;
-  if (isAnswered) return FT_OK;
+  if (world->asked.*isAnswered) return FT_OK;
   return failure(FT_ERROR_NO_STEP, kNoIndex, "expected ft_world_probe() to be answered before");
 }
 
@@ -193,10 +194,7 @@ ft_status ft_world_probe(ft_world* world, const ft_question* question, int32_t* 
 ft_status ft_world_hits(const ft_world* world, ft_world_hit* hits, size_t capacity,
                         size_t* required) {
   return guarded(__func__, [&]() -> ft_status {
-    const bool isAnswered = world != nullptr && world->mark == ft_world::kMark;
-    if (const auto s = checkedAsked(world, isAnswered && world->asked.hasAnswer); s != FT_OK) {
-      return s;
-    }
+    if (const auto s = checkedAsked(world, &ft_world::Asked::hasAnswer); s != FT_OK) return s;
     const auto& all = world->asked.answer.hits;
     const auto at = [&](std::size_t i) { return hitOf(all[i]); };
     return writeList("ft_world_hit", "hits", all.size(), at, hits, capacity, required);
@@ -206,10 +204,7 @@ ft_status ft_world_hits(const ft_world* world, ft_world_hit* hits, size_t capaci
 ft_status ft_world_unknown(const ft_world* world, ft_unknown_body* bodies, size_t capacity,
                            size_t* required) {
   return guarded(__func__, [&]() -> ft_status {
-    const bool isAnswered = world != nullptr && world->mark == ft_world::kMark;
-    if (const auto s = checkedAsked(world, isAnswered && world->asked.hasUnknown); s != FT_OK) {
-      return s;
-    }
+    if (const auto s = checkedAsked(world, &ft_world::Asked::hasUnknown); s != FT_OK) return s;
     const auto& all = world->asked.unknown;
     const auto at = [&](std::size_t i) { return unknownOf(all[i]); };
     return writeList("ft_unknown_body", "bodies", all.size(), at, bodies, capacity, required);

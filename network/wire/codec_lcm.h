@@ -1,11 +1,9 @@
-// network/wire/codec_lcm.h: shared by the codecs: conversion between bytes and lcm-gen types,
-// and the legal ranges of numbers. For the codec's sources only.
+// network/wire/codec_lcm.h: shared by the codecs: conversion between bytes and lcm-gen types. Which
+// values are legal: wire_fields.h. For the codec's sources only.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 
 #include "lss/assert.h"
 #include "lss/index.h"
@@ -17,20 +15,6 @@ namespace foretouch {
 
 /// Of stamps (us), sequences and counts: below this, differences of two of them fit in an int64.
 inline constexpr std::int64_t kMaxWireInteger = (std::int64_t{1} << 62) - 1;
-
-inline bool inRange(std::initializer_list<std::int64_t> values) {
-  for (const std::int64_t value : values) {
-    if (value < 0 || value > kMaxWireInteger) return false;
-  }
-  return true;
-}
-
-inline bool allFinite(std::initializer_list<double> values) {
-  for (const double value : values) {
-    if (!std::isfinite(value)) return false;
-  }
-  return true;
-}
 
 /// Checks all bytes before lcm-gen's decoder sees one or allocates anything.
 template <typename LcmType>

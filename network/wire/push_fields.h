@@ -2,7 +2,7 @@
 // pushes_t have in common of a contact. For the codec's sources only.
 #pragma once
 
-#include <cmath>
+#include <string>
 #include <tuple>
 
 #include "network/wire/messages.h"
