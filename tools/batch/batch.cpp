@@ -74,7 +74,7 @@ class BatchRun {
   [[nodiscard]] bool makesPages() const {
     return plan_.makesReports || manifest_.kind == BatchKind::Feet;
   }
-  bool move(const std::string& name, const char* ending);
+  JobEnd put(const JobRecord& record, JobEnd end, const std::vector<const char*>& endings = {});
   void stopWith(const Error& error);
   void tell(std::size_t number, const std::string& why);
   void count(JobEnd end);
@@ -150,16 +150,14 @@ ChildPlan BatchRun::childFor(const BatchJob& job, const std::string& name) const
   return child;
 }
 
-/// From the scratch folder to its place.
-bool BatchRun::move(const std::string& name, const char* ending) {
-  const std::string target = folder_.fileOf(name, ending);
-  if (std::rename((scratch_ + "/" + name + ending).c_str(), target.c_str()) == 0) return true;
-  stopWith(Error::in(target, ErrorCode::FileUnwritable,
-                     std::string("writing failed: ") + std::strerror(errno)));
-  return false;
+/// Another worker may have done it meanwhile.
+JobEnd BatchRun::put(const JobRecord& record, JobEnd end, const std::vector<const char*>& endings) {
+  const auto put = folder_.put(record, scratch_, endings);
+  if (put.ok()) return put.value() ? end : JobEnd::Kept;
+  stopWith(put.error());
+  return JobEnd::Stopped;
 }
 
-/// Results first, then the record that tells of them.
 JobEnd BatchRun::keep(std::size_t number, JobRecord record, const ChildEnd& end) {
   const auto summary = lastingSummary(end.out);
   const std::string results = scratch_ + "/" + record.name + endingOf(manifest_.kind);
@@ -170,25 +168,18 @@ JobEnd BatchRun::keep(std::size_t number, JobRecord record, const ChildEnd& end)
   record.summary = *summary;
   record.mark = mark.value();
   record.isDone = true;
-  if (!move(record.name, endingOf(manifest_.kind))) return JobEnd::Stopped;
-  if (makesPages() && !move(record.name, ".html")) return JobEnd::Stopped;
-  const auto put = folder_.put(record, scratch_);
-  if (put.ok()) return JobEnd::Done;
-  stopWith(put.error());
-  return JobEnd::Stopped;
+  std::vector<const char*> endings{endingOf(manifest_.kind)};
+  if (makesPages()) endings.push_back(".html");
+  return put(record, JobEnd::Done, endings);
 }
 
-/// Another worker may have done it meanwhile.
 JobEnd BatchRun::failJob(std::size_t number, const std::string& name, const std::string& why) {
-  const auto there = folder_.find(name);
-  if (there && there->isDone) return JobEnd::Kept;
-  tell(number, why);
   JobRecord record;
   record.name = name;
   record.error = why;
-  const auto put = folder_.put(record, scratch_);
-  if (!put.ok()) stopWith(put.error());
-  return JobEnd::Failed;
+  const JobEnd end = put(record, JobEnd::Failed);
+  if (end == JobEnd::Failed) tell(number, why);
+  return end;
 }
 
 JobEnd BatchRun::doJob(std::size_t number) {

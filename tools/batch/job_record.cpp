@@ -3,10 +3,14 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
+#include "articulated/try.h"
 #include "assets/json_writer.h"
 #include "assets/text_file.h"
 #include "tools/settings/file_mark.h"
@@ -14,10 +18,34 @@
 namespace foretouch::tools {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr char kCheck[] = ",\"check\":\"";
 constexpr std::size_t kMostRecordBytes = std::size_t{16} << 20;
+
+/// One worker's turn in a folder, from here to its end; without a wait where there are no locks.
+class Turn {
+ public:
+  explicit Turn(const fs::path& folder)
+      : lock_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    while (lock_ >= 0 && ::flock(lock_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+  ~Turn() {
+    if (lock_ >= 0) ::close(lock_);
+  }
+
+ private:
+  int lock_;
+};
+
+Error unwritten(const std::string& path) {
+  return Error::in(path, ErrorCode::FileUnwritable,
+                   std::string("writing failed: ") + std::strerror(errno));
+}
 
 std::string textIn(const Json& object, const char* key) {
   const auto found = object.find(key);
@@ -86,24 +114,30 @@ std::optional<JobRecord> ResultFolder::find(const std::string& name) const {
   return record;
 }
 
-Result<Done> ResultFolder::put(const JobRecord& record, const std::string& scratch) const {
-  const std::string target = fileOf(record.name, ".json");
-  const std::string before = scratch + "/" + record.name + ".json";
-  const auto failed = [&] {
-    const int why = errno;
-    std::remove(before.c_str());
-    return Error::in(target, ErrorCode::FileUnwritable,
-                     std::string("writing failed: ") + std::strerror(why));
+Result<bool> ResultFolder::put(const JobRecord& record, const std::string& scratch,
+                               const std::vector<const char*>& endings) const {
+  const Turn turn(fs::path(fileOf(record.name, "")).parent_path());
+  const auto there = find(record.name);
+  if (there && there->isDone) return false;
+  const auto move = [&](const char* ending) -> Result<Done> {
+    errno = 0;
+    if (std::rename((scratch + "/" + record.name + ending).c_str(),
+                    fileOf(record.name, ending).c_str()) == 0) {
+      return Done{};
+    }
+    return unwritten(fileOf(record.name, ending));
   };
+  for (const char* const ending : endings) FORETOUCH_CHECK(move(ending));
   // Not flushed to the disk: after a loss of power it is whole or, by its check sum, not there.
+  const std::string written = scratch + "/" + record.name + ".json";
   errno = 0;
-  std::FILE* const file = std::fopen(before.c_str(), "wb");
-  if (file == nullptr) return failed();
+  std::FILE* const file = std::fopen(written.c_str(), "wb");
+  if (file == nullptr) return unwritten(fileOf(record.name, ".json"));
   const std::string line = recordLine(record);
   const bool isWritten = std::fwrite(line.data(), 1, line.size(), file) == line.size();
-  if (std::fclose(file) != 0 || !isWritten) return failed();
-  if (std::rename(before.c_str(), target.c_str()) != 0) return failed();
-  return Done{};
+  if (std::fclose(file) != 0 || !isWritten) return unwritten(fileOf(record.name, ".json"));
+  FORETOUCH_CHECK(move(".json"));
+  return true;
 }
 
 }  // namespace foretouch::tools

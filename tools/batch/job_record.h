@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "articulated/result.h"
 
@@ -44,8 +45,13 @@ class ResultFolder {
   /// that failed, it alone. Of records of before there were marks, nothing: such a job is done
   /// again.
   [[nodiscard]] std::optional<JobRecord> find(const std::string& name) const;
-  /// It is there whole, or as it was before. `scratch`: a folder on the same file system.
-  [[nodiscard]] Result<Done> put(const JobRecord& record, const std::string& scratch) const;
+  /// Results with these endings, then the record that tells of them, from `scratch`, a folder on
+  /// the same file system; the record alone of a job that failed. Each is there whole, or as it was
+  /// before. False, and nothing moved, if another worker has done the job meanwhile. Workers on one
+  /// job take turns, so that no record tells of another's results; where the file system has no
+  /// locks, they may, and find() then says that the job is to be done again.
+  [[nodiscard]] Result<bool> put(const JobRecord& record, const std::string& scratch,
+                                 const std::vector<const char*>& endings = {}) const;
 
  private:
   std::string path_;

@@ -2,7 +2,10 @@
 #include "tools/batch/manifest.h"
 
 #include <algorithm>
+#include <atomic>
+#include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,6 +16,7 @@
 #include "tools/batch/job_record.h"
 #include "tools/batch/manifest_words.h"
 #include "tools/commands/replay_command.h"
+#include "tools/settings/file_mark.h"
 
 namespace foretouch::test {
 namespace {
@@ -198,6 +202,41 @@ TEST(JobRecord, EveryDamageMakesItNoRecord) {
     std::string damaged = line;
     damaged[i] = static_cast<char>(damaged[i] ^ 1);
     EXPECT_FALSE(parseRecord(damaged, record.name).has_value()) << i;
+  }
+}
+
+/// Workers whose results differ, as those of two runs do: their file's name stands in them.
+TEST(JobRecord, OfWorkersAtOneJobOnePutsItsResultsAndTheRecordOfThem) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "aa");
+  const ResultFolder results(folder.path());
+  constexpr int kRounds = 200, kWorkers = 4;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::string name = "aa" + std::to_string(round);
+    std::atomic<int> placed = 0;
+    std::vector<std::thread> workers;
+    for (int worker = 0; worker < kWorkers; ++worker) {
+      const std::string scratch = folder / ("scratch" + std::to_string(worker));
+      std::filesystem::create_directory(scratch);
+      JobRecord record;
+      record.name = name;
+      record.isDone = true;
+      record.summary = R"({"steps":4})";
+      record.mark =
+          markOfFile(folder.write("scratch" + std::to_string(worker) + "/" + name + ".jsonl",
+                                  "worker " + std::to_string(worker)))
+              .value();
+      workers.emplace_back([&results, &placed, record, scratch] {
+        const auto put = results.put(record, scratch, {".jsonl"});
+        EXPECT_TRUE(put.ok());
+        placed += put.ok() && put.value() ? 1 : 0;
+      });
+    }
+    for (std::thread& worker : workers) worker.join();
+    EXPECT_EQ(placed, 1) << round;
+    const auto found = results.find(name);
+    ASSERT_TRUE(found.has_value()) << round;
+    EXPECT_TRUE(found->isDone);
   }
 }
 
