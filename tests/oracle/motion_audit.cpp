@@ -14,6 +14,9 @@ namespace {
 
 /// What the documents promise of the lift (m/s), and how far rounding may be off.
 constexpr double kLiftSpeed = 0.05, kRounding = 1e-6;
+/// And of joints: they turn as a hand so far away from them (m) moves. An arc cosine loses half of
+/// the digits of a small turn, in each step of a tick (rad/s).
+constexpr double kTurnLever = 0.2, kTurnRounding = 1e-4;
 /// A link so deep in another, beyond the tracked one (m), is seen.
 constexpr double kSeen = 0.05;
 constexpr double kDegrees = 180.0 / 3.14159265358979;
@@ -24,7 +27,10 @@ double cosineBetween(const std::array<double, 4>& one, const std::array<double, 
 }
 
 double angleBetween(const std::array<double, 4>& one, const std::array<double, 4>& other) {
-  return 2.0 * std::acos(std::min(1.0, std::abs(cosineBetween(one, other))));
+  const double sign = cosineBetween(one, other) < 0.0 ? -1.0 : 1.0;
+  double squared = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) squared += std::pow(one[i] - sign * other[i], 2);
+  return 4.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(squared)));
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -42,6 +48,8 @@ void MotionTally::add(const MotionTally& other) {
   headOutrun += other.headOutrun;
   lifted = std::max(lifted, other.lifted);
   headBeyond = std::max(headBeyond, other.headBeyond);
+  turnBeyond = std::max(turnBeyond, other.turnBeyond);
+  overturned += other.overturned;
   liftJumped += other.liftJumped;
   deeper += other.deeper;
   head.insert(head.end(), other.head.begin(), other.head.end());
@@ -64,10 +72,12 @@ void MotionTally::add(const MotionTally& other) {
 std::string MotionTally::table() const {
   std::string text = fmt::format(
       "{} ticks: {} in which a point outran the tracked ones, {} in which the head outran the "
-      "tracked head, {} in which the lift (at most {:.3f} m) jumped, {} with a link {:g} m deeper "
+      "tracked head, {} in which a joint turned faster than it may (at most {:.2f} rad/s beyond "
+      "the "
+      "tracked ones), {} in which the lift (at most {:.3f} m) jumped, {} with a link {:g} m deeper "
       "in another than tracked\n{:24} {:>8} {:>8} {:>8} {:>9} {:>9} {:>8} {:>8}\n",
-      ticks, outrun, headOutrun, liftJumped, lifted, deeper, kSeen, "link, at worst", "beyond",
-      "turned", "unseen", "turning", "in itself", "m/s2", "tracked");
+      ticks, outrun, headOutrun, overturned, turnBeyond, liftJumped, lifted, deeper, kSeen,
+      "link, at worst", "beyond", "turned", "unseen", "turning", "in itself", "m/s2", "tracked");
   for (const auto& [name, link] : links) {
     text += fmt::format("{:24} {:>8.2f} {:>8.0f} {:>8.0f} {:>9.0f} {:>9.0f} {:>8.0f} {:>8.0f}\n",
                         name, link.beyond, kDegrees * link.turn, kDegrees * link.unseen,
@@ -137,7 +147,7 @@ void MotionAudit::look(const Pose& tracked, const SolidTick& tick, double dtS) {
   }
   if (!shown_.empty()) {
     lookAtSpeed(shown, there, dtS);
-    lookAtTurns(shown, there, dtS);
+    lookAtTurns(shown, there, std::abs(tick.lift - lift_), dtS);
     lookAtDepth(shown, there);
     const double change = std::abs(tick.lift - lift_) / dtS;
     if (change > kLiftSpeed * (1.0 + kRounding)) {
@@ -170,6 +180,15 @@ MotionAudit::Fastest MotionAudit::fastest(const Body& before, const Body& now, d
   return most;
 }
 
+MotionAudit::Fastest MotionAudit::fastestTurn(const Body& before, const Body& now, double dtS) {
+  Fastest most;
+  for (std::size_t j = 0; j < now.turns.size(); ++j) {
+    const double speed = angleBetween(now.turns[j], before.turns[j]) / dtS;
+    if (speed > most.speed) most = {speed, j};
+  }
+  return most;
+}
+
 void MotionAudit::lookAtSpeed(const Body& shown, const Body& tracked, double dtS) {
   const double most = fastest(tracked_.back(), tracked, dtS, false).speed;
   for (std::size_t i = 0; i < shown.axes.size(); ++i) {
@@ -194,7 +213,7 @@ void MotionAudit::lookAtSpeed(const Body& shown, const Body& tracked, double dtS
                    head - beyond, beyond));
 }
 
-void MotionAudit::lookAtTurns(const Body& shown, const Body& tracked, double dtS) {
+void MotionAudit::lookAtTurns(const Body& shown, const Body& tracked, double lifted, double dtS) {
   for (std::size_t j = 0; j < shown.turns.size(); ++j) {
     if (body_.capsules[j].empty()) continue;
     LinkMotion& own = of(j);
@@ -210,6 +229,16 @@ void MotionAudit::lookAtTurns(const Body& shown, const Body& tracked, double dtS
     own.unseen = std::max(own.unseen, unseen);
     ugly_.unseen.take(unseen, j);
   }
+  const double byEnds =
+      (fastest(tracked_.back(), tracked, dtS, false).speed + lifted / dtS) / kTurnLever;
+  const Fastest worst = fastestTurn(shown_.back(), shown, dtS);
+  const double beyond =
+      worst.speed - std::max(byEnds, fastestTurn(tracked_.back(), tracked, dtS).speed);
+  tally_.turnBeyond = std::max(tally_.turnBeyond, beyond);
+  if (beyond <= catchUp_ / kTurnLever + kTurnRounding) return;
+  ++tally_.overturned;
+  find(fmt::format("the joint of {} turns at {:.2f} rad/s, {:.2f} beyond what is tracked",
+                   names_[worst.link], worst.speed, beyond));
 }
 
 double MotionAudit::ownDepth(const Body& body, std::size_t i, std::size_t k) const {

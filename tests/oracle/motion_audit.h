@@ -1,7 +1,7 @@
 // tests/oracle/motion_audit.h: how a solid avatar moves beside the tracked one, judged by
 // kinematics that share no code with it: no point outruns the fastest tracked one by more than the
-// catch-up, nor the head the tracked head, the lift changes slowly; and what a person sees of the
-// rest, in figures by link.
+// catch-up, nor the head the tracked head, nor a joint the fastest tracked one, the lift changes
+// slowly; and what a person sees of the rest, in figures by link.
 #pragma once
 
 #include <array>
@@ -32,15 +32,19 @@ struct MotionTally {
   std::uint64_t ticks = 0;
   std::uint64_t outrun = 0;      ///< Ticks with a point that outran the tracked ones.
   std::uint64_t headOutrun = 0;  ///< Ticks with a head that outran the tracked head.
+  std::uint64_t overturned = 0;  ///< Ticks with a joint that turned faster than it may.
   std::uint64_t liftJumped = 0;  ///< Ticks in which the lift changed faster than it may.
   std::uint64_t deeper = 0;      ///< Ticks with a link 5 cm deeper in another than tracked.
   std::map<std::string, LinkMotion> links;
   double lifted = 0.0;                    ///< The most (m).
   double headBeyond = 0.0;                ///< Of all ticks, faster than the tracked head (m/s).
+  double turnBeyond = 0.0;                ///< Of a joint, faster than one is tracked (rad/s).
   std::vector<double> head, trackedHead;  ///< Accelerations of the head, shown and tracked.
   std::vector<std::string> findings;      ///< The first twenty.
 
-  [[nodiscard]] std::uint64_t violations() const { return outrun + headOutrun + liftJumped; }
+  [[nodiscard]] std::uint64_t violations() const {
+    return outrun + headOutrun + overturned + liftJumped;
+  }
   void add(const MotionTally& other);
   /// A table by link, and the head's accelerations.
   [[nodiscard]] std::string table() const;
@@ -84,14 +88,17 @@ class MotionAudit {
   [[nodiscard]] const std::string& nameOf(std::size_t lss) const { return names_[linkOf_[lss]]; }
 
  private:
-  /// How fast the fastest end of an LSS is, of all links or of the head, and its link.
+  /// How fast the fastest end of an LSS is, of all links or of the head, or how fast the fastest
+  /// joint turns, and its link.
   struct Fastest {
     double speed = 0.0;
     std::size_t link = 0;
   };
   [[nodiscard]] Fastest fastest(const Body& before, const Body& now, double dtS, bool ofHead) const;
+  [[nodiscard]] static Fastest fastestTurn(const Body& before, const Body& now, double dtS);
   void lookAtSpeed(const Body& shown, const Body& tracked, double dtS);
-  void lookAtTurns(const Body& shown, const Body& tracked, double dtS);
+  /// `lifted`: how far the lift moved the target.
+  void lookAtTurns(const Body& shown, const Body& tracked, double lifted, double dtS);
   void lookAtDepth(const Body& shown, const Body& tracked);
   void lookAtHead(const Body& shown, const Body& tracked, double dtS);
   void lookAtJerk(const Body& shown, const Body& tracked, double dtS);

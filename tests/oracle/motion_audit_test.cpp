@@ -69,6 +69,24 @@ TEST(MotionAudit, MeasuresTheHeadByTheTrackedHead) {
   EXPECT_EQ(run.audit.tally().headOutrun, 1u);
 }
 
+/// A joint that moves no end of an LSS far, by its own angle: a hand about its own axis.
+TEST(MotionAudit, NamesAJointThatTurnsFasterThanTheTrackedOnes) {
+  for (const double speed : {9.9, 10.1}) {
+    Audited run;
+    run.tick.shown.rotations[run.joint("RightHand")] =
+        turned(speed * kTickS, Eigen::Vector3d::UnitX());
+    run.look();
+    EXPECT_EQ(run.audit.tally().overturned, speed > 10.0 ? 1 : 0) << speed;
+    EXPECT_NEAR(run.audit.tally().turnBeyond, speed, 1e-9);
+  }
+  Audited run;  // as fast as the other hand, and the catch-up beyond
+  run.tracked.rotations[run.joint("LeftHand")] = turned(5.0 * kTickS, Eigen::Vector3d::UnitX());
+  run.tick.shown.rotations[run.joint("RightHand")] =
+      turned(14.9 * kTickS, Eigen::Vector3d::UnitX());
+  run.look();
+  EXPECT_EQ(run.audit.tally().overturned, 0u);
+}
+
 TEST(MotionAudit, TellsALiftThatJumps) {
   Audited run;
   run.tick.lift = 0.049 * kTickS;
