@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -29,6 +30,14 @@ struct FileState {
 /// Only where nothing has that name, be it a link.
 [[nodiscard]] int openNew(const std::string& path, unsigned permissions);
 [[nodiscard]] int openStandardOutput();
+
+/// The first `bytes` of a file: its pages, which all who read it share, where the system has such;
+/// else a copy. Nothing if there are fewer, or no memory. Pages change with the file: whoever makes
+/// one anew must replace it, as PendingFile does.
+[[nodiscard]] std::shared_ptr<const char> contentOf(int descriptor, std::uint64_t bytes);
+
+/// The copy. Aligned for what vectors load.
+[[nodiscard]] std::shared_ptr<const char> copyOf(int descriptor, std::size_t bytes);
 
 /// How many bytes, below zero on failure. An interrupted call begins anew.
 [[nodiscard]] std::int64_t readSome(int descriptor, char* to, std::size_t most);

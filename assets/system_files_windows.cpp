@@ -72,6 +72,10 @@ int openStandardOutput() {
   return ::_dup(1);
 }
 
+std::shared_ptr<const char> contentOf(int descriptor, std::uint64_t bytes) {
+  return copyOf(descriptor, static_cast<std::size_t>(bytes));
+}
+
 std::int64_t readSome(int descriptor, char* to, std::size_t most) {
   return ::_read(descriptor, to, atMost(most));
 }

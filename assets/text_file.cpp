@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <optional>
 #include <utility>
@@ -81,6 +82,20 @@ Opened openTemporary(const std::string& target, unsigned permissions) {
 }
 
 }  // namespace
+
+std::shared_ptr<const char> internal::copyOf(int descriptor, std::size_t bytes) {
+  constexpr std::align_val_t kAlignment{64};
+  if (bytes == 0) return nullptr;
+  std::shared_ptr<char> copy(static_cast<char*>(::operator new(bytes, kAlignment, std::nothrow)),
+                             [](char* memory) { ::operator delete(memory, kAlignment); });
+  if (copy == nullptr) return nullptr;
+  for (std::size_t have = 0; have < bytes;) {
+    const std::int64_t got = readSome(descriptor, copy.get() + have, bytes - have);
+    if (got <= 0) return nullptr;
+    have += countOf(got);
+  }
+  return copy;
+}
 
 Result<std::string> readWholeFile(const std::string& path, std::size_t limitBytes) {
   const Descriptor file(internal::openToRead(path));
@@ -164,7 +179,7 @@ Result<PendingFile> PendingFile::create(const std::string& path) {
   return PendingFile(path, target, opened.temporary, opened.descriptor);
 }
 
-void PendingFile::write(const std::string& text) {
+void PendingFile::write(std::string_view text) {
   buffer_ += text;
   if (buffer_.size() >= kChunkBytes) flush();
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "articulated/quoted.h"
 #include "articulated/result.h"
@@ -28,7 +29,7 @@ class PendingFile {
   ~PendingFile();
 
   /// Appends; commit() reports a failure.
-  void write(const std::string& text);
+  void write(std::string_view text);
   [[nodiscard]] Result<Done> commit();
 
  private:

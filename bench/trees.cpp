@@ -71,9 +71,10 @@ Result<BuilderTimes> measureOnce(TreeBuilder builder, const Asked& asked,
   times.sceneMs = msOf([&] { scene = Scene::build(std::move(raw)); });
   FORETOUCH_TRY(const auto built, std::move(*scene));
   const internal::SceneParts& parts = built.parts();
+  const std::vector<Triangle> triangles(parts.triangles.begin(), parts.triangles.end());
+  const std::vector<TriangleId> ids = parts.finiteIds();
   std::optional<Result<internal::FlatBvh>> tree;
-  times.treeMs = msOf(
-      [&] { tree = internal::FlatBvh::build(parts.triangles, parts.finiteIds, parts.origin); });
+  times.treeMs = msOf([&] { tree = internal::FlatBvh::build(triangles, ids, parts.origin); });
   times.nodes = parts.bvh.numNodes();
   times.leaves = parts.bvh.numLeaves();
   FORETOUCH_TRY(const auto timed,

@@ -12,7 +12,7 @@ readonly fuzz_targets=(bvh=bvh avatar=avatar pairs=pairs csv= joint_map= skeleto
                        rigid_pose_message=message events_message=message pushes_message=message
                        config=config project=config world_file=world rigid_poses= url=
                        shown_poses=shown_poses datagram=datagram http=
-                       log=log log_damage=log import_stream= gltf= calls= manifest= certificate=)
+                       log=log log_damage=log baked_scene= import_stream= gltf= calls= manifest= certificate=)
 
 fuzz_one() {  # fuzz_one TARGET DICTIONARY SECONDS: its log; false where it found something
   # Of what covers much (calls), the upkeep of libFuzzer's entropic schedule costs six times the calls.

@@ -9,6 +9,7 @@
 
 #include "assets/file_frame.h"
 #include "middleware/scene/raw_scene.h"
+#include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
 
@@ -56,6 +57,13 @@ struct SceneImportReport {
 
 struct ImportedScene {
   RawScene scene;
+  SceneImportReport report;
+  FileFrame frame;
+};
+
+/// A scene that is ready to be asked, and what was said of its file.
+struct LoadedScene {
+  Scene scene;
   SceneImportReport report;
   FileFrame frame;
 };

@@ -1,5 +1,6 @@
 // A library that was built without the importer (FORETOUCH_IMPORT=OFF): it reads no models and no
 // scenes, and says so.
+#include "assets/import/baked_scene.h"
 #include "assets/import/model_import.h"
 #include "assets/import/scene_import.h"
 
@@ -22,8 +23,8 @@ std::string importerWeakness() {
   return "";
 }
 
-Result<ImportedScene> importScene(const std::string& path, const SceneImportOptions& /*options*/) {
-  return withoutImporter(path);
+Result<ImportedScene> importScene(const std::string& path, const SceneImportOptions& options) {
+  return internal::isBaked(path) ? internal::importBaked(path, options) : withoutImporter(path);
 }
 
 Result<Model> importModel(const std::string& path, const ModelImportOptions& /*options*/) {

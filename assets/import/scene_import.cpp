@@ -4,6 +4,7 @@
 #include <new>
 #include <system_error>
 
+#include "assets/import/baked_scene.h"
 #include "assets/import/cage.h"
 #include "assets/import/protocol.h"
 #include "assets/import/run.h"
@@ -62,7 +63,8 @@ std::string importerWeakness() {
 
 Result<ImportedScene> importScene(const std::string& path, const SceneImportOptions& options) {
   try {
-    return importChecked(path, options);
+    return internal::isBaked(path) ? internal::importBaked(path, options)
+                                   : importChecked(path, options);
   } catch (const std::bad_alloc&) {
     return importError(path, ErrorCode::LimitExceeded,
                        "not enough memory for the model's triangles");

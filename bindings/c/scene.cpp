@@ -73,12 +73,6 @@ ft_status readObjects(const ft_scene_arrays& arrays, RawScene& raw) {
   return FT_OK;
 }
 
-ft_status makeScene(RawScene raw, const std::string& file, ft_scene** scene) {
-  FORETOUCH_TRY_OR(failure, auto built, inFile(Scene::build(std::move(raw)), file));
-  *scene = new ft_scene{ft_scene::kMark, std::move(built)};
-  return FT_OK;
-}
-
 }  // namespace
 }  // namespace foretouch::c
 
@@ -98,7 +92,9 @@ ft_status ft_scene_create(const ft_scene_arrays* arrays, ft_scene** scene) {
     RawScene raw;
     if (const auto s = readTriangles(known, raw.triangles); s != FT_OK) return s;
     if (const auto s = readObjects(known, raw); s != FT_OK) return s;
-    return makeScene(std::move(raw), "", scene);
+    FORETOUCH_TRY_OR(failure, auto built, Scene::build(std::move(raw)));
+    *scene = new ft_scene{ft_scene::kMark, std::move(built)};
+    return FT_OK;
   });
 }
 
@@ -109,8 +105,9 @@ ft_status ft_scene_create_from_file(const char* path, const ft_import_options* o
     if (const auto s = needed(path, "path"); s != FT_OK) return s;
     SceneImportOptions known;
     if (const auto s = readImportOptions(options, known); s != FT_OK) return s;
-    FORETOUCH_TRY_OR(failure, auto imported, importScene(path, known));
-    return makeScene(std::move(imported).scene, path, scene);
+    FORETOUCH_TRY_OR(failure, auto loaded, readScene(path, known));
+    *scene = new ft_scene{ft_scene::kMark, std::move(loaded.scene)};
+    return FT_OK;
   });
 }
 

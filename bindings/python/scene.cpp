@@ -94,12 +94,8 @@ SharedScene loadScene(const Shown<shown::Path>& file, const Shown<shown::Number>
   options.timeLimitS = number(timeLimitS, "time_limit_s");
   options.memoryLimitBytes = static_cast<std::size_t>(
       integer(memoryLimitBytes, "memory_limit_bytes", 0, std::numeric_limits<std::int64_t>::max()));
-  ImportedScene imported;
-  {
-    const py::gil_scoped_release free;
-    imported = valueOf(importScene(from, options), from);
-  }
-  return built(std::move(imported.scene), from);
+  const py::gil_scoped_release free;
+  return std::make_shared<Scene>(valueOf(readScene(from, options), from).scene);
 }
 
 Numbers triangleArray(const Scene& scene) {

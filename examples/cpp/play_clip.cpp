@@ -24,8 +24,8 @@ int main(int count, char** arguments) {
     std::cerr << "play_clip SCENE AVATAR CLIP [FRAMES_PER_STEP]\n";
     return 2;
   }
-  // Read and checked once. Files in centimetres with z up: importScene(file, {0.01, UpAxis::Z}).
-  const Scene scene = need(Scene::build(need(importScene(arguments[1])).scene));
+  // Read and checked once. Files in centimetres with z up: readScene(file, {0.01, UpAxis::Z}).
+  const Scene scene = need(readScene(arguments[1])).scene;
   const Avatar avatar = need(readAvatarFile(arguments[2]));
   const Clip clip = need(readBvhFile(arguments[3]));
   const Skeleton& skeleton = avatar.skeleton();

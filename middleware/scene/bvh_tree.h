@@ -78,6 +78,9 @@ class BvhTree {
                                                        const Eigen::Vector3d& origin,
                                                        int deepest = kMaxBvhDepth);
 
+/// FlatBvh::vertexRounding() (flat_bvh.md, "Vertices"). `scene` is the box of all vertices.
+[[nodiscard]] double vertexRoundingOf(const Aabb& scene, const Eigen::Vector3d& origin);
+
 /// Boxes around the triangles, relative to the origin, rounded outward, in the builder's layout:
 /// lower x, y, z, a zero, upper x, y, z, and the place in `ids`.
 template <typename Primitive>

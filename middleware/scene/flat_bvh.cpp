@@ -67,14 +67,14 @@ void FlatBvh::collect(const Aabb& box, std::vector<TriangleId>& ids, std::uint64
   std::size_t size = 0;
   stack[size++] = 0;
   while (size > 0) {
-    const BvhNode& node = nodes_[stack[--size]];
+    const BvhNode& node = arrays_.nodes[stack[--size]];
     ++visited;
     const Eight eight = eightOverlapping(node.lower, node.upper, local);
     for (int i = 0; i < kBvhWidth; ++i) {
       if (eight.overlaps[i] == 0) continue;
       const std::uint32_t child = node.child[i];
       if ((child & BvhNode::kLeafFlag) != 0) {
-        collectLeaf(leaves_[child & BvhNode::kLeafMask], local, ids);
+        collectLeaf(arrays_.leaves[child & BvhNode::kLeafMask], local, ids);
       } else {
         FORETOUCH_ASSERT(size < kStackSize);
         stack[size++] = child;
@@ -89,7 +89,7 @@ bool FlatBvh::meetsLeaf(const Aabb& box, std::uint64_t& visited) const {
   std::size_t size = 0;
   stack[size++] = 0;
   while (size > 0) {
-    const BvhNode& node = nodes_[stack[--size]];
+    const BvhNode& node = arrays_.nodes[stack[--size]];
     ++visited;
     const Eight eight = eightOverlapping(node.lower, node.upper, local);
     for (int i = 0; i < kBvhWidth; ++i) {
@@ -107,8 +107,8 @@ void FlatBvh::collectLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits,
                             std::uint64_t& nodesVisited, std::uint64_t& leavesVisited) const {
   FORETOUCH_ASSERT(boxes.count >= 0 && boxes.count <= BoxLanes::kMaxBoxes);
   BvhWalk walk;
-  walk.nodes = nodes_.data();
-  walk.clusters = clusters_.data();
+  walk.nodes = arrays_.nodes.data();
+  walk.clusters = arrays_.clusters.data();
   for (int first = 0; first < boxes.count; first += kBoxGroup) {
     beginWalk(walk, boxes, first);
     while (!walk.finished()) {

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "articulated/result.h"
 #include "middleware/scene/culler.h"
 #include "middleware/scene/flat_bvh_lanes.h"
+#include "middleware/scene/frozen_array.h"
 
 namespace foretouch::internal {
 
@@ -22,6 +24,18 @@ class FlatBvh final : public TriangleCuller {
   /// A tree of `triangles[id]` for every id of `ids`, which are finite; at least one.
   static Result<FlatBvh> build(const std::vector<Triangle>& triangles,
                                const std::vector<TriangleId>& ids, const Eigen::Vector3d& origin);
+
+  /// What it consists of. The root is the first node; one cluster per leaf.
+  struct Arrays {
+    FrozenArray<BvhNode> nodes;
+    FrozenArray<BvhLeaf> leaves;
+    FrozenArray<Cluster> clusters;
+    double vertexRounding = 0.0;
+  };
+  FlatBvh() = default;
+  FlatBvh(Arrays arrays, const Eigen::Vector3d& origin)
+      : origin_(origin), arrays_(std::move(arrays)) {}
+  [[nodiscard]] const Arrays& arrays() const { return arrays_; }
 
   void collect(const Aabb& box, std::vector<TriangleId>& ids,
                std::uint64_t& visited) const override;
@@ -38,29 +52,28 @@ class FlatBvh final : public TriangleCuller {
                      std::uint64_t& leavesVisited) const override;
 
   [[nodiscard]] std::uint32_t numLeaves() const {
-    return static_cast<std::uint32_t>(leaves_.size());
+    return static_cast<std::uint32_t>(arrays_.leaves.size());
   }
-  [[nodiscard]] std::uint32_t numNodes() const { return static_cast<std::uint32_t>(nodes_.size()); }
+  [[nodiscard]] std::uint32_t numNodes() const {
+    return static_cast<std::uint32_t>(arrays_.nodes.size());
+  }
   /// The root is 0.
-  [[nodiscard]] const BvhNode& node(std::uint32_t index) const { return nodes_[index]; }
-  [[nodiscard]] const BvhLeaf& leaf(std::uint32_t index) const { return leaves_[index]; }
-  [[nodiscard]] const BvhLeaf* leaves() const { return leaves_.data(); }
-  [[nodiscard]] const Cluster& cluster(std::uint32_t index) const { return clusters_[index]; }
+  [[nodiscard]] const BvhNode& node(std::uint32_t index) const { return arrays_.nodes[index]; }
+  [[nodiscard]] const BvhLeaf& leaf(std::uint32_t index) const { return arrays_.leaves[index]; }
+  [[nodiscard]] const BvhLeaf* leaves() const { return arrays_.leaves.data(); }
+  [[nodiscard]] const Cluster& cluster(std::uint32_t index) const {
+    return arrays_.clusters[index];
+  }
   /// All of them, one per leaf.
-  [[nodiscard]] const Cluster* clusters() const { return clusters_.data(); }
+  [[nodiscard]] const Cluster* clusters() const { return arrays_.clusters.data(); }
   [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
   /// Bound (m) on the distance of a leaf's vertex, taken back to the world without rounding, from
   /// the triangle's. Depends on the box of the whole scene only.
-  [[nodiscard]] double vertexRounding() const { return vertexRounding_; }
+  [[nodiscard]] double vertexRounding() const { return arrays_.vertexRounding; }
 
  private:
-  friend class FlatBvhBuilder;
-
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-  double vertexRounding_ = 0.0;
-  std::vector<BvhNode> nodes_;  // root first
-  std::vector<BvhLeaf> leaves_;
-  std::vector<Cluster> clusters_;  // per leaf
+  Arrays arrays_;
 };
 
 }  // namespace foretouch::internal

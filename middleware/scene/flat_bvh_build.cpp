@@ -13,11 +13,8 @@
 #include "middleware/scene/flat_bvh.h"
 
 namespace foretouch::internal {
-namespace {
-
 using Eigen::Vector3d;
 
-/// flat_bvh.md, "Vertices". `scene` is the box of all vertices.
 double vertexRoundingOf(const Aabb& scene, const Vector3d& origin) {
   constexpr double kRelative = 0x1.00001p-24;  // 2^-24 and 2^-53, and this sum's own roundings
   constexpr double kSubnormal = 0x1p-149;
@@ -25,20 +22,18 @@ double vertexRoundingOf(const Aabb& scene, const Vector3d& origin) {
   return (extent.array() * kRelative + kSubnormal).matrix().norm() * 0x1.00001p0;
 }
 
-}  // namespace
+namespace {
 
-/// Copies a tree into the flat arrays, children side by side, without recursion.
+/// Copies a tree into the flat arrays, children side by side and after their parents, without
+/// recursion.
 class FlatBvhBuilder {
  public:
-  FlatBvhBuilder(FlatBvh& bvh, const std::vector<Triangle>& triangles,
-                 const std::vector<TriangleId>& ids)
-      : bvh_(bvh), triangles_(triangles), ids_(ids) {}
-
-  void setOrigin(const Vector3d& origin) {
+  FlatBvhBuilder(const std::vector<Triangle>& triangles, const std::vector<TriangleId>& ids,
+                 const Vector3d& origin)
+      : triangles_(triangles), ids_(ids), origin_(origin) {
     Aabb scene;
     for (const TriangleId id : ids_) scene.add(boxOf(triangles_[slotOf(id)]));
-    bvh_.origin_ = origin;
-    bvh_.vertexRounding_ = vertexRoundingOf(scene, origin);
+    vertexRounding_ = vertexRoundingOf(scene, origin);
   }
 
   Result<Done> flatten(const TreeNode& root, const TreeBox& rootBox) {
@@ -63,10 +58,17 @@ class FlatBvhBuilder {
         setChild(next.index, i, next.node->boxes[i], *next.node->children[i], next.depth + 1);
       }
     }
-    bvh_.nodes_.shrink_to_fit();
-    bvh_.leaves_.shrink_to_fit();
-    bvh_.clusters_.shrink_to_fit();
+    nodes_.shrink_to_fit();
+    leaves_.shrink_to_fit();
+    clusters_.shrink_to_fit();
     return Done{};
+  }
+
+  /// What was copied. The builder is empty then.
+  FlatBvh take() {
+    return {{FrozenArray<BvhNode>(std::move(nodes_)), FrozenArray<BvhLeaf>(std::move(leaves_)),
+             FrozenArray<Cluster>(std::move(clusters_)), vertexRounding_},
+            origin_};
   }
 
  private:
@@ -92,15 +94,15 @@ class FlatBvhBuilder {
       std::fill_n(node.lower[axis], kBvhWidth, kFloatInfinity);
       std::fill_n(node.upper[axis], kBvhWidth, -kFloatInfinity);
     }
-    bvh_.nodes_.push_back(node);
-    return static_cast<std::uint32_t>(bvh_.nodes_.size() - 1);
+    nodes_.push_back(node);
+    return static_cast<std::uint32_t>(nodes_.size() - 1);
   }
 
   void setChild(std::uint32_t index, unsigned slot, const TreeBox& box, const TreeNode& child,
                 int depth) {
     const bool isLeaf = child.numChildren == 0;
     const std::uint32_t target = isLeaf ? addLeaf(static_cast<const TreeLeaf&>(child)) : addNode();
-    BvhNode& node = bvh_.nodes_[index];
+    BvhNode& node = nodes_[index];
     for (int axis = 0; axis < 3; ++axis) {
       node.lower[axis][slot] = box.lower[axis];
       node.upper[axis][slot] = box.upper[axis];
@@ -117,16 +119,16 @@ class FlatBvhBuilder {
       const TriangleId id = ids_[built.primitives[std::min(i, built.size - 1)]];
       const Triangle& triangle = triangles_[slotOf(id)];
       for (std::size_t corner = 0; corner < 3; ++corner) {
-        const Vector3d local = triangle.vertices[corner] - bvh_.origin_;
+        const Vector3d local = triangle.vertices[corner] - origin_;
         for (int axis = 0; axis < 3; ++axis) {
           leaf.vertex[corner][axis][i] = static_cast<float>(local[axis]);
         }
       }
       leaf.id[i] = i < built.size ? id : -1;
     }
-    const auto index = static_cast<std::uint32_t>(bvh_.leaves_.size());
-    bvh_.leaves_.push_back(leaf);
-    bvh_.clusters_.push_back(clusterOf(leaf));
+    const auto index = static_cast<std::uint32_t>(leaves_.size());
+    leaves_.push_back(leaf);
+    clusters_.push_back(clusterOf(leaf));
     return BvhNode::kLeafFlag | ((built.size - 1) << BvhNode::kCountShift) | index;
   }
 
@@ -163,20 +165,22 @@ class FlatBvhBuilder {
       const Eigen::Vector3f rounded = centre.cast<float>();
       const Vector3d far = farthest(leaf, rounded.cast<double>());
       const double distance = (far - rounded.cast<double>()).norm();
-      const float radius = floatAbove((distance + bvh_.vertexRounding_) * kRounding);
+      const float radius = floatAbove((distance + vertexRounding_) * kRounding);
       if (radius < best.radius) best = {{rounded.x(), rounded.y(), rounded.z()}, radius};
       centre += (far - centre) / (step + 2);
     }
     return best;
   }
 
-  FlatBvh& bvh_;
   const std::vector<Triangle>& triangles_;
   const std::vector<TriangleId>& ids_;
+  const Vector3d origin_;
+  double vertexRounding_ = 0.0;
+  std::vector<BvhNode> nodes_;
+  std::vector<BvhLeaf> leaves_;
+  std::vector<Cluster> clusters_;
   std::vector<Pending> pending_;
 };
-
-namespace {
 
 Result<std::unique_ptr<BvhTree>> buildTree(const std::vector<Triangle>& triangles,
                                            const std::vector<TriangleId>& ids,
@@ -193,11 +197,9 @@ Result<FlatBvh> FlatBvh::build(const std::vector<Triangle>& triangles,
                                const std::vector<TriangleId>& ids, const Vector3d& origin) {
   FORETOUCH_ASSERT(!ids.empty());
   FORETOUCH_TRY(const auto tree, buildTree(triangles, ids, origin));
-  FlatBvh bvh;
-  FlatBvhBuilder builder(bvh, triangles, ids);
-  builder.setOrigin(origin);
+  FlatBvhBuilder builder(triangles, ids, origin);
   FORETOUCH_CHECK(builder.flatten(*tree->root, tree->box));
-  return Result<FlatBvh>(std::move(bvh));
+  return builder.take();
 }
 
 }  // namespace foretouch::internal

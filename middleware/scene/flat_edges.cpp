@@ -66,7 +66,7 @@ struct Corner {
 
 /// All of them leave the vertex along one line, on both sides.
 bool areInLine(const CornerEnd* first, const CornerEnd* last,
-               const std::vector<Triangle>& triangles) {
+               const FrozenArray<Triangle>& triangles) {
   const auto directionOf = [&](const CornerEnd& end) -> Vector3d {
     const Triangle& triangle = triangles[slotOf(end.id)];
     return vertexOf(triangle, end.towards) - vertexOf(triangle, end.at);
@@ -95,18 +95,23 @@ void forRuns(const std::vector<Item>& sorted, const Take& take) {
   }
 }
 
+void set(std::vector<std::uint16_t>& bits, TriangleId id, int bit) {
+  bits[slotOf(id)] = static_cast<std::uint16_t>(bits[slotOf(id)] | 1U << bit);
+}
+
 const auto byHash = [](const auto& x, const auto& y) { return x.hash < y.hash; };
 
 }  // namespace
 
-FlatEdges::FlatEdges(const std::vector<Triangle>& triangles, const std::vector<TriangleId>& ids)
-    : bits_(triangles.size(), 0) {
-  findEdges(triangles, ids);
-  findVertices(triangles, ids);
+FlatEdges::FlatEdges(const FrozenArray<Triangle>& triangles, const std::vector<TriangleId>& ids) {
+  Bits bits(triangles.size(), 0);
+  findEdges(triangles, ids, bits);
+  findVertices(triangles, ids, bits);
+  bits_ = FrozenArray<std::uint16_t>(std::move(bits));
 }
 
-void FlatEdges::findEdges(const std::vector<Triangle>& triangles,
-                          const std::vector<TriangleId>& ids) {
+void FlatEdges::findEdges(const FrozenArray<Triangle>& triangles,
+                          const std::vector<TriangleId>& ids, Bits& bits) {
   std::vector<EdgeOf> edges;
   edges.reserve(3 * ids.size());
   for (const TriangleId id : ids) {
@@ -125,23 +130,23 @@ void FlatEdges::findEdges(const std::vector<Triangle>& triangles,
         if (!goOnFlat(triangles[slotOf(one->id)], one->k, triangles[slotOf(other->id)], other->k)) {
           continue;
         }
-        set(one->id, kEdges + one->k);
-        set(other->id, kEdges + other->k);
+        set(bits, one->id, kEdges + one->k);
+        set(bits, other->id, kEdges + other->k);
       }
     }
   });
 }
 
 /// Hashes stand for vertices: two with the same one would both count as corners.
-void FlatEdges::findVertices(const std::vector<Triangle>& triangles,
-                             const std::vector<TriangleId>& ids) {
+void FlatEdges::findVertices(const FrozenArray<Triangle>& triangles,
+                             const std::vector<TriangleId>& ids, Bits& bits) {
   std::vector<CornerEnd> ends;
   const auto hashAt = [&](TriangleId id, int k) {
     return hashOfPoint(vertexOf(triangles[slotOf(id)], k), 0);
   };
   for (const TriangleId id : ids) {
     for (const int k : {0, 1, 2}) {
-      if (isFlatEdge(id, k)) continue;
+      if ((bits[slotOf(id)] >> (kEdges + k) & 1U) != 0) continue;
       const auto from = static_cast<std::int8_t>(k), to = static_cast<std::int8_t>((k + 1) % 3);
       ends.push_back({hashAt(id, from), id, from, to});
       ends.push_back({hashAt(id, to), id, to, from});
@@ -157,9 +162,9 @@ void FlatEdges::findVertices(const std::vector<Triangle>& triangles,
       const Corner sought{hashAt(id, k), false};
       const auto found = std::lower_bound(corners.begin(), corners.end(), sought, byHash);
       if (found == corners.end() || found->hash != sought.hash) {
-        set(id, kFlat + k);
+        set(bits, id, kFlat + k);
       } else if (found->isStraight) {
-        set(id, kStraight + k);
+        set(bits, id, kStraight + k);
       }
     }
   }

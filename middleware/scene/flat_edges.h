@@ -5,10 +5,12 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "lss/index.h"
 #include "lss/lss.h"
+#include "middleware/scene/frozen_array.h"
 #include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
@@ -26,7 +28,9 @@ class FlatEdges {
   FlatEdges() = default;
   /// `ids`: the triangles that count, ascending; the vertices of each are in lexicographic order.
   /// O(n log n).
-  FlatEdges(const std::vector<Triangle>& triangles, const std::vector<TriangleId>& ids);
+  FlatEdges(const FrozenArray<Triangle>& triangles, const std::vector<TriangleId>& ids);
+  /// Of bitsOf(), per triangle.
+  explicit FlatEdges(FrozenArray<std::uint16_t> bits) : bits_(std::move(bits)) {}
 
   /// Edge k, from vertex k to vertex (k + 1) mod 3: another triangle goes on flat on its far side.
   [[nodiscard]] bool isFlatEdge(TriangleId id, int k) const { return has(id, kEdges + k); }
@@ -36,20 +40,21 @@ class FlatEdges {
   [[nodiscard]] bool isStraightVertex(TriangleId id, int k) const { return has(id, kStraight + k); }
   /// Bits 0 to 2: flat edges; 3 to 5: flat vertices; 6 to 8: straight ones.
   [[nodiscard]] std::uint16_t bitsOf(TriangleId id) const { return bits_[slotOf(id)]; }
+  [[nodiscard]] const FrozenArray<std::uint16_t>& bits() const { return bits_; }
 
  private:
   static constexpr int kEdges = 0, kFlat = 3, kStraight = 6;
+  using Bits = std::vector<std::uint16_t>;
 
   [[nodiscard]] bool has(TriangleId id, int bit) const {
     return (bits_[slotOf(id)] >> bit & 1U) != 0;
   }
-  void set(TriangleId id, int bit) {
-    bits_[slotOf(id)] = static_cast<std::uint16_t>(bits_[slotOf(id)] | 1U << bit);
-  }
-  void findEdges(const std::vector<Triangle>& triangles, const std::vector<TriangleId>& ids);
-  void findVertices(const std::vector<Triangle>& triangles, const std::vector<TriangleId>& ids);
+  static void findEdges(const FrozenArray<Triangle>& triangles, const std::vector<TriangleId>& ids,
+                        Bits& bits);
+  static void findVertices(const FrozenArray<Triangle>& triangles,
+                           const std::vector<TriangleId>& ids, Bits& bits);
 
-  std::vector<std::uint16_t> bits_;  // per triangle
+  FrozenArray<std::uint16_t> bits_;  // per triangle
 };
 
 }  // namespace foretouch::internal

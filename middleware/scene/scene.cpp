@@ -98,21 +98,20 @@ Result<Scene> Scene::build(RawScene raw) {
   if (parts->audit.triangles == 0) {
     return Error::of(ErrorCode::Empty, "expected at least one finite triangle, found none");
   }
-  parts->triangles = std::move(raw.triangles);
-  parts->objectOf = std::move(raw.objectOf);
-  parts->objectNames = std::move(raw.objectNames);
   parts->origin = 0.5 * (parts->audit.boxMin + parts->audit.boxMax);
-  for (std::size_t i = 0; i < parts->triangles.size(); ++i) {
-    Triangle& triangle = parts->triangles[i];
+  std::vector<TriangleId> finiteIds;
+  for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
+    Triangle& triangle = raw.triangles[i];
     if (!isFinite(triangle)) continue;
     std::sort(triangle.vertices.begin(), triangle.vertices.end(), lexicographicallyLess);
-    parts->finiteIds.push_back(static_cast<TriangleId>(i));
+    finiteIds.push_back(static_cast<TriangleId>(i));
   }
-  FORETOUCH_TRY(
-      auto bvh,
-      internal::FlatBvh::build(
-          parts->triangles, inOrderOfGeometry(parts->triangles, parts->finiteIds), parts->origin));
-  parts->bvh = std::move(bvh);
+  FORETOUCH_TRY(parts->bvh,
+                internal::FlatBvh::build(raw.triangles, inOrderOfGeometry(raw.triangles, finiteIds),
+                                         parts->origin));
+  parts->triangles = internal::FrozenArray<Triangle>(std::move(raw.triangles));
+  parts->objectOf = internal::FrozenArray<ObjectId>(std::move(raw.objectOf));
+  parts->objectNames = std::move(raw.objectNames);
   return Scene(std::move(parts));
 }
 
@@ -138,9 +137,17 @@ const SceneAudit& Scene::audit() const {
   return parts_->audit;
 }
 
+std::vector<TriangleId> internal::SceneParts::finiteIds() const {
+  std::vector<TriangleId> ids;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (isFinite(triangles[i])) ids.push_back(static_cast<TriangleId>(i));
+  }
+  return ids;
+}
+
 const internal::FlatEdges& internal::SceneParts::flatEdges() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (flatEdges_ == nullptr) flatEdges_ = std::make_unique<FlatEdges>(triangles, finiteIds);
+  if (flatEdges_ == nullptr) flatEdges_ = std::make_unique<FlatEdges>(triangles, finiteIds());
   return *flatEdges_;
 }
 

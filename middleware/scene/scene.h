@@ -37,11 +37,11 @@ class Scene {
   [[nodiscard]] const std::vector<std::string>& objectNames() const;
   [[nodiscard]] const SceneAudit& audit() const;
 
-  /// For the query's own sources (middleware/scene/scene_parts.h).
+  /// For the library's own sources (middleware/scene/scene_parts.h).
   [[nodiscard]] const internal::SceneParts& parts() const { return *parts_; }
+  explicit Scene(std::shared_ptr<const internal::SceneParts> parts) : parts_(std::move(parts)) {}
 
  private:
-  explicit Scene(std::shared_ptr<const internal::SceneParts> parts) : parts_(std::move(parts)) {}
   std::shared_ptr<const internal::SceneParts> parts_;
 };
 

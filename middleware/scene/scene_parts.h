@@ -4,25 +4,32 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "middleware/scene/flat_bvh.h"
 #include "middleware/scene/flat_edges.h"
+#include "middleware/scene/frozen_array.h"
 #include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
 
 struct SceneParts {
-  std::vector<Triangle> triangles;  // vertices sorted; dropped ones unchanged
-  std::vector<ObjectId> objectOf;
+  FrozenArray<Triangle> triangles;  // vertices sorted; dropped ones unchanged
+  FrozenArray<ObjectId> objectOf;
   std::vector<std::string> objectNames;
   SceneAudit audit;
-  std::vector<TriangleId> finiteIds;  // ascending
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   FlatBvh bvh;
 
+  /// Ascending. O(n).
+  [[nodiscard]] std::vector<TriangleId> finiteIds() const;
   /// Builds them on first use.
   [[nodiscard]] const FlatEdges& flatEdges() const;
+  /// As they were built before.
+  void takeFlatEdges(FlatEdges edges) {
+    flatEdges_ = std::make_unique<FlatEdges>(std::move(edges));
+  }
 
  private:
   mutable std::mutex mutex_;

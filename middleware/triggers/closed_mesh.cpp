@@ -50,7 +50,7 @@ Error openEdge(const Scene& scene, const Edge& edge, std::size_t count) {
 
 std::vector<Edge> edgesOf(const Scene& scene) {
   std::vector<Edge> edges;
-  for (const TriangleId id : scene.parts().finiteIds) {
+  for (const TriangleId id : scene.parts().finiteIds()) {
     const auto& v = scene.triangle(id).vertices;
     for (std::size_t k = 0; k < 3; ++k) {
       Edge edge{scene.object(id), placeAt(v[k]), placeAt(v[(k + 1) % 3]), id};

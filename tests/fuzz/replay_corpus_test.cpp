@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/fuzz/baked_inputs.h"
 #include "tests/fuzz/fuzz_inputs.h"
 #include "tests/fuzz/import_inputs.h"
 
@@ -25,6 +26,13 @@ TEST(FuzzCorpus, PairRulesKeepThePromises) {
   const CorpusCounts counts = replayCorpus("pairs", feedPairs, AlsoFeed::EveryBeginning);
   EXPECT_GE(counts.accepted, 3);
   EXPECT_GE(counts.refused, 3);
+}
+
+TEST(FuzzCorpus, BakedScenesKeepThePromises) {
+  const CorpusCounts counts =
+      replayCorpus("baked_scene", feedBakedScene, AlsoFeed::LastByteMissing);
+  EXPECT_GE(counts.accepted, 2);
+  EXPECT_GE(counts.refused, 2);
 }
 
 TEST(FuzzCorpus, ImportersAnswersKeepThePromises) {

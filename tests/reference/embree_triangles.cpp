@@ -12,8 +12,8 @@ namespace foretouch::internal {
 
 void EmbreeTriangles::fill(float* vertices, unsigned* indices) {
   const SceneParts& parts = scene_.parts();
-  for (std::size_t i = 0; i < 3 * parts.finiteIds.size(); ++i) {
-    const Triangle& triangle = parts.triangles[slotOf(parts.finiteIds[i / 3])];
+  for (std::size_t i = 0; i < 3 * ids_.size(); ++i) {
+    const Triangle& triangle = parts.triangles[slotOf(ids_[i / 3])];
     const Eigen::Vector3d local = triangle.vertices[i % 3] - parts.origin;
     extent_ = std::max(extent_, local.cwiseAbs().maxCoeff());
     for (int axis = 0; axis < 3; ++axis) vertices[3 * i + axis] = static_cast<float>(local[axis]);
@@ -22,9 +22,9 @@ void EmbreeTriangles::fill(float* vertices, unsigned* indices) {
 }
 
 Result<std::shared_ptr<const EmbreeTriangles>> EmbreeTriangles::build(const Scene& scene) {
-  const std::size_t count = scene.parts().finiteIds.size();
   FORETOUCH_TRY(auto device, newEmbreeDevice());
   const std::shared_ptr<EmbreeTriangles> built(new EmbreeTriangles(scene));
+  const std::size_t count = built->ids().size();
   built->device_ = std::move(device);
   RTCGeometry geometry = rtcNewGeometry(built->device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <type_traits>
+#include <vector>
 
 #include <Eigen/Core>
 #include <embree3/rtcore.h>
@@ -11,13 +12,14 @@
 #include "articulated/result.h"
 #include "middleware/scene/embree_device.h"
 #include "middleware/scene/scene.h"
+#include "middleware/scene/scene_parts.h"
 
 namespace foretouch::internal {
 
 class EmbreeTriangles {
  public:
-  /// Of the scene's finite triangles, Embree's primitive i is SceneParts::finiteIds[i]; at least
-  /// one. Keeps the scene.
+  /// Of the scene's finite triangles, Embree's primitive i is ids()[i]; at least one. Keeps the
+  /// scene.
   static Result<std::shared_ptr<const EmbreeTriangles>> build(const Scene& scene);
 
   /// Does the segment from `from` to `to` (W) hit anything, in float arithmetic? A yardstick, not
@@ -29,6 +31,7 @@ class EmbreeTriangles {
 
   /// Its vertices are relative to the scene's origin, rounded to nearest.
   [[nodiscard]] RTCScene scene() const { return embreeScene_.get(); }
+  [[nodiscard]] const std::vector<TriangleId>& ids() const { return ids_; }
   /// The largest |coordinate| of any vertex, relative to the origin.
   [[nodiscard]] double extent() const { return extent_; }
   [[nodiscard]] bool isOf(const Scene& scene) const { return &scene_.parts() == &scene.parts(); }
@@ -38,11 +41,12 @@ class EmbreeTriangles {
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
   };
 
-  explicit EmbreeTriangles(const Scene& scene) : scene_(scene) {}
+  explicit EmbreeTriangles(const Scene& scene) : scene_(scene), ids_(scene.parts().finiteIds()) {}
   void fill(float* vertices, unsigned* indices);
   [[nodiscard]] RTCRay rayOf(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
   Scene scene_;
+  std::vector<TriangleId> ids_;
   EmbreeDevice device_;
   std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene> embreeScene_;
   double extent_ = 0.0;

@@ -50,7 +50,7 @@ void PointQueryCuller::collect(const Aabb& box, std::vector<TriangleId>& ids,
   query.radius = floatAbove(radius * (1.0 + kFloatSlack) + coordinates * kFloatSlack);
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  Collected collected{&parts.finiteIds, &ids, 0};
+  Collected collected{&triangles_->ids(), &ids, 0};
   rtcPointQuery(triangles_->scene(), &query, &context, collectPrimitive, &collected);
   visited += collected.visited;
 }

@@ -12,10 +12,11 @@ Result<std::shared_ptr<const PointQueryCuller>> PointQueryCuller::build(const Sc
 void PointQueryCuller::collect(const Aabb& box, std::vector<TriangleId>& ids,
                                std::uint64_t& visited) const {
   const SceneParts& parts = scene_.parts();
-  for (const TriangleId id : parts.finiteIds) {
+  const std::vector<TriangleId> finite = parts.finiteIds();
+  for (const TriangleId id : finite) {
     if (boxOf(parts.triangles[slotOf(id)]).overlaps(box)) ids.push_back(id);
   }
-  visited += parts.finiteIds.size();
+  visited += finite.size();
 }
 
 }  // namespace foretouch::internal

@@ -30,7 +30,18 @@ std::string describe(const SceneImportReport& report) {
 /// The values of all options.
 struct AskedScene : WorldRequest {
   bool asJson = false;
+  std::string bakedPath;
 };
+
+/// `scene check` and `scene bake` name their scene without an option.
+Settings settingsFor(AskedScene& asked) {
+  Settings settings;
+  addSceneSettings(settings, asked);
+  Setting& scene = settings.of("--scene").required("a scene file");
+  scene.option = "scene";
+  scene.value = "SCENE";
+  return settings;
+}
 
 std::string sceneJson(const AskedScene& asked, const Scene& scene, const SceneImportReport& report,
                       const std::vector<std::string>& doubts) {
@@ -46,19 +57,28 @@ std::string sceneJson(const AskedScene& asked, const Scene& scene, const SceneIm
   return text + "\n";
 }
 
-ExitCode check(const AskedScene& asked) {
-  FORETOUCH_TRY_OR(failed, auto imported, importScene(asked.scenePath, asked.sceneImport));
+void remarkOn(const AskedScene& asked, const LoadedScene& loaded) {
   if (const std::string weak = importerWeakness(); !weak.empty()) printNote(weak);
-  const SceneImportReport report = imported.report;
-  printNotes(asked.scenePath, report.notes);
-  const FileFrame frame = imported.frame;
-  if (const auto remark = remarkOnFrame(frame, {"--scene-scale", "--scene-up"}, asked.scenePath)) {
+  printNotes(asked.scenePath, loaded.report.notes);
+  if (const auto remark =
+          remarkOnFrame(loaded.frame, {"--scene-scale", "--scene-up"}, asked.scenePath)) {
     printNote(*remark);
   }
-  // Builds the scene, not only measures it: a replay accepts every scene that passes here.
-  FORETOUCH_TRY_OR(failed, const auto scene,
-                   inFile(Scene::build(std::move(imported.scene)), asked.scenePath));
+}
 
+ExitCode bake(const AskedScene& asked) {
+  FORETOUCH_TRY_OR(failed, const auto loaded,
+                   bakeScene(asked.scenePath, asked.sceneImport, asked.bakedPath));
+  remarkOn(asked, loaded);
+  return ExitCode::Done;
+}
+
+ExitCode check(const AskedScene& asked) {
+  // Builds the scene, not only measures it: a replay accepts every scene that passes here.
+  FORETOUCH_TRY_OR(failed, const auto loaded, readScene(asked.scenePath, asked.sceneImport));
+  const auto& [scene, report, frame] = loaded;
+  remarkOn(asked, loaded);
+  FORETOUCH_CHECK_OR(failed, inFile(checkScene(scene), asked.scenePath));
   const SceneAudit& audit = scene.audit();
   const std::vector<std::string> doubts = doubtsAbout(audit);
   printOut(asked.asJson ? sceneJson(asked, scene, report, doubts)
@@ -72,18 +92,21 @@ ExitCode check(const AskedScene& asked) {
 
 Command sceneCommand() {
   const auto asked = std::make_shared<AskedScene>();
-  Settings settings;
-  addSceneSettings(settings, *asked);
-  Setting& scene = settings.of("--scene").required("a scene file");
-  scene.option = "scene";
-  scene.value = "SCENE";
+  Settings settings = settingsFor(*asked);
   settings.asJson(asked->asJson);
   Command check{"check", "Measure a scene; exit code 1 where its size or its triangles are amiss",
                 "Example:\n  foretouch scene check kitchen.ply --scene-up z", std::move(settings)};
   check.takesProject = true;
   check.run = [asked](const Settings&) { return tools::check(*asked); };
-  Command command{"scene", "Check scenes"};
+  Settings baking = settingsFor(*asked);
+  baking.output("-o,--output", "FILE", asked->bakedPath, "The baked scene").required();
+  Command bake{"bake", "Write a scene as a file that every command reads in milliseconds",
+               "Example:\n  foretouch scene bake kitchen.ply --scene-up z -o kitchen.ftscene",
+               std::move(baking)};
+  bake.run = [asked](const Settings&) { return tools::bake(*asked); };
+  Command command{"scene", "Check and bake scenes"};
   command.commands.push_back(std::move(check));
+  command.commands.push_back(std::move(bake));
   return command;
 }
 

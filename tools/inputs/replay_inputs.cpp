@@ -96,14 +96,12 @@ std::string remarkOnPairs(const ReplayRequest& request, const PairRules& rules) 
 }  // namespace
 
 Result<Scene> loadScene(const WorldRequest& request, FileFrame& frame) {
-  FORETOUCH_TRY(auto imported, importScene(request.scenePath, request.sceneImport));
+  FORETOUCH_TRY(auto loaded, readScene(request.scenePath, request.sceneImport));
   if (const std::string weak = importerWeakness(); !weak.empty()) printNote(weak);
-  printNotes(request.scenePath, imported.report.notes);
-  frame = imported.frame;
-  auto scene = Scene::build(std::move(imported.scene));
-  if (!scene.ok()) return inFile(scene.error(), request.scenePath);
+  printNotes(request.scenePath, loaded.report.notes);
+  frame = loaded.frame;
   giveBackFreeMemory();
-  return scene;
+  return std::move(loaded.scene);
 }
 
 Result<Scene> loadScene(const WorldRequest& request) {

@@ -155,7 +155,8 @@ typedef struct ft_import_options {
 FT_API ft_status ft_import_options_init(ft_import_options* options, size_t size);
 
 /* Reads OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X or IQM, in a caged child process: a file
- * that crashes the importer is an error here. `options` may be NULL. */
+ * that crashes the importer is an error here. Or a scene that `foretouch scene bake` wrote: in
+ * milliseconds, without that process. `options` may be NULL. */
 FT_API ft_status ft_scene_create_from_file(const char* path, const ft_import_options* options,
                                            ft_scene** scene);
 
