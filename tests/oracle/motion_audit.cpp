@@ -243,6 +243,10 @@ void MotionAudit::lookAtTurns(const Body& shown, const Body& tracked, double lif
 
 double MotionAudit::ownDepth(const Body& body, std::size_t i, std::size_t k) const {
   const auto &one = body.axes[i], &other = body.axes[k];
+  // Most are far apart: no more is asked of them than that.
+  const double middles = 0.5 * norm((one[0] + one[1]) - (other[0] + other[1]));
+  const double reach = 0.5 * (norm(one[1] - one[0]) + norm(other[1] - other[0]));
+  if (middles - reach > radii_[i] + radii_[k]) return radii_[i] + radii_[k] - middles + reach;
   const double apart =
       oracle::closestPoints<double>(one[0], one[1], {other[0], other[1], other[1]}).distance;
   return radii_[i] + radii_[k] - apart;
