@@ -144,4 +144,13 @@ const internal::FlatEdges& internal::SceneParts::flatEdges() const {
   return *flatEdges_;
 }
 
+const std::vector<internal::ObjectRoom>& internal::SceneParts::rooms() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (rooms_ == nullptr) {
+    rooms_ = std::make_unique<std::vector<ObjectRoom>>(
+        objectRooms(triangles, finiteIds, objectOf, objectNames.size()));
+  }
+  return *rooms_;
+}
+
 }  // namespace foretouch

@@ -9,6 +9,7 @@
 #include "middleware/scene/flat_bvh.h"
 #include "middleware/scene/flat_edges.h"
 #include "middleware/scene/raw_scene.h"
+#include "tessellation/open_edges.h"
 
 namespace foretouch::internal {
 
@@ -23,10 +24,13 @@ struct SceneParts {
 
   /// Builds them on first use.
   [[nodiscard]] const FlatEdges& flatEdges() const;
+  /// One per object; likewise.
+  [[nodiscard]] const std::vector<ObjectRoom>& rooms() const;
 
  private:
   mutable std::mutex mutex_;
   mutable std::unique_ptr<FlatEdges> flatEdges_;
+  mutable std::unique_ptr<std::vector<ObjectRoom>> rooms_;
 };
 
 }  // namespace foretouch::internal
