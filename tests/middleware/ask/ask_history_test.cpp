@@ -1,7 +1,12 @@
 // A world that remembers: what was answered about an instant is answered again later, to the bit,
 // as long as it is remembered; what is not is refused; and what remembering costs.
+#include <algorithm>
 #include <string>
 #include <vector>
+
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
 
 #include <gtest/gtest.h>
 
@@ -123,6 +128,42 @@ TEST(AskHistory, ThePastIsAnsweredAsItWasThenOrRefused) {
   EXPECT_GT(same, 200);
   EXPECT_GT(refused, 200);
   EXPECT_GT(hits, 100);
+}
+
+// What docs/ask.md says: so many bytes per body and second, with all that an allocator takes
+// beside.
+TEST(AskHistory, RemembersASecondInAsManyBytesAsItsPosesHave) {
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  constexpr int kJoints = 22, kHz = 128, kSeconds = 5;
+  RawSkeleton raw;
+  std::vector<std::vector<Lss>> lss;
+  for (int i = 0; i < kJoints; ++i) {
+    raw.joints.push_back({"joint" + std::to_string(i), i == 0 ? kNoParent : i - 1,
+                          Vector3d(0, 0.1, 0), Quaternion::Identity()});
+    lss.push_back({{Vector3d::Zero(), Vector3d(0, 0.1, 0), 0.03}});
+  }
+  const Avatar avatar = Avatar::build(Skeleton::build(raw).value(), lss).value();
+  World world = World::build(std::nullopt).value();
+  const BodyId body = world.add(avatar).value();
+  Pose pose;
+  pose.rotations.assign(kJoints, Quaternion::Identity());
+  pose.translations.assign(kJoints, Vector3d(0, 0.1, 0));
+  const auto bytes = [] {
+    const struct mallinfo2 info = mallinfo2();
+    return static_cast<double>(info.uordblks + info.hblkhd);
+  };
+  const double before = bytes();
+  for (int tick = 0; tick < kHz * kSeconds; ++tick) {
+    const std::int64_t us = 1'000'000LL * tick / kHz;
+    ASSERT_TRUE(world.push(body, us, pose).ok());
+    world.forgetBefore(us - 1'000'000);
+  }
+  const double perPose = (bytes() - before) / kHz;
+  EXPECT_GT(perPose, 56.0 * kJoints);
+  EXPECT_LT(perPose, 56.0 * kJoints + 200.0);
+#else
+  GTEST_SKIP() << "this build's allocator does not say what it has given";
+#endif
 }
 
 // A replay of the poses, asked in another order by a memory of its own.
