@@ -101,8 +101,10 @@ ft_status readQuestion(const ft_question* given, WorldQuestion& question) {
   if (const auto s = readChoice(known.what, FT_ASK_NEAREST, "what"); s != FT_OK) return s;
   if (const auto s = readChoice(known.which, FT_ASK_ALL, "which"); s != FT_OK) return s;
   if (const auto s = zero(std::uint32_t(known.reserved), "reserved"); s != FT_OK) return s;
-  const auto s = neededArray(known.instants, known.instant_count, kMaxParts, "instants");
-  if (s != FT_OK) return s;
+  if (const auto s = neededArray(known.instants, known.instant_count, kMaxParts, "instants");
+      s != FT_OK) {
+    return s;
+  }
   question.what = static_cast<AskWhat>(known.what);
   question.which = static_cast<AskWhich>(known.which);
   question.shape = lssOf(known.shape);

@@ -6,24 +6,16 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <foretouch/foretouch.hpp>
 #include <foretouch/middleware/ask/ask.h>
-#include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
 
-using namespace foretouch;
+#include "stage.h"
 
-template <typename T>
-T must(Result<T> result) {
-  if (!result.ok()) {
-    std::cerr << describe(result.error()) << '\n';
-    std::exit(1);
-  }
-  return std::move(result).value();
-}
+using namespace foretouch;
+using stage::checked;
 
 constexpr int kPlayers = 60, kLinks = 22, kTicksPerSecond = 128, kSeconds = 6;
 constexpr std::int64_t kSecondUs = 1'000'000, kTickUs = kSecondUs / kTicksPerSecond;
@@ -51,7 +43,7 @@ Avatar player() {
       lss.push_back({{{0, 0, 0}, limb.along, 0.07}});
     }
   }
-  return must(Avatar::build(must(Skeleton::build(bones)), lss));
+  return checked(Avatar::build(checked(Skeleton::build(bones)), lss));
 }
 
 /// Where a player is at a tick: he runs in a circle and swings his limbs. Yours: what clients send.
@@ -96,14 +88,14 @@ WorldQuestion shotAt(int tick, int number) {
 }
 
 World emptyWorld(const Avatar& avatar) {
-  World world = must(World::build(std::nullopt));
-  for (int i = 0; i < kPlayers; ++i) must(world.add(avatar));
+  World world = checked(World::build(std::nullopt));
+  for (int i = 0; i < kPlayers; ++i) checked(world.add(avatar));
   return world;
 }
 
 void playTick(World& world, int tick, const Skeleton& skeleton) {
   for (BodyId body = 0; body < kPlayers; ++body) {
-    must(world.push(body, kTickUs * tick, poseOf(body, tick, skeleton)));
+    checked(world.push(body, kTickUs * tick, poseOf(body, tick, skeleton)));
   }
   world.forgetBefore(kTickUs * tick - kSecondUs);
 }
@@ -130,7 +122,7 @@ int main() {
     if (tick < kTicksPerSecond) continue;  // a shot per tick, once there is a past
     Shot shot{tick, shotAt(tick, tick), {}};
     const auto begin = std::chrono::steady_clock::now();
-    must(askWorld(world, shot.question, scratch, shot.verdict));
+    checked(askWorld(world, shot.question, scratch, shot.verdict));
     us +=
         std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count();
     hits += shot.verdict.verdict() == AskVerdict::Hit ? 1 : 0;
@@ -146,7 +138,7 @@ int main() {
     for (; next < log.size() && log[next].tick == tick; ++next) {
       Scratch anew;
       WorldAnswer verdict;
-      must(askWorld(replay, log[next].question, anew, verdict));
+      checked(askWorld(replay, log[next].question, anew, verdict));
       same += isSame(verdict, log[next].verdict) ? 1 : 0;
     }
   }

@@ -6,11 +6,10 @@
 #include <limits>
 #include <string>
 
-#include "lss/clearance.h"
+#include "articulated/skeleton.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
 #include "middleware/ask/ask.h"
-#include "middleware/ask/asked_shape.h"
 
 namespace foretouch::internal {
 namespace {
@@ -148,7 +147,8 @@ class ConvexSearch {
   bool isEnclosed_ = false;
 };
 
-Error hullError(ErrorCode code, std::size_t corner, const std::string& message) {
+Error cornerError(ErrorCode code, std::size_t corner, const std::string& expected) {
+  const std::string message = "corner " + std::to_string(corner) + ": " + expected;
   return inFile(Error::at(static_cast<std::int64_t>(corner), code, message), "hull");
 }
 
@@ -198,7 +198,7 @@ Separation separation(const ConvexShape& shape, const Vector3d& place, const Hul
 Result<Done> checkedHull(const std::vector<Vector3d>& hull, const Lss& shape) {
   if (hull.empty()) return Done{};
   if (hull.size() > kMostCorners) {
-    return hullError(ErrorCode::LimitExceeded, hull.size(),
+    return Error::in("hull", ErrorCode::LimitExceeded,
                      "expected at most " + std::to_string(kMostCorners) + " corners, found " +
                          std::to_string(hull.size()));
   }
@@ -209,12 +209,12 @@ Result<Done> checkedHull(const std::vector<Vector3d>& hull, const Lss& shape) {
   }
   for (std::size_t i = 0; i < hull.size(); ++i) {
     if (!hull[i].allFinite()) {
-      return hullError(ErrorCode::NonFinite, i, "expected finite coordinates");
+      return cornerError(ErrorCode::NonFinite, i, "expected finite coordinates");
     }
     const double most =
         std::max(hull[i].cwiseAbs().maxCoeff(), (hull[i] + shape.a).cwiseAbs().maxCoeff());
     if (most > kMaxCoordinate) {
-      return hullError(ErrorCode::OutOfRange, i, "expected coordinates within 1e7 m");
+      return cornerError(ErrorCode::OutOfRange, i, "expected coordinates within 1e7 m");
     }
   }
   return Done{};
