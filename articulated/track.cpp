@@ -87,6 +87,10 @@ Result<Done> Track::push(std::int64_t utimeUs, const Pose& pose) {
   }
   if (count_ == ring_.size()) grow();
   Knot& next = ring_[(first_ + count_) % ring_.size()];
+  // Where one pose is let go of for each that comes, as of a world that remembers a second, the
+  // ring's other half needs no memory.
+  Knot& before = ring_[(first_ + ring_.size() - 1) % ring_.size()];
+  if (next.pose.rotations.empty() && &before != &next) std::swap(next.pose, before.pose);
   next.utimeUs = utimeUs;
   next.pose = pose;
   FORETOUCH_CHECK(validate(skeleton_, next.pose));

@@ -50,7 +50,7 @@ make_npm_package() (  # make_npm_package [--hands [N]]
   tarball=$PWD/../../build/npm/foretouch-$version.tgz
   export FORETOUCH_EXAMPLES=$PWD/../../build/release/share/foretouch/examples FORETOUCH_PROGRAM=$PWD/../../build/release/bin/foretouch
   [ -x "$FORETOUCH_PROGRAM" ] || echo "run: there is no $FORETOUCH_PROGRAM: the answers are not held against the native program's (./run build)" >&2
-  node --test tests/module.test.mjs tests/structs.test.mjs tests/worlds.test.mjs >&2
+  node --test tests/module.test.mjs tests/structs.test.mjs tests/worlds.test.mjs tests/person.test.mjs tests/ask.test.mjs >&2
   scratch=$(mktemp -d)
   (cd "$scratch" && npm init -y >/dev/null && npm install --offline --no-audit --no-fund --silent "$tarball" &&
     node --no-experimental-fetch --input-type=module -e 'import { Foretouch } from "foretouch"; import { readFileSync } from "node:fs";

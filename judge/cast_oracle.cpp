@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "judge/distance.h"
 
@@ -11,6 +12,8 @@ namespace {
 /// The golden section leaves 0.618^110 = 1e-23 of a way; halves as many.
 constexpr int kSections = 110;
 constexpr int kHalvings = 80;
+/// Of hulls, which take longer: 0.618^60 = 3e-13.
+constexpr int kSectionsOfHull = 60;
 
 Vec3r unitOf(const Vec3d& direction) {
   const Real size = static_cast<Real>(extent(direction));
@@ -22,6 +25,24 @@ Vec3r unitOf(const Vec3d& direction) {
 Corners<Real> cornersOf(const OraclePart& part) {
   return {part.corners[0].as<Real>(), part.corners[1].as<Real>(),
           part.corners[part.count == 3 ? 2 : 1].as<Real>()};
+}
+
+Real determinant(const Vec3r& a, const Vec3r& b, const Vec3r& c, const Vec3r& d) {
+  return dot(cross(b - a, c - a), d - a);
+}
+
+/// Of the hull of corners from a place; 0 inside.
+Real hullGap(const CastShape& shape, const Vec3r& place, const OraclePart& part) {
+  Corners<Real> corners = cornersOf(part);
+  for (Vec3r& corner : corners) corner = corner - place;
+  for (const auto& tetrahedron : shape.tetrahedra) {
+    if (isIn(corners[0], tetrahedron)) return 0;
+  }
+  Real least = std::numeric_limits<Real>::infinity();
+  for (const Corners<Real>& face : shape.outer) {
+    least = std::min(least, closestPoints(face, corners).distance);
+  }
+  return least;
 }
 
 Real axisGap(const Vec3r& a, const Vec3r& b, const OraclePart& part) {
@@ -36,10 +57,11 @@ Real gapOfBalls(const CastShape& shape, const Vec3r& way, Real until, const Orac
   const Vec3r middle = Real(0.5) * (a + b);
   const Corners<Real> corners = cornersOf(part);
   const Vec3r centre = (Real(1) / 3) * (corners[0] + corners[1] + corners[2]);
-  Real radius = 0;
+  Real radius = 0, ofHull = 0;
   for (const Vec3r& corner : corners) radius = std::max(radius, norm(corner - centre));
+  for (const Vec3d& corner : shape.corners) ofHull = std::max(ofHull, norm(corner.as<Real>()));
   const Real between = pointSegmentDistance(centre, middle, middle + until * way);
-  return between - radius - norm(a - middle) - static_cast<Real>(shape.radius) -
+  return between - radius - norm(a - middle) - ofHull - static_cast<Real>(shape.radius) -
          static_cast<Real>(part.radius);
 }
 
@@ -51,6 +73,10 @@ struct Least {
 
 Real gapAfter(const CastShape& shape, Real along, const OraclePart& part) {
   const Vec3r moved = along * unitOf(shape.direction);
+  if (!shape.corners.empty()) {
+    return hullGap(shape, shape.a.as<Real>() + moved, part) - static_cast<Real>(shape.radius) -
+           static_cast<Real>(part.radius);
+  }
   return axisGap(shape.a.as<Real>() + moved, shape.b.as<Real>() + moved, part) -
          static_cast<Real>(shape.radius) - static_cast<Real>(part.radius);
 }
@@ -69,7 +95,8 @@ Least leastOf(const CastShape& shape, Real until, const OraclePart& part) {
   Real low = 0, high = until;
   Real left = high - golden * (high - low), right = low + golden * (high - low);
   Real atLeft = look(left), atRight = look(right);
-  for (int i = 0; i < kSections && low < high; ++i) {
+  const int sections = shape.corners.empty() ? kSections : kSectionsOfHull;
+  for (int i = 0; i < sections && low < high; ++i) {
     if (atLeft < atRight) {
       high = right;
       right = left;
@@ -107,6 +134,94 @@ Real firstTouch(const CastShape& shape, Real until, const OraclePart& part) {
     (gapAfter(shape, middle, part) > 0 ? free : touching) = middle;
   }
   return touching;
+}
+
+bool isIn(const Vec3r& p, const std::array<Vec3r, 4>& t) {
+  const Real whole = determinant(t[0], t[1], t[2], t[3]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::array<Vec3r, 4> with = t;
+    with[i] = p;
+    if (whole * determinant(with[0], with[1], with[2], with[3]) < 0) return false;
+  }
+  return whole != 0;
+}
+
+void CastShape::setHull(const std::vector<Vec3d>& given, Real scale) {
+  corners = given;
+  outer.clear();
+  tetrahedra.clear();
+  const std::size_t count = given.size();
+  Vec3r middle;
+  for (const Vec3d& corner : given) middle = middle + (Real(1) / count) * corner.as<Real>();
+  std::vector<Vec3r> at;
+  for (const Vec3d& corner : given) at.push_back(middle + scale * (corner.as<Real>() - middle));
+  Real size = 0;
+  for (const Vec3r& corner : at) size = std::max(size, norm(corner - middle));
+  const Real noise = 1e-16L * size * size * size;
+  // A triangle that other corners are clearly on both sides of is inside.
+  const auto isOuter = [&](std::size_t i, std::size_t j, std::size_t k) {
+    Real least = 0, most = 0;
+    for (const Vec3r& other : at) {
+      const Real volume = determinant(at[i], at[j], at[k], other);
+      least = std::min(least, volume);
+      most = std::max(most, volume);
+    }
+    return std::min(-least, most) <= 1e-12L * std::max(-least, most) + noise;
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i; j < count; ++j) {
+      for (std::size_t k = j; k < count; ++k) {
+        if (count > 2 && (i == j || j == k)) continue;
+        if (isOuter(i, j, k)) outer.push_back({at[i], at[j], at[k]});
+        for (std::size_t l = k + 1; l < count; ++l) {
+          tetrahedra.push_back({at[i], at[j], at[k], at[l]});
+        }
+      }
+    }
+  }
+}
+
+bool surelyCrosses(const CastShape& shape, Real until, const OraclePart& part, Real margin) {
+  const Vec3r way = unitOf(shape.direction), from = shape.a.as<Real>();
+  const Corners<Real> v = cornersOf(part);
+  Vec3r normal = cross(v[1] - v[0], v[2] - v[0]);
+  const Real size = norm(normal);
+  if (size == 0) return false;
+  normal = (1 / size) * normal;
+  const Real pace = dot(normal, way);
+  if (std::abs(pace) < 1e-2L) return false;
+  const Real along = dot(normal, v[0] - from) / pace;
+  if (!(along > margin && along < until - margin)) return false;
+  const Vec3r p = from + along * way;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3r edge = v[(i + 1) % 3] - v[i];
+    const Real length = norm(edge);
+    if (length == 0 || dot(cross(edge, p - v[i]), normal) < margin * length) return false;
+  }
+  return true;
+}
+
+bool isInside(const Vec3r& p, const std::vector<Corners<Real>>& surface) {
+  // Directions in no special place: the cosines of whole numbers.
+  for (int attempt = 1;; ++attempt) {
+    const Vec3r way{std::cos(Real(attempt)), std::cos(Real(2 * attempt + 1)),
+                    std::cos(Real(3 * attempt + 2))};
+    int crossings = 0;
+    bool isClear = true;
+    for (const Corners<Real>& v : surface) {
+      const Real whole = dot(way, cross(v[1] - v[0], v[2] - v[0]));
+      std::array<Real, 3> shares;
+      for (std::size_t i = 0; i < 3; ++i) {
+        shares[i] = dot(way, cross(v[i] - p, v[(i + 1) % 3] - p)) / whole;
+      }
+      const Real least = std::min({shares[0], shares[1], shares[2]});
+      const Real along = dot(v[0] - p, cross(v[1] - v[0], v[2] - v[0])) / whole;
+      // A sliver's shares are noise: another direction may not be; in the end it decides.
+      isClear = isClear && (std::abs(least) > 1e-9L || attempt > 50);
+      if (least > 0 && along > 0) ++crossings;
+    }
+    if (isClear) return crossings % 2 != 0;
+  }
 }
 
 Real heightOver(const Vec3d& p, const OraclePart& part) {

@@ -1,7 +1,10 @@
 // judge/cast_oracle.h: a shape that moves along a line, or rests, among capsules and triangles that
 // rest: how near it comes to each, by looking at each. The distance of two convex sets is convex
-// along a line, so sections find its least; nothing else is used. In long double.
+// along a line, so sections find its least; nothing else is used. The hull of corners is looked at
+// as all the triangles and tetrahedra of them. In long double.
 #pragma once
+
+#include <vector>
 
 #include "judge/vector.h"
 #include "judge/world_judge.h"
@@ -13,6 +16,14 @@ struct CastShape {
   Vec3d a, b;
   double radius = 0.0;
   Vec3d direction;  ///< Of any length; zero: it rests.
+  /// Not empty: instead of the segment, what is within the radius of the triangles and tetrahedra
+  /// of corners, from a.
+  std::vector<Vec3d> corners{};
+  std::vector<Corners<Real>> outer{};  ///< Triangles with no corner on one side.
+  std::vector<std::array<Vec3r, 4>> tetrahedra{};
+
+  /// All of them; scaled about their middle.
+  void setHull(const std::vector<Vec3d>& given, Real scale);
 };
 
 /// Of the shape after it has moved so far and the part, less both radii: 0 where they touch.
@@ -22,6 +33,15 @@ struct CastShape {
                             Real beyond);
 /// How far it has moved when it first touches the part; -1 if it does not up to `until`.
 [[nodiscard]] Real firstTouch(const CastShape& shape, Real until, const OraclePart& part);
+/// In a tetrahedron, which has a volume.
+[[nodiscard]] bool isIn(const Vec3r& p, const std::array<Vec3r, 4>& tetrahedron);
+/// The way up to `until` passes through a triangle, farther than `margin` from its edges and from
+/// both ends of the way, and not along it. Of a point.
+[[nodiscard]] bool surelyCrosses(const CastShape& shape, Real until, const OraclePart& part,
+                                 Real margin);
+/// By rays whose crossings are odd in number, of which none passes near an edge. The triangles are
+/// those of a closed surface.
+[[nodiscard]] bool isInside(const Vec3r& p, const std::vector<Corners<Real>>& surface);
 /// Of a point and the part's surface or, with its sign, of one in a capsule.
 [[nodiscard]] Real heightOver(const Vec3d& p, const OraclePart& part);
 

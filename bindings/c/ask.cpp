@@ -2,6 +2,7 @@
 #include "bindings/c/include/foretouch/ask.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,11 +20,14 @@ static_assert(static_cast<int>(AskVerdict::Clear) == FT_ASK_CLEAR);
 static_assert(static_cast<int>(AskVerdict::Hit) == FT_ASK_HIT);
 static_assert(static_cast<int>(AskVerdict::Unknown) == FT_ASK_UNKNOWN);
 static_assert(static_cast<int>(AskUnknown::Assumed) == FT_ASK_ASSUMED);
-static_assert(static_cast<int>(AskUnknown::Unresolved) == FT_ASK_UNRESOLVED);
+static_assert(static_cast<int>(AskUnknown::Open) == FT_ASK_OPEN);
+static_assert(kMostCorners == 1024);  // as the header says
 static_assert(kEveryObject == FT_EVERY_OBJECT);
 
 /// As many as a world has bodies.
 constexpr std::size_t kMaxParts = 100'000;
+/// In one call; their answers fit into memory.
+constexpr std::size_t kMaxQuestions = 10'000'000;
 
 ft_ask_whom everybody() {
   ft_ask_whom whom{};
@@ -76,6 +80,15 @@ ft_status readChoice(std::int32_t given, std::int32_t last, const char* name) {
                  name, last, given);
 }
 
+ft_status readHull(const double* given, std::size_t count, std::vector<Eigen::Vector3d>& hull) {
+  if (const auto s = neededArray(given, count, kMostCorners, "hull"); s != FT_OK) return s;
+  hull.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    hull.emplace_back(Eigen::Map<const Eigen::Vector3d>(given + 3 * i));
+  }
+  return FT_OK;
+}
+
 Lss lssOf(const ft_lss& given) {
   return {Eigen::Map<const Eigen::Vector3d>(given.a), Eigen::Map<const Eigen::Vector3d>(given.b),
           given.radius};
@@ -88,8 +101,10 @@ ft_status readQuestion(const ft_question* given, WorldQuestion& question) {
   if (const auto s = readChoice(known.what, FT_ASK_NEAREST, "what"); s != FT_OK) return s;
   if (const auto s = readChoice(known.which, FT_ASK_ALL, "which"); s != FT_OK) return s;
   if (const auto s = zero(std::uint32_t(known.reserved), "reserved"); s != FT_OK) return s;
-  const auto s = neededArray(known.instants, known.instant_count, kMaxParts, "instants");
-  if (s != FT_OK) return s;
+  if (const auto s = neededArray(known.instants, known.instant_count, kMaxParts, "instants");
+      s != FT_OK) {
+    return s;
+  }
   question.what = static_cast<AskWhat>(known.what);
   question.which = static_cast<AskWhich>(known.which);
   question.shape = lssOf(known.shape);
@@ -101,7 +116,34 @@ ft_status readQuestion(const ft_question* given, WorldQuestion& question) {
     const ft_ask_instant& instant = known.instants[i];
     question.instants.push_back({instant.body, {instant.time_us, instant.time_fraction}});
   }
+  if (const auto s = readHull(known.hull, known.hull_count, question.hull); s != FT_OK) return s;
+  if (const auto s = readTruth(known.solids, "solids", question.solids); s != FT_OK) return s;
+  if (const auto s = zero(std::uint32_t(known.reserved_end), "reserved_end"); s != FT_OK) return s;
   return readWhom(known.whom, question);
+}
+
+ft_status readOneOf(const ft_question* given, std::size_t stride, WorldQuestion& question) {
+  std::size_t size = 0;
+  if (const auto s = readSize(given, "ft_question", size); s != FT_OK) return s;
+  if (size == stride) return readQuestion(given, question);
+  return failure(FT_ERROR_MISMATCH, kNoIndex,
+                 "size: expected that of the first one, %zu, found %zu", stride, size);
+}
+
+ft_status readQuestions(const ft_question* given, std::size_t count,
+                        std::vector<WorldQuestion>& questions) {
+  questions.resize(count);
+  std::size_t stride = 0;
+  const auto* place = reinterpret_cast<const unsigned char*>(given);
+  for (std::size_t i = 0; i < count; ++i, place += stride) {
+    const auto* const one = reinterpret_cast<const ft_question*>(place);
+    ft_status s = i == 0 ? readSize(one, "ft_question", stride) : FT_OK;
+    if (s == FT_OK) s = readOneOf(one, stride, questions[i]);
+    if (s == FT_OK) continue;
+    const std::string why = ft_last_error();
+    return failure(s, static_cast<std::int64_t>(i), "questions[%zu]: %s", i, why.c_str());
+  }
+  return FT_OK;
 }
 
 ft_status readFlight(const ft_flight* given, FlightQuestion& question) {
@@ -111,6 +153,7 @@ ft_status readFlight(const ft_flight* given, FlightQuestion& question) {
   if (const auto s = zero(known.reserved, "reserved"); s != FT_OK) return s;
   question.shape = lssOf(known.shape);
   question.way = Eigen::Map<const Eigen::Vector3d>(known.way);
+  if (const auto s = readHull(known.hull, known.hull_count, question.hull); s != FT_OK) return s;
   question.fromUs = known.from_us;
   question.toUs = known.to_us;
   return readWhom(known.whom, question);
@@ -146,7 +189,13 @@ ft_unknown_body unknownOf(const UnknownBody& body) {
   ft_unknown_body told{};
   told.body = body.body;
   told.why = static_cast<std::int32_t>(body.why);
+  told.object = body.object;
   return told;
+}
+
+template <typename Item>
+void append(const std::vector<Item>& more, std::vector<Item>& all) {
+  all.insert(all.end(), more.begin(), more.end());
 }
 
 /// `isAnswered`: which of the answers there must be.
@@ -187,6 +236,35 @@ ft_status ft_world_probe(ft_world* world, const ft_question* question, int32_t* 
     asked.hasAnswer = asked.hasUnknown = true;
     asked.unknown = asked.answer.unknown;
     if (verdict != nullptr) *verdict = static_cast<std::int32_t>(asked.answer.verdict());
+    return FT_OK;
+  });
+}
+
+ft_status ft_world_probe_many(ft_world* world, const ft_question* questions, size_t count,
+                              ft_probed* probed) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(world); s != FT_OK) return s;
+    if (const auto s = neededArray(questions, count, kMaxQuestions, "questions"); s != FT_OK) {
+      return s;
+    }
+    if (const auto s = neededArray(probed, count, kMaxQuestions, "probed"); s != FT_OK) return s;
+    auto& asked = world->asked;
+    if (const auto s = readQuestions(questions, count, asked.questions); s != FT_OK) return s;
+    const auto done = world->withScratch([&](Scratch& scratch) {
+      return askWorld(world->world, asked.questions, scratch, asked.answers);
+    });
+    FORETOUCH_CHECK_OR(worldFailure, done);
+    asked.answer.hits.clear();
+    asked.unknown.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      const WorldAnswer& answer = asked.answers[i];
+      probed[i] = {static_cast<std::int32_t>(answer.verdict()),
+                   static_cast<std::uint32_t>(answer.hits.size()),
+                   static_cast<std::uint32_t>(answer.unknown.size()), 0};
+      append(answer.hits, asked.answer.hits);
+      append(answer.unknown, asked.unknown);
+    }
+    asked.hasAnswer = asked.hasUnknown = true;
     return FT_OK;
   });
 }

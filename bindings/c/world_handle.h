@@ -67,7 +67,9 @@ struct ft_world {
   /// Questions at an instant and through a time, and the last answers.
   struct Asked {
     foretouch::WorldQuestion question;
-    foretouch::WorldAnswer answer, next;
+    std::vector<foretouch::WorldQuestion> questions;
+    foretouch::WorldAnswer answer, next;  // of many questions: one after the other
+    std::vector<foretouch::WorldAnswer> answers;
     foretouch::FlightQuestion flight;
     foretouch::FlightAnswer flown;
     std::vector<foretouch::UnknownBody> unknown;  // of the last of both

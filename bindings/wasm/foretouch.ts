@@ -12,6 +12,10 @@ import { Solid, type SolidOptions } from "./solid.js";
 import { SolidWorld, type SolidWorldOptions } from "./solid_world.js";
 import { World, type WorldOptions } from "./world.js";
 
+export {
+  type AskOptions, type AskPart, type AskQuestion, type AskShape, type AskTime, type AskVerdict, askVerdicts, type AskWhich, askWhich, type AskWhom, type FlightAnswer, type UnknownBody,
+  type WorldAnswer, type WorldHit,
+} from "./ask.js";
 export { ForetouchError, type Point } from "./machine.js";
 export { type BracketOptions, BracketQuery, type BracketVerdict, bracketVerdicts, type LinkBound, type LinkBracket, type MotionModel, motionModels, type PosedStep } from "./person.js";
 export { type Contact, Query, type SweptSurface, type Verdict, verdicts } from "./query.js";

@@ -14,6 +14,7 @@ interface Inner {
   readonly size: number;
   readonly align: number;
   read(memory: DataView, from: number): unknown;
+  write(memory: DataView, to: number, given: never, what: string): void;
 }
 type Field = Scalar | "point" | Inner;
 export type Fields = Readonly<Record<string, Field>>;
@@ -21,8 +22,9 @@ type ValueOf<F> = F extends Scalar ? number : F extends "point" ? Point : F exte
 type Hidden = "size" | `reserved${string}`;
 /** A struct that was read: whole numbers are numbers, whatever their width. */
 export type Values<M> = { readonly [K in keyof M as K extends Hidden ? never : K]: ValueOf<M[K]> };
+type WriteOf<F> = F extends "point" ? ArrayLike<number> : F extends Struct<infer M> ? Writes<M> : number | boolean;
 /** What is written into one: the fields that are to be other than they are. */
-export type Writes<M> = { readonly [K in keyof M as K extends Hidden ? never : K]?: (ValueOf<M[K]> extends Point ? ArrayLike<number> : number | boolean) | undefined };
+export type Writes<M> = { readonly [K in keyof M as K extends Hidden ? never : K]?: WriteOf<M[K]> | undefined };
 
 const widths: Readonly<Record<string, number>> = { i32: 4, u32: 4, pointer: 4, i64: 8, u64: 8, f64: 8, point: 24 };
 export function pointAt(memory: DataView, at: number): Point {
@@ -92,6 +94,7 @@ function writeField(memory: DataView, at: number, field: Field, value: unknown, 
     point(value as ArrayLike<number>, name).forEach((number, axis) => memory.setFloat64(at + 8 * axis, number, true));
     return;
   }
+  if (typeof field !== "string") return field.write(memory, at, value as never, name);
   const given = typeof value === "boolean" ? Number(value) : value;
   if (field === "i32") memory.setInt32(at, whole(given, name), true);
   else if (field === "u32" || field === "pointer") memory.setUint32(at, whole(given, name, 0, 2 ** 32 - 1), true);
@@ -240,6 +243,19 @@ export class Room {
   written<M extends Fields>(struct: Struct<M>, given: Writes<M>, what: string): number {
     const at = this.zeroed(struct);
     struct.write(this.machine.view(), at, given, what);
+    return at;
+  }
+
+  /** One after the other, each zero but for what is given. */
+  array<M extends Fields>(struct: Struct<M>, given: readonly Writes<M>[], what: string): number {
+    const at = this.take(struct.size * given.length);
+    new Uint8Array(this.machine.view().buffer, at, struct.size * given.length).fill(0);
+    const view = this.machine.view();
+    given.forEach((one, i) => {
+      const place = at + i * struct.size;
+      if (struct.places.has("size")) view.setUint32(place, struct.size, true);
+      struct.write(view, place, one, `${what}[${i}]`);
+    });
     return at;
   }
 

@@ -95,14 +95,10 @@ export class SolidWorld {
    */
   tick(timeUs: number, targets: readonly SolidTarget[]): SolidBodyTick[] {
     return this.machine.within((room) => {
-      const all = room.take(structs.ft_solid_target.size * targets.length);
-      targets.forEach(({ body, pose, isTracked }, i) => {
+      const all = room.array(structs.ft_solid_target, targets.map(({ body, pose, isTracked }, i) => {
         const joints = this.world.jointsOf(body);
-        const target = { body, pose: writtenPose(room, pose, joints, `targets[${i}]`), isTracked: writtenFlags(room, joints, isTracked) };
-        const at = all + i * structs.ft_solid_target.size;
-        new Uint8Array(this.machine.view().buffer, at, structs.ft_solid_target.size).fill(0);
-        structs.ft_solid_target.write(this.machine.view(), at, target, "target");
-      });
+        return { body, pose: writtenPose(room, pose, joints, `targets[${i}]`), isTracked: writtenFlags(room, joints, isTracked) };
+      }), "targets");
       this.machine.ask("ft_solid_world_tick", this.world.handle, instant(timeUs, "timeUs"), all, targets.length);
       for (const { body } of targets) this.shown.add(body);
       return [...this.solids].filter((body) => this.shown.has(body)).map((body) => this.told(body));

@@ -99,6 +99,28 @@ export const ft_depth = new Struct({
   fromTriangle: i32, reserved: i32,
 });
 
+// ask.h
+
+export const ft_lss = new Struct({ a: point, b: point, radius: f64 });
+export const ft_ask_part = new Struct({ body: i32, link: i32, object: i32 });
+export const ft_ask_instant = new Struct({ body: i32, reserved: i32, timeUs: i64, timeFraction: f64 });
+export const ft_ask_whom = new Struct({
+  size, groups: u32, asksStill: i32, reserved: i32, only: pointer, onlyCount: u32, without: pointer, withoutCount: u32,
+});
+export const ft_question = new Struct({
+  size, what: i32, which: i32, reserved: i32, shape: ft_lss, direction: point, reach: f64, timeUs: i64, timeFraction: f64, whom: pointer,
+  instants: pointer, instantCount: u32, hull: pointer, hullCount: u32, solids: i32, reservedEnd: i32,
+});
+export const ft_world_hit = new Struct({ size, isAssumed: i32, what: ft_world_side, distance: f64, normal: point, weights: point });
+export const ft_unknown_body = new Struct({ size, body: i32, why: i32, object: i32 });
+export const ft_probed = new Struct({ verdict: i32, hitCount: u32, unknownCount: u32, reserved: i32 });
+export const ft_flight = new Struct({
+  size, reserved: u32, shape: ft_lss, way: point, fromUs: i64, toUs: i64, whom: pointer, hull: pointer, hullCount: u32,
+});
+export const ft_flight_hit = new Struct({
+  size, verdict: i32, timeUs: i64, timeFraction: f64, isAssumed: i32, reserved: i32, what: ft_world_side, distance: f64, normal: point, weights: point,
+});
+
 // solid_world.h
 
 export const ft_solid_target = new Struct({ body: i32, reserved: i32, pose: pointer, isTracked: pointer });

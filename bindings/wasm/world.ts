@@ -2,6 +2,7 @@
 // meets whom between two of these, from enter to leave; and volumes that tell who is in them. What
 // it is good for, and where it ends: docs/moving.md. Instants are whole microseconds since any epoch.
 
+import { type AskOptions, type AskQuestion, type AskShape, type AskTime, type AskWhom, type FlightAnswer, flown, manyProbed, probed, type WorldAnswer } from "./ask.js";
 import { type Fields, ForetouchError, Held, handleOf, instant, type Machine, numberOf, type Point, point, real, type Room, type Struct, type Values, whole, type Writes } from "./machine.js";
 import { type Verdict, verdicts } from "./query.js";
 import { Avatar, type PoseLike, Scene, writtenPose } from "./shapes.js";
@@ -367,6 +368,21 @@ export class World extends Held {
       const depth = room.read(structs.ft_depth, at);
       return { ...depth, isCertified: depth.isCertified === 1, isAssumed: depth.isAssumed === 1 };
     });
+  }
+
+  /** What a shape meets at an instant, of the past too: with a direction, what it hits on its way; within a distance, what is nearest to it; else what it overlaps. */
+  probe(time: AskTime, shape: AskShape, options: AskOptions = {}): WorldAnswer {
+    return probed(this.machine, this.handle, time, shape, options);
+  }
+
+  /** Many questions in one call: each answer is that of probe(), to the bit. */
+  probeMany(questions: readonly AskQuestion[]): WorldAnswer[] {
+    return manyProbed(this.machine, this.handle, questions);
+  }
+
+  /** What a shape that flies straight by `way` hits first while the bodies move. */
+  fly(fromUs: number, toUs: number, shape: AskShape, way: ArrayLike<number>, whom: AskWhom = {}): FlightAnswer {
+    return flown(this.machine, this.handle, fromUs, toUs, shape, way, whom);
   }
 
   /** For the classes beside this one. */

@@ -37,6 +37,23 @@ WorldQuestion WorldQuestion::nearest(const Lss& shape, double reach, const World
   return question;
 }
 
+WorldQuestion WorldQuestion::inside(const Eigen::Vector3d& point, const WorldTime& time) {
+  WorldQuestion question = overlap({point, point, 0.0}, time);
+  question.solids = true;
+  return question;
+}
+
+std::vector<Eigen::Vector3d> boxCorners(const Eigen::Vector3d& halfExtents,
+                                        const Eigen::Quaterniond& axes) {
+  std::vector<Eigen::Vector3d> corners;
+  for (unsigned i = 0; i < 8; ++i) {
+    const Eigen::Vector3d signs((i & 1U) != 0 ? 1.0 : -1.0, (i & 2U) != 0 ? 1.0 : -1.0,
+                                (i & 4U) != 0 ? 1.0 : -1.0);
+    corners.emplace_back(axes * halfExtents.cwiseProduct(signs));
+  }
+  return corners;
+}
+
 bool WorldAnswer::isComplete() const {
   return std::all_of(unknown.begin(), unknown.end(),
                      [](const UnknownBody& body) { return body.why == AskUnknown::Assumed; });

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "articulated/result.h"
 #include "lss/lss.h"
@@ -62,6 +63,13 @@ struct WorldQuestion : AskWhom {
   /// Where it begins; solid. Both ends alike: a sphere. No radius either: a point, whose cast is a
   /// ray. Coordinates and radius within kMaxCoordinate.
   Lss shape;
+  /// Not empty: corners, from shape.a, of the convex solid that takes the place of the axis; the
+  /// radius is around it. boxCorners() makes those of a box. Up to kMostCorners.
+  std::vector<Eigen::Vector3d> hull;
+  /// Closed objects of meshes and of the scene are solid: what begins inside one touches it. An
+  /// object that is not closed is unknown where its box holds the shape's place. Else surfaces
+  /// count.
+  bool solids = false;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< Of a cast: of any length but zero.
   /// Of a cast: how far it moves. Of Nearest: nothing farther is told. Up to kMostAskReach.
   double reach = 0.0;
@@ -77,7 +85,17 @@ struct WorldQuestion : AskWhom {
   /// All that it overlaps.
   [[nodiscard]] static WorldQuestion overlap(const Lss& shape, const WorldTime& time);
   [[nodiscard]] static WorldQuestion nearest(const Lss& shape, double reach, const WorldTime& time);
+  /// All that it is in: LSS, and closed objects.
+  [[nodiscard]] static WorldQuestion inside(const Eigen::Vector3d& point, const WorldTime& time);
 };
+
+/// Of a box around a shape's place, for `WorldQuestion::hull`; `axes`: its own, in W.
+[[nodiscard]] std::vector<Eigen::Vector3d> boxCorners(
+    const Eigen::Vector3d& halfExtents,
+    const Eigen::Quaterniond& axes = Eigen::Quaterniond::Identity());
+
+/// Of a hull. A search looks at each a few times per piece that it comes near.
+inline constexpr std::size_t kMostCorners = 1024;
 
 /// A reach is at most this (m): from one end of all places that a world may have to the other.
 inline constexpr double kMostAskReach = 1e8;
@@ -87,11 +105,12 @@ inline constexpr double kMostAskReach = 1e8;
 /// Doubled, answers are earlier by as much; halved, casts that graze take a step more.
 inline constexpr double kAskTolerance = 1e-9;
 
-/// An LSS, or a triangle, that was hit or is near.
+/// An LSS or a triangle that was hit or is near; or, without either, an object that is solid and
+/// holds the shape's place.
 struct WorldHit {
   /// Whom; `p_W` is the point of its surface, of an LSS that holds the whole shape the shape's own.
   ContactSide what;
-  ObjectId object = kEveryObject;  ///< Of a triangle of a mesh or of the scene.
+  ObjectId object = kEveryObject;  ///< Of a mesh or of the scene.
   /// Of a cast: along the way; the shape is free of this LSS or triangle before. Else how far the
   /// two are apart. Rounded down; 0 if they touch where the shape begins.
   double distance = 0.0;
@@ -108,11 +127,13 @@ enum class AskUnknown : std::uint8_t {
   Silent,      ///< Nothing is known after its last pose; it was left out.
   NotThere,    ///< Before its first pose; it was left out.
   Unresolved,  ///< Of a flight: more triangles, or steps, than are followed in motion.
+  Open,        ///< An object of it, or of the static scene, has no inside: it is not closed.
 };
 
 struct UnknownBody {
-  BodyId body = 0;
+  BodyId body = 0;  ///< Or kStillScene.
   AskUnknown why = AskUnknown::Silent;
+  ObjectId object = kEveryObject;  ///< Of an Open one, unless it is a link's surface.
 };
 
 enum class AskVerdict : std::uint8_t {
@@ -123,7 +144,7 @@ enum class AskVerdict : std::uint8_t {
 
 struct WorldAnswer {
   std::vector<WorldHit> hits;  ///< By distance, then by body, link, LSS and triangle.
-  /// Bodies that were asked about and are not known then, by number.
+  /// Bodies that were asked about and are not known then, by number; and objects without an inside.
   std::vector<UnknownBody> unknown;
 
   [[nodiscard]] AskVerdict verdict() const;
@@ -140,5 +161,11 @@ struct WorldAnswer {
 /// bodies or links; an instant before what was forgotten.
 Result<Done> askWorld(const World& world, const WorldQuestion& question, Scratch& scratch,
                       WorldAnswer& answer);
+
+/// Many in one call: answers[i] is that of questions[i], to the bit, but for any hit, in whatever
+/// order they come; those at the same instants follow each other. Errors: as of one, with its place
+/// as Error::index; then no answer counts.
+Result<Done> askWorld(const World& world, const std::vector<WorldQuestion>& questions,
+                      Scratch& scratch, std::vector<WorldAnswer>& answers);
 
 }  // namespace foretouch

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <tuple>
 
 #include "articulated/skeleton.h"
 #include "articulated/track.h"
@@ -38,6 +40,7 @@ Result<Done> checkedWay(const WorldQuestion& question) {
 
 Result<Done> checked(const WorldParts& world, const WorldQuestion& question) {
   FORETOUCH_CHECK(internal::checkedShape(question.shape));
+  FORETOUCH_CHECK(internal::checkedHull(question.hull, question.shape));
   FORETOUCH_CHECK(checkedWay(question));
   FORETOUCH_CHECK(internal::checkedTime(world, question.time, "time"));
   for (const AskInstant& instant : question.instants) {
@@ -47,9 +50,10 @@ Result<Done> checked(const WorldParts& world, const WorldQuestion& question) {
   return checkedParts(world, question);
 }
 
-internal::AskedShape shapeOf(const WorldQuestion& question) {
+internal::AskedShape shapeOf(const WorldQuestion& question, AskMemory& memory) {
   internal::AskedShape shape;
   shape.lss = question.shape;
+  shape.takeHull(question.hull, memory.hull);
   if (question.what != AskWhat::Overlap) shape.reach = question.reach;
   if (question.what != AskWhat::Cast) return shape;
   // By its largest part first, so that no square leaves the range of doubles.
@@ -63,6 +67,31 @@ AskUnknown unknownOf(internal::PlaceKnown known) {
   return known == internal::PlaceKnown::Silent ? AskUnknown::Silent : AskUnknown::NotThere;
 }
 
+/// Those at the same instants one after the other.
+std::vector<std::size_t> inOrderOfInstants(const std::vector<WorldQuestion>& questions) {
+  std::vector<std::size_t> order(questions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto isBefore = [](const AskInstant& x, const AskInstant& y) {
+    return x.body != y.body ? x.body < y.body : x.time < y.time;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    const WorldQuestion &x = questions[i], &y = questions[j];
+    if (x.time < y.time || y.time < x.time) return x.time < y.time;
+    return std::lexicographical_compare(x.instants.begin(), x.instants.end(), y.instants.begin(),
+                                        y.instants.end(), isBefore);
+  });
+  return order;
+}
+
+/// Several links of a body, or it and one of its objects, may be unknown.
+void sortUnique(std::vector<UnknownBody>& unknown) {
+  const auto key = [](const UnknownBody& x) { return std::make_tuple(x.body, x.why, x.object); };
+  std::sort(unknown.begin(), unknown.end(),
+            [&](const UnknownBody& x, const UnknownBody& y) { return key(x) < key(y); });
+  const auto isSame = [&](const UnknownBody& x, const UnknownBody& y) { return key(x) == key(y); };
+  unknown.erase(std::unique(unknown.begin(), unknown.end(), isSame), unknown.end());
+}
+
 }  // namespace
 
 Result<Done> askWorld(const World& world, const WorldQuestion& question, Scratch& scratch,
@@ -73,16 +102,34 @@ Result<Done> askWorld(const World& world, const WorldQuestion& question, Scratch
   FORETOUCH_CHECK(checked(parts, question));
   AskMemory& memory = scratch.of<AskMemory>();
   const AskFilter filter(question);
-  const internal::AskedShape shape = shapeOf(question);
+  const internal::AskedShape shape = shapeOf(question, memory);
   internal::HitList hits(shape.reach, question.which, answer);
-  internal::BodyAsker asker(parts, filter, shape, memory, hits);
+  std::vector<UnknownBody>& unknown = answer.unknown;
+  internal::BodyAsker asker(parts, filter, shape, memory, hits,
+                            question.solids ? &unknown : nullptr);
   if (parts.still && filter.mayTake(parts, kStillScene)) asker.askStill(*parts.still);
   memory.bodies.bring(parts, question);
   asker.askBodies();
   hits.finish();
   for (const BodyId body : memory.bodies.others()) {
     if (!filter.mayTake(parts, body)) continue;
-    answer.unknown.push_back({body, unknownOf(memory.bodies.known(body))});
+    unknown.push_back({body, unknownOf(memory.bodies.known(body)), kEveryObject});
+  }
+  if (question.solids) sortUnique(unknown);
+  return Done{};
+}
+
+Result<Done> askWorld(const World& world, const std::vector<WorldQuestion>& questions,
+                      Scratch& scratch, std::vector<WorldAnswer>& answers) {
+  const std::vector<std::size_t> order = inOrderOfInstants(questions);
+  answers.resize(questions.size());
+  for (const std::size_t i : order) {
+    const auto done = askWorld(world, questions[i], scratch, answers[i]);
+    if (done.ok()) continue;
+    Error error = done.error();
+    error.message = "question " + std::to_string(i) + ": " + error.message;
+    error.index = static_cast<std::int64_t>(i);
+    return error;
   }
   return Done{};
 }

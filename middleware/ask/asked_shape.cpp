@@ -20,10 +20,6 @@ using Eigen::Vector3d;
 /// many is told to hit where it is, which is early.
 constexpr int kMostSteps = 128;
 
-Hull hullAt(const AskedShape& shape, double along) {
-  return Hull::segment(shape.lss.a + along * shape.way, shape.lss.b + along * shape.way);
-}
-
 /// How far a point of the axis may be from its true place after it moved: a product, a sum, and the
 /// rounding of the unit way (ask.md 2).
 double roundingOfWay(const AskedShape& shape, double along) {
@@ -54,7 +50,7 @@ void straighten(const Hull& one, const Hull& other, Separation& apart) {
 }
 
 bool isNear(const AskedShape& shape, const Hull& piece, double sum, Meeting& meeting) {
-  meeting.apart = apartOf(Hull::segment(shape.lss.a, shape.lss.b), piece);
+  meeting.apart = apartAfter(shape, 0.0, piece);
   meeting.distance = std::max(0.0, (meeting.apart.lower() - sum) / kInflation);
   return meeting.distance <= shape.reach;
 }
@@ -65,7 +61,7 @@ bool touches(const AskedShape& shape, const Hull& piece, double sum, Meeting& me
   double along = 0.0;
   for (int step = 0; step < kMostSteps; ++step) {
     meeting.distance = along;
-    meeting.apart = apartOf(hullAt(shape, along), piece);
+    meeting.apart = apartAfter(shape, along, piece);
     const double more = sum + roundingOfWay(shape, along);
     const double free = meeting.apart.lower() - more;
     if (free <= 0.0 || meeting.apart.upper <= more + kAskTolerance) return true;
@@ -92,17 +88,38 @@ AskedShape AskedShape::movedBy(double along, double until) const {
   return later;
 }
 
-AskedShape AskedShape::seenFrom(const LinkPlace& frame) const {
+void AskedShape::takeHull(const std::vector<Vector3d>& corners, ConvexShape& memory) {
+  if (corners.empty()) return;
+  rounding += memory.assign(corners, lss.a);
+  lss.b = lss.a;
+  hull = &memory;
+}
+
+Aabb AskedShape::box() const {
+  Aabb box;
+  box.add(hull != nullptr ? Vector3d(lss.a + hull->low) : lss.a);
+  box.add(hull != nullptr ? Vector3d(lss.b + hull->high) : lss.b);
+  return box;
+}
+
+AskedShape AskedShape::seenFrom(const LinkPlace& frame, ConvexShape& memory) const {
   AskedShape seen = *this;
   seen.lss = internal::seenFrom(frame, lss, seen.rounding);
+  if (hull != nullptr) {
+    seen.rounding += hull->seenFrom(frame, memory);
+    seen.hull = &memory;
+  }
   seen.way = frame.R_WL.transpose() * way;
   seen.ofWay = kInflation * (ofWay + frame.ofTurn + MotionBounds::kPointRounding);
   return seen;
 }
 
-Separation apartOf(const Hull& one, const Hull& other) {
-  Separation apart = separation(one, other);
-  if (apart.upper - apart.lower() > 0.5 * kAskTolerance) straighten(one, other, apart);
+Separation apartAfter(const AskedShape& shape, double along, const Hull& piece) {
+  const Vector3d a = shape.lss.a + along * shape.way;
+  if (shape.hull != nullptr) return separation(*shape.hull, a, piece);
+  const Hull axis = Hull::segment(a, shape.lss.b + along * shape.way);
+  Separation apart = foretouch::separation(axis, piece);
+  if (apart.upper - apart.lower() > 0.5 * kAskTolerance) straighten(axis, piece, apart);
   return apart;
 }
 

@@ -7,13 +7,16 @@
 
 #include "lss/lss.h"
 #include "lss/separation.h"
+#include "middleware/ask/convex_shape.h"
 #include "middleware/depth/body_places.h"
+#include "tessellation/aabb.h"
 
 namespace foretouch::internal {
 
 /// In a frame in which the pieces rest.
 struct AskedShape {
   Lss lss;                                        ///< Where it begins.
+  const ConvexShape* hull = nullptr;              ///< Else null; of corners from lss.a.
   Eigen::Vector3d way = Eigen::Vector3d::Zero();  ///< Unit; zero: it rests.
   double reach = 0.0;                             ///< How far it moves; at rest, how far is near.
   double moved = 0.0;                             ///< How far it had moved before it was here.
@@ -21,11 +24,18 @@ struct AskedShape {
   double ofWay = 0.0;     ///< Nor is the true unit way from `way`, beside its own rounding.
 
   [[nodiscard]] bool moves() const { return !way.isZero(0.0); }
-  [[nodiscard]] bool isRay() const { return moves() && lss.a == lss.b && lss.radius == 0.0; }
+  [[nodiscard]] bool isRay() const {
+    return moves() && hull == nullptr && lss.a == lss.b && lss.radius == 0.0;
+  }
+  /// Instead of the axis, if there are corners, from its place; `memory` is what it refers to.
+  void takeHull(const std::vector<Eigen::Vector3d>& corners, ConvexShape& memory);
+  /// Around where it begins, without its radius.
+  [[nodiscard]] Aabb box() const;
   /// The same after it has moved so far; it may go no farther than `until` then.
   [[nodiscard]] AskedShape movedBy(double along, double until) const;
-  /// As somebody sees it who rests in the frame; rounding grows by what that adds.
-  [[nodiscard]] AskedShape seenFrom(const LinkPlace& frame) const;
+  /// As somebody sees it who rests in the frame; rounding grows by what that adds. `memory`: of
+  /// a hull, to which it refers.
+  [[nodiscard]] AskedShape seenFrom(const LinkPlace& frame, ConvexShape& memory) const;
 };
 
 /// How a shape meets a piece.
@@ -34,8 +44,9 @@ struct Meeting {
   Separation apart;       ///< There: of the shape's axis and the piece.
 };
 
-/// As separation(), with more planes tried where rounding tilts the one between.
-[[nodiscard]] Separation apartOf(const Hull& one, const Hull& other);
+/// As separation() of the shape after it has moved so far and the piece, without their radii, with
+/// more planes tried where rounding tilts the one between.
+[[nodiscard]] Separation apartAfter(const AskedShape& shape, double along, const Hull& piece);
 
 /// False: proven to miss it, or to be farther than the reach. `radius`: of the piece.
 [[nodiscard]] bool meets(const AskedShape& shape, const Hull& piece, double radius,

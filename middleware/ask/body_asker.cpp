@@ -16,10 +16,19 @@ Aabb boxOf(const Lss& lss, double rounding) {
   return box;
 }
 
+/// Whether an object's box may hold the shape's place.
+bool holds(const ObjectRoom& room, const AskedShape& shape) {
+  Aabb place;
+  place.add(shape.lss.a);
+  place.grow(shape.rounding);
+  return room.box.overlaps(place);
+}
+
 }  // namespace
 
 void BodyAsker::askStill(const Scene& scene) {
   const LinkPlace inPlace;
+  askSolids(scene.parts(), kStillScene, shape_);
   PieceAsker asker(filter_, shape_, inPlace, false, hits_);
   askScene(scene.parts(), ContactSide(), asker);
 }
@@ -65,7 +74,9 @@ void BodyAsker::askBody(const AskMemory::NearBody& near) {
 
 void BodyAsker::askMesh(BodyId body, const AskedShape& shape) {
   const LinkPlace& place = memory_.bodies.places(body).front();
-  PieceAsker asker(filter_, shape.seenFrom(place), place, isAssumed(body), hits_);
+  const AskedShape seen = shape.seenFrom(place, memory_.seen);
+  askSolids(world_.kindOf(body).mesh->parts(), body, seen);
+  PieceAsker asker(filter_, seen, place, isAssumed(body), hits_);
   ContactSide side;
   side.body = body;
   askScene(world_.kindOf(body).mesh->parts(), side, asker);
@@ -73,6 +84,15 @@ void BodyAsker::askMesh(BodyId body, const AskedShape& shape) {
 
 void BodyAsker::askLinks(BodyId body, const PieceBoxes* pieces, const AskedShape& shape) {
   const BodyKind& kind = world_.kindOf(body);
+  ContactSide side;
+  side.body = body;
+  for (LinkId link = 0; open_ != nullptr && link < kind.skeleton.numJoints(); ++link) {
+    const LinkSurface* const surface = surfaceOf(kind, link);
+    if (surface == nullptr || surface->triangles().empty()) continue;
+    side.link = link;
+    const LinkPlace& place = memory_.bodies.places(body)[slotOf(link)];
+    askSolids(*surface, side, shape.seenFrom(place, memory_.seen));
+  }
   const std::size_t count = kind.linkOf.size();
   memory_.bounds.assign(count, 0.0);
   if (pieces != nullptr && count > 0) {
@@ -87,8 +107,6 @@ void BodyAsker::askLinks(BodyId body, const PieceBoxes* pieces, const AskedShape
     WayBoxes(shape, pieces->origin, extent)
         .nearest(static_cast<int>(count), lower, upper, memory_.bounds.data());
   }
-  ContactSide side;
-  side.body = body;
   std::size_t first = 0;  // LSS of the current link
   for (std::size_t i = 0; i < count; ++i) {
     if (i > 0 && kind.linkOf[i] != kind.linkOf[i - 1]) first = i;
@@ -103,20 +121,67 @@ void BodyAsker::askLink(const ContactSide& side, const LinkPlace& place, const A
   const BodyKind& kind = world_.kindOf(side.body);
   AskedShape nearer = shape;
   const Lss& lss_L = kind.volumes[slotOf(side.link)][slotOf(side.lss)];
-  const Lss lss = placed(lss_L, place, nearer.rounding);
+  double rounding = 0.0;
+  const Lss lss = placed(lss_L, place, rounding);
+  nearer.rounding += rounding;
   const Aabb box = boxOf(lss, nearer.rounding);
   const double extent = box.min.lpNorm<1>() + box.max.lpNorm<1>();
   const WayBoxes boxes(nearer, Eigen::Vector3d::Zero(), extent);
   if (boxes.nearest(box) > std::min(shape.reach, hits_.limit() - shape.moved)) return;
   const LinkSurface* const surface = surfaceOf(kind, side.link);
   if (surface != nullptr && surface->hasTriangles(side.lss)) {
-    PieceAsker asker(filter_, shape.seenFrom(place), place, isAssumed(side.body), hits_);
+    PieceAsker asker(filter_, shape.seenFrom(place, memory_.seen), place, isAssumed(side.body),
+                     hits_);
     askSurface(*surface, side, asker);
     return;
   }
   const LinkPlace inPlace;
   PieceAsker asker(filter_, nearer, inPlace, isAssumed(side.body), hits_);
   asker.askLss(lss, side);
+}
+
+void BodyAsker::askSolids(const SceneParts& scene, BodyId body, const AskedShape& shape) {
+  if (open_ == nullptr || shape.moved > 0.0) return;
+  const std::vector<ObjectRoom>& rooms = scene.rooms();
+  ContactSide side;
+  side.body = body;
+  bool isAny = false;
+  for (std::size_t object = 0; object < rooms.size(); ++object) {
+    const auto id = static_cast<ObjectId>(object);
+    if (!holds(rooms[object], shape) || !filter_.takes(body, side.link, id)) continue;
+    isAny = isAny || rooms[object].isClosed;
+    if (!rooms[object].isClosed) open_->push_back({body, AskUnknown::Open, id});
+  }
+  if (!isAny) return;
+  findObjectsAround(scene, shape.lss.a, shape.rounding, memory_.around);
+  for (const auto* objects : {&memory_.around.inside, &memory_.around.atSurface}) {
+    for (const ObjectId object : *objects) {
+      if (rooms[slotOf(object)].isClosed) addSolid(side, object);
+    }
+  }
+}
+
+void BodyAsker::askSolids(const LinkSurface& surface, const ContactSide& side,
+                          const AskedShape& shape) {
+  if (shape.moved > 0.0 || !holds(surface.room(), shape)) return;
+  if (!filter_.takes(side.body, side.link, kEveryObject)) return;
+  if (!surface.room().isClosed) {
+    open_->push_back({side.body, AskUnknown::Open, kEveryObject});
+    return;
+  }
+  ObjectsAround& around = memory_.around;
+  findObjectsAround(surface.triangles(), shape.lss.a, shape.rounding, around);
+  if (!around.inside.empty() || !around.atSurface.empty()) addSolid(side, kEveryObject);
+}
+
+void BodyAsker::addSolid(const ContactSide& side, ObjectId object) {
+  if (hits_.limit() < 0.0 || !filter_.takes(side.body, side.link, object)) return;
+  WorldHit hit;
+  hit.what = side;
+  hit.what.p_W = shape_.lss.a;
+  hit.object = object;
+  hit.isAssumed = side.body != kStillScene && isAssumed(side.body);
+  hits_.add(hit);
 }
 
 }  // namespace foretouch::internal

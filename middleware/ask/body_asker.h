@@ -10,6 +10,7 @@
 #include "middleware/ask/instant_bodies.h"
 #include "middleware/ask/moving_body.h"
 #include "middleware/ask/piece_asker.h"
+#include "middleware/exact/closed_mesh.h"
 #include "middleware/scene/scene.h"
 #include "middleware/scratch.h"
 #include "middleware/world/world_parts.h"
@@ -25,8 +26,10 @@ struct AskMemory : ScratchPart {
     BodyId body;
   };
   InstantBodies bodies;
+  ConvexShape hull, seen;      // of the question, in W; and in the frame of a body or link
   std::vector<double> bounds;  // of bodies, and of one's LSS
   std::vector<NearBody> near;
+  ObjectsAround around;
   // Of flights.
   struct LaterPart {
     double us;           // from when on it is to be looked at
@@ -40,9 +43,10 @@ struct AskMemory : ScratchPart {
 /// Of one question. Refers to all that it is given.
 class BodyAsker {
  public:
+  /// `open`: if solids are asked about, objects without an inside are added to it.
   BodyAsker(const WorldParts& world, const AskFilter& filter, const AskedShape& shape,
-            AskMemory& memory, HitList& hits)
-      : world_(world), filter_(filter), shape_(shape), memory_(memory), hits_(hits) {}
+            AskMemory& memory, HitList& hits, std::vector<UnknownBody>* open)
+      : world_(world), filter_(filter), shape_(shape), memory_(memory), hits_(hits), open_(open) {}
 
   void askStill(const Scene& scene);
   /// At the instants to which they were brought.
@@ -53,6 +57,11 @@ class BodyAsker {
   void askMesh(BodyId body, const AskedShape& shape);
   void askLinks(BodyId body, const PieceBoxes* pieces, const AskedShape& shape);
   void askLink(const ContactSide& side, const LinkPlace& place, const AskedShape& shape);
+  /// Solid objects around the shape's place, of a scene or mesh, and of a link with triangles.
+  /// `shape`: as seen from their frame.
+  void askSolids(const SceneParts& scene, BodyId body, const AskedShape& shape);
+  void askSolids(const LinkSurface& surface, const ContactSide& side, const AskedShape& shape);
+  void addSolid(const ContactSide& side, ObjectId object);
   [[nodiscard]] bool isAssumed(BodyId body) const {
     return memory_.bodies.known(body) == PlaceKnown::Assumed;
   }
@@ -62,6 +71,7 @@ class BodyAsker {
   const AskedShape& shape_;
   AskMemory& memory_;
   HitList& hits_;
+  std::vector<UnknownBody>* open_;
 };
 
 }  // namespace foretouch::internal

@@ -17,9 +17,11 @@
 
 namespace foretouch {
 
-/// A sphere or capsule on its way, at constant speed and without a turn; filters as in a question.
+/// A sphere, capsule or convex solid on its way, at constant speed and without a turn; filters as
+/// in a question.
 struct FlightQuestion : AskWhom {
   Lss shape;                                      ///< Where it is at `fromUs`.
+  std::vector<Eigen::Vector3d> hull;              ///< As in a question.
   Eigen::Vector3d way = Eigen::Vector3d::Zero();  ///< To where it is at `toUs`. Zero: it waits.
   std::int64_t fromUs = 0, toUs = 0;
 };

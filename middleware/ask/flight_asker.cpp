@@ -59,20 +59,24 @@ FlightAsker::FlightAsker(const WorldParts& world, const FlightQuestion& question
       moving_(memory.moving),
       answer_(answer),
       durationUs_(static_cast<double>(question.toUs - question.fromUs)),
-      bestUs_(durationUs_) {}
+      bestUs_(durationUs_) {
+  begin_.lss = question.shape;
+  begin_.takeHull(question.hull, memory.hull);
+}
 
 AskedShape FlightAsker::shapeAt(double us) const {
   AskedShape shape;
   const double share = std::min(1.0, (spanFromUs_ + us) / durationUs_);
-  shape.lss = question_.shape;
+  shape.lss = begin_.lss;
+  shape.hull = begin_.hull;
   shape.lss.a += share * question_.way;
   shape.lss.b += share * question_.way;
   shape.moved = share * question_.way.norm();
   // Three roundings of the share, a product and a sum; the microseconds of a span are known to u of
   // those of the flight.
-  shape.rounding = kSeparationRounding *
-                   (std::max(question_.shape.a.lpNorm<1>(), question_.shape.b.lpNorm<1>()) +
-                    2.0 * question_.way.lpNorm<1>());
+  shape.rounding = begin_.rounding + kSeparationRounding * (std::max(begin_.lss.a.lpNorm<1>(),
+                                                                     begin_.lss.b.lpNorm<1>()) +
+                                                            2.0 * question_.way.lpNorm<1>());
   return shape;
 }
 
@@ -82,8 +86,7 @@ double FlightAsker::limitUs() const {
 }
 
 void FlightAsker::askStill(const Scene& scene) {
-  AskedShape shape;
-  shape.lss = question_.shape;
+  AskedShape shape = begin_;
   const double length = question_.way.norm();
   if (length > 0.0) shape.way = question_.way / length;
   shape.reach = length;
@@ -105,7 +108,7 @@ void FlightAsker::askBody(BodyId body) {
     const auto& unknown = answer_.unknown;
     const bool isTold = !unknown.empty() && unknown.back().body == body &&
                         (unknown.back().why == why || why == AskUnknown::Assumed);
-    if (!isTold) answer_.unknown.push_back({body, why});
+    if (!isTold) answer_.unknown.push_back({body, why, kEveryObject});
   };
   for (std::int64_t us = question_.fromUs; us < question_.toUs; us = moving_.endUs()) {
     spanFromUs_ = static_cast<double>(us - question_.fromUs);
@@ -152,9 +155,10 @@ bool FlightAsker::mayReach(const PieceBoxes& boxes, std::size_t lss) const {
   if (until < 0.0) return false;
   const AskedShape from = shapeAt(0.0), to = shapeAt(until);
   Aabb swept, box;
-  for (const Lss* shape : {&from.lss, &to.lss}) {
-    swept.add(shape->a);
-    swept.add(shape->b);
+  for (const AskedShape& shape : {from, to}) {
+    const Aabb there = shape.box();
+    swept.add(there.min);
+    swept.add(there.max);
   }
   swept.grow(question_.shape.radius + from.rounding);
   for (int axis = 0; axis < 3; ++axis) {
@@ -243,7 +247,7 @@ FlightAsker::Outcome FlightAsker::touches(LinkId link, const Hull& hull_L, doubl
     if (us > limit) return Outcome::Free;
     met.piece = moving_.at(link, hull_L, us);
     met.shape = shapeAt(us);
-    met.meeting.apart = apartOf(Hull::segment(met.shape.lss.a, met.shape.lss.b), met.piece.hull);
+    met.meeting.apart = apartAfter(met.shape, 0.0, met.piece.hull);
     const Separation& apart = met.meeting.apart;
     const double sum =
         kInflation * (question_.shape.radius + radius + met.shape.rounding + met.piece.rounding);

@@ -44,6 +44,7 @@ class FlightAsker {
   InstantBodies& boxes_;
   MovingBody& moving_;
   FlightAnswer& answer_;
+  AskedShape begin_;
   double durationUs_;
   double bestUs_;                           // after the flight's begin
   double spanFromUs_ = 0.0, spanUs_ = 0.0;  // after the flight's begin; of its length

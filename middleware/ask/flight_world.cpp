@@ -15,10 +15,12 @@ using internal::WorldParts;
 
 Result<Done> checked(const WorldParts& world, const FlightQuestion& question) {
   FORETOUCH_CHECK(internal::checkedShape(question.shape));
+  FORETOUCH_CHECK(internal::checkedHull(question.hull, question.shape));
   Lss there = question.shape;
   there.a += question.way;
   there.b += question.way;
   FORETOUCH_CHECK(inFile(internal::checkedShape(there), "way"));
+  FORETOUCH_CHECK(internal::checkedHull(question.hull, there));
   FORETOUCH_CHECK(internal::checkedTime(world, {question.fromUs, 0.0}, "from_us"));
   FORETOUCH_CHECK(internal::checkedTime(world, {question.toUs, 0.0}, "to_us"));
   if (question.fromUs < question.toUs) return internal::checkedParts(world, question);

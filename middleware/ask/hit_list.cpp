@@ -8,7 +8,7 @@ namespace foretouch::internal {
 bool comesBefore(const WorldHit& x, const WorldHit& y) {
   const auto key = [](const WorldHit& hit) {
     return std::make_tuple(hit.distance, hit.what.body, hit.what.link, hit.what.lss,
-                           hit.what.triangle);
+                           hit.what.triangle, hit.object);
   };
   return key(x) < key(y);
 }
@@ -18,7 +18,8 @@ void HitList::dropTwins() {
   std::vector<WorldHit>& hits = answer_.hits;
   const auto key = [](const WorldHit& hit) {
     const ContactSide& what = hit.what;
-    return std::make_tuple(what.body, what.link, what.triangle, what.triangle < 0 ? what.lss : -1);
+    return std::make_tuple(what.body, what.link, what.triangle, what.triangle < 0 ? what.lss : -1,
+                           hit.object);
   };
   std::sort(hits.begin(), hits.end(), [&](const WorldHit& x, const WorldHit& y) {
     return key(x) != key(y) ? key(x) < key(y) : comesBefore(x, y);

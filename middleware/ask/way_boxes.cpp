@@ -16,7 +16,11 @@ constexpr double kLeastPace = 1e-290;
 
 WayBoxes::WayBoxes(const AskedShape& shape, const Eigen::Vector3d& origin, double extent)
     : moves_(shape.moves()) {
-  const Eigen::Vector3d a = shape.lss.a - origin, b = shape.lss.b - origin;
+  Eigen::Vector3d a = shape.lss.a - origin, b = shape.lss.b - origin;
+  if (shape.hull != nullptr) {
+    a += shape.hull->low;
+    b += shape.hull->high;
+  }
   // A millionth of a millionth of all lengths: thousands of roundings (ask.md 4).
   const double lengths = a.lpNorm<1>() + b.lpNorm<1>() + origin.lpNorm<1>() + extent + shape.moved +
                          shape.lss.radius + (moves_ ? shape.reach : 0.0);

@@ -151,4 +151,13 @@ const internal::FlatEdges& internal::SceneParts::flatEdges() const {
   return *flatEdges_;
 }
 
+const std::vector<internal::ObjectRoom>& internal::SceneParts::rooms() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (rooms_ == nullptr) {
+    rooms_ = std::make_unique<std::vector<ObjectRoom>>(
+        objectRooms(triangles.data(), finiteIds(), objectOf.data(), objectNames.size()));
+  }
+  return *rooms_;
+}
+
 }  // namespace foretouch

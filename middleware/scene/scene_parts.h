@@ -11,6 +11,7 @@
 #include "middleware/scene/flat_edges.h"
 #include "middleware/scene/frozen_array.h"
 #include "middleware/scene/raw_scene.h"
+#include "tessellation/open_edges.h"
 
 namespace foretouch::internal {
 
@@ -26,7 +27,9 @@ struct SceneParts {
   [[nodiscard]] std::vector<TriangleId> finiteIds() const;
   /// Builds them on first use.
   [[nodiscard]] const FlatEdges& flatEdges() const;
-  /// As they were built before.
+  /// One per object; likewise.
+  [[nodiscard]] const std::vector<ObjectRoom>& rooms() const;
+  /// The flat edges as they were built before.
   void takeFlatEdges(FlatEdges edges) {
     flatEdges_ = std::make_unique<FlatEdges>(std::move(edges));
   }
@@ -34,6 +37,7 @@ struct SceneParts {
  private:
   mutable std::mutex mutex_;
   mutable std::unique_ptr<FlatEdges> flatEdges_;
+  mutable std::unique_ptr<std::vector<ObjectRoom>> rooms_;
 };
 
 }  // namespace foretouch::internal

@@ -145,6 +145,15 @@ const std::vector<Eigen::Vector3d>& LinkSurface::cornerOfPieces() const {
   return corners_;
 }
 
+const internal::ObjectRoom& LinkSurface::room() const {
+  std::call_once(builtRoom_, [this] {
+    std::vector<std::int32_t> ids(triangles_.size());
+    std::iota(ids.begin(), ids.end(), 0);
+    room_ = internal::objectRooms(triangles_.data(), ids, nullptr, 1).front();
+  });
+  return room_;
+}
+
 void LinkSurface::prepareLanes() const {
   laneTriangles_.reserve(triangles_.size());
   for (const Triangle& triangle : triangles_)

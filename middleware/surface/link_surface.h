@@ -14,6 +14,7 @@
 #include "lss/lss_hierarchy.h"
 #include "middleware/lanes/frame_lanes.h"
 #include "middleware/surface/wide_nodes.h"
+#include "tessellation/open_edges.h"
 
 namespace foretouch::internal {
 
@@ -53,6 +54,8 @@ class LinkSurface {
   /// A corner of each connected piece: triangles are connected by corners at the same place. Built
   /// likewise.
   [[nodiscard]] const std::vector<Eigen::Vector3d>& cornerOfPieces() const;
+  /// Of all its triangles as one object. Built likewise.
+  [[nodiscard]] const ObjectRoom& room() const;
   /// As prepare(), for wideNode() as well.
   void prepareWide() const;
   /// Of an LSS with triangles. Preconditions: prepareWide() was called; as WideNodes::at().
@@ -83,8 +86,9 @@ class LinkSurface {
   }
   std::vector<Triangle> triangles_;
   std::vector<std::vector<std::int32_t>> idsOfLss_;
-  mutable std::once_flag built_, builtWide_, builtCorners_;
+  mutable std::once_flag built_, builtWide_, builtCorners_, builtRoom_;
   mutable std::vector<Eigen::Vector3d> corners_;
+  mutable ObjectRoom room_;
   mutable Hierarchies hierarchies_;
   mutable std::vector<LanePart> laneTriangles_;
   mutable std::vector<std::vector<LaneNode>> laneNodes_;  // per LSS

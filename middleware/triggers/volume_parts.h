@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "articulated/avatar.h"
-#include "middleware/triggers/closed_mesh.h"
+#include "middleware/exact/closed_mesh.h"
 
 namespace foretouch::internal {
 

@@ -1,6 +1,7 @@
 // Questions to a world in C: the answers are those of the C++ library, bit for bit; and bad input
 // is refused by name.
 #include <algorithm>
+#include <deque>
 #include <foretouch/ask.h>
 #include <limits>
 #include <string>
@@ -67,6 +68,9 @@ struct InC {
     }
     c.instants = instants.data();
     c.instant_count = instants.size();
+    if (!given.hull.empty()) c.hull = given.hull.front().data();
+    c.hull_count = given.hull.size();
+    c.solids = given.solids ? 1 : 0;
     return c;
   }
 
@@ -146,6 +150,23 @@ struct Hall {
     return {from, random.chance(0.5) ? from : from + random.inBox(0.3),
             random.chance(0.4) ? 0.0 : random.magnitude(1e-3, 0.2)};
   }
+  WorldQuestion drawQuestion() {
+    WorldQuestion question;
+    question.what = static_cast<AskWhat>(random.below(3));
+    question.which = static_cast<AskWhich>(random.below(3));
+    question.shape = drawShape();
+    if (random.chance(0.3)) {
+      question.shape.b = question.shape.a;
+      question.hull = boxCorners(Vector3d(0.1, 0.2, 0.3), random.rotation());
+    }
+    question.solids = random.chance(0.3);
+    question.direction = random.inBox(0.5) - question.shape.a;
+    question.reach = random.magnitude(0.1, 10.0);
+    question.time = {drawUs(), 0.25};
+    if (random.chance(0.3)) question.instants = {{1, {drawUs(), 0.5}}};
+    drawWhom(question);
+    return question;
+  }
   std::int64_t drawUs() { return random.below(static_cast<int>(kEndUs)); }
 };
 
@@ -154,15 +175,7 @@ TEST(CAsk, AnswersAreThoseOfTheLibrary) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Hall hall(seed);
     for (int i = 0; i < 60; ++i) {
-      WorldQuestion question;
-      question.what = static_cast<AskWhat>(hall.random.below(3));
-      question.which = static_cast<AskWhich>(hall.random.below(3));
-      question.shape = hall.drawShape();
-      question.direction = hall.random.inBox(0.5) - question.shape.a;
-      question.reach = hall.random.magnitude(0.1, 10.0);
-      question.time = {hall.drawUs(), 0.25};
-      if (hall.random.chance(0.3)) question.instants = {{1, {hall.drawUs(), 0.5}}};
-      hall.drawWhom(question);
+      const WorldQuestion question = hall.drawQuestion();
       WorldAnswer expected;
       ASSERT_TRUE(askWorld(hall.world.cxx, question, hall.scratch, expected).ok());
       InC inC(question);
@@ -178,6 +191,7 @@ TEST(CAsk, AnswersAreThoseOfTheLibrary) {
       for (std::size_t k = 0; k < bodies.size(); ++k) {
         EXPECT_EQ(bodies[k].body, expected.unknown[k].body);
         EXPECT_EQ(bodies[k].why, static_cast<std::int32_t>(expected.unknown[k].why));
+        EXPECT_EQ(bodies[k].object, expected.unknown[k].object);
       }
       hits += verdict == FT_ASK_HIT;
       clear += verdict == FT_ASK_CLEAR;
@@ -189,6 +203,56 @@ TEST(CAsk, AnswersAreThoseOfTheLibrary) {
   EXPECT_GT(unknown, 10);
 }
 
+// In any order of instants; but for some hit of many, which may be another one.
+TEST(CAsk, ManyQuestionsHaveTheAnswersOfEachAlone) {
+  int hits = 0;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    Hall hall(seed);
+    ft_world* const world = hall.world.c.get();
+    std::vector<WorldQuestion> questions;
+    std::deque<InC> inC;
+    std::vector<ft_question> given;
+    for (int i = 0; i < 80; ++i) {
+      WorldQuestion question = hall.drawQuestion();
+      if (question.which == AskWhich::Any) question.which = AskWhich::All;
+      if (i > 0 && hall.random.chance(0.5)) question.time = questions.front().time;
+      questions.push_back(question);
+    }
+    for (const WorldQuestion& question : questions) {
+      given.push_back(inC.emplace_back(question).question(question));
+    }
+    std::vector<ft_probed> probed(given.size());
+    ASSERT_EQ(ft_world_probe_many(world, given.data(), given.size(), probed.data()), FT_OK)
+        << ft_last_error();
+    const auto allHits = hitsOf(world);
+    const auto allUnknown = unknownOf(world);
+    std::size_t hit = 0, unknown = 0;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      WorldAnswer expected;
+      Scratch scratch;
+      ASSERT_TRUE(askWorld(hall.world.cxx, questions[i], scratch, expected).ok());
+      EXPECT_EQ(probed[i].verdict, static_cast<std::int32_t>(expected.verdict()));
+      ASSERT_EQ(probed[i].hit_count, expected.hits.size());
+      ASSERT_EQ(probed[i].unknown_count, expected.unknown.size());
+      for (const WorldHit& one : expected.hits) expectSameHit(one, allHits[hit++]);
+      for (const UnknownBody& one : expected.unknown) {
+        EXPECT_EQ(allUnknown[unknown++].body, one.body);
+      }
+    }
+    EXPECT_EQ(hit, allHits.size());
+    EXPECT_EQ(unknown, allUnknown.size());
+    hits += static_cast<int>(hit);
+    given[7].reach = kNone;
+    given[7].what = FT_ASK_CAST;
+    EXPECT_EQ(ft_world_probe_many(world, given.data(), given.size(), probed.data()),
+              FT_ERROR_NON_FINITE);
+    EXPECT_NE(std::string(ft_last_error()).find("question 7"), std::string::npos)
+        << ft_last_error();
+    EXPECT_EQ(hitsOf(world).size(), allHits.size());
+  }
+  EXPECT_GT(hits, 100);
+}
+
 TEST(CAsk, FlightsAreThoseOfTheLibrary) {
   int hits = 0, others = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
@@ -196,6 +260,10 @@ TEST(CAsk, FlightsAreThoseOfTheLibrary) {
     for (int i = 0; i < 20; ++i) {
       FlightQuestion question;
       question.shape = hall.drawShape();
+      if (hall.random.chance(0.3)) {
+        question.shape.b = question.shape.a;
+        question.hull = boxCorners(Vector3d(0.1, 0.2, 0.3), hall.random.rotation());
+      }
       question.way = hall.random.inBox(0.5) - question.shape.a;
       question.fromUs = hall.random.below(20'000);
       question.toUs = question.fromUs + 1 + hall.random.below(20'000);
@@ -210,6 +278,8 @@ TEST(CAsk, FlightsAreThoseOfTheLibrary) {
       flight.from_us = question.fromUs;
       flight.to_us = question.toUs;
       flight.whom = &inC.whom;
+      if (!question.hull.empty()) flight.hull = question.hull.front().data();
+      flight.hull_count = question.hull.size();
       ft_flight_hit hit{};
       hit.size = sizeof hit;
       ASSERT_EQ(ft_world_fly(hall.world.c.get(), &flight, &hit), FT_OK) << ft_last_error();
@@ -252,6 +322,12 @@ TEST(CAsk, WhatIsWrongIsRefusedByNameAndLeavesTheLastAnswer) {
   refused([](ft_question& q) { q.shape.a[2] = kNone; }, FT_ERROR_NON_FINITE, "shape");
   refused([](ft_question& q) { q.shape.radius = -1.0; }, FT_ERROR_OUT_OF_RANGE, "shape");
   refused([](ft_question& q) { q.time_fraction = 1.0; }, FT_ERROR_OUT_OF_RANGE, "time");
+  refused([](ft_question& q) { q.hull_count = 4; }, FT_ERROR_NULL_ARGUMENT, "hull");
+  const double corners[6] = {0, 0, 0, 1, kNone, 0};
+  refused([&](ft_question& q) { q.hull = corners, q.hull_count = 2; }, FT_ERROR_NON_FINITE, "hull");
+  refused([&](ft_question& q) { q.hull = corners, q.hull_count = 1, q.shape.b[0] = 1.0; },
+          FT_ERROR_MISMATCH, "shape");
+  refused([](ft_question& q) { q.solids = 2; }, FT_ERROR_OUT_OF_RANGE, "solids");
   refused([](ft_question& q) { q.instant_count = 1; }, FT_ERROR_NULL_ARGUMENT, "instants");
   ft_ask_whom whom{};
   ASSERT_EQ(ft_ask_whom_init(&whom, sizeof whom), FT_OK);

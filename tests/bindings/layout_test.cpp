@@ -524,7 +524,7 @@ AT(ft_ask_whom, only_count, 24);
 AT(ft_ask_whom, without, 32);
 AT(ft_ask_whom, without_count, 40);
 
-static_assert(sizeof(ft_question) == 144);
+static_assert(sizeof(ft_question) == 168);
 AT(ft_question, what, 4);
 AT(ft_question, which, 8);
 AT(ft_question, reserved, 12);
@@ -536,6 +536,10 @@ AT(ft_question, time_fraction, 112);
 AT(ft_question, whom, 120);
 AT(ft_question, instants, 128);
 AT(ft_question, instant_count, 136);
+AT(ft_question, hull, 144);
+AT(ft_question, hull_count, 152);
+AT(ft_question, solids, 160);
+AT(ft_question, reserved_end, 164);
 
 static_assert(sizeof(ft_world_hit) == 112);
 AT(ft_world_hit, is_assumed, 4);
@@ -547,13 +551,21 @@ AT(ft_world_hit, weights, 88);
 static_assert(sizeof(ft_unknown_body) == 16);
 AT(ft_unknown_body, body, 4);
 AT(ft_unknown_body, why, 8);
+AT(ft_unknown_body, object, 12);
 
-static_assert(sizeof(ft_flight) == 112);
+static_assert(sizeof(ft_probed) == 16);
+AT(ft_probed, hit_count, 4);
+AT(ft_probed, unknown_count, 8);
+AT(ft_probed, reserved, 12);
+
+static_assert(sizeof(ft_flight) == 128);
 AT(ft_flight, shape, 8);
 AT(ft_flight, way, 64);
 AT(ft_flight, from_us, 88);
 AT(ft_flight, to_us, 96);
 AT(ft_flight, whom, 104);
+AT(ft_flight, hull, 112);
+AT(ft_flight, hull_count, 120);
 
 static_assert(sizeof(ft_flight_hit) == 136);
 AT(ft_flight_hit, verdict, 4);
@@ -598,7 +610,7 @@ AT(ft_solid_held, reserved, 12);
 namespace {
 
 TEST(CLayout, IsWhatProgramsWereCompiledAgainst) {
-  EXPECT_EQ(FT_ABI_VERSION, 8);  // a field or a function more: count up, and add its lines above
+  EXPECT_EQ(FT_ABI_VERSION, 9);  // a field or a function more: count up, and add its lines above
 }
 
 }  // namespace

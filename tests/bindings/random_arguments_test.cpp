@@ -438,6 +438,10 @@ class Caller : public test::RandomCaller {
     question.shape.radius = random_.chance(0.8) ? 0.1 : number();
     question.time_us = random_.chance(0.8) ? known : instant();
     question.whom = maybe(&whom);
+    const std::array<double, 6> corners{number(), number(), number(), 0.1, 0.2, 0.3};
+    question.hull = maybe(corners.data());
+    question.hull_count = static_cast<std::size_t>(random_.below(3));
+    question.solids = random_.chance(0.8) ? random_.below(2) : index();
     question.instants = maybe(&instantOfBody);
     question.instant_count = static_cast<std::size_t>(random_.below(2));
     ft_flight flight{};
@@ -447,6 +451,9 @@ class Caller : public test::RandomCaller {
     flight.from_us = instant();
     flight.to_us = random_.chance(0.8) ? known : instant();
     flight.whom = question.whom;
+    flight.hull = question.hull;
+    flight.hull_count = question.hull_count;
+    ft_probed probed{};
     ft_flight_hit hit{};
     hit.size = sizeOr(sizeof hit);
     std::array<ft_world_hit, kRoom> hits{};
@@ -456,6 +463,8 @@ class Caller : public test::RandomCaller {
     std::int32_t verdict = 0;
     std::size_t required = 0;
     take(ft_world_probe(maybe(world), maybe(&question), maybe(&verdict)));
+    take(ft_world_probe_many(maybe(world), maybe(&question),
+                             static_cast<std::size_t>(random_.below(2)), maybe(&probed)));
     take(ft_world_fly(maybe(world), maybe(&flight), maybe(&hit)));
     take(ft_world_hits(maybe(world), maybe(hits.data()), kRoom, maybe(&required)));
     take(ft_world_unknown(maybe(world), maybe(unknown.data()), kRoom, maybe(&required)));

@@ -166,6 +166,7 @@ if [ -f "$prefix/share/foretouch/cpp-example/play_clip.cpp" ]; then
   play_in_cxx play
   tail -n 1 "$folder/play.txt"
   "$folder/play/game_loop"
+  "$folder/play/hit_registration"
   "$folder/play/vr_hands" | tee "$folder/vr-hands.txt"
   # As JavaScript's are held to (bindings/wasm/tests).
   cmp "$folder/vr-hands.txt" "$source/tests/examples/vr_hands.txt"

@@ -43,6 +43,7 @@ from foretouch._types import (
     SweptSurface,
     TriggerEvent,
     WorldAnswer,
+    WorldAnswers,
     WorldContacts,
     WorldEvents,
 )
@@ -590,7 +591,27 @@ class World:
         instants: Optional[Mapping[int, Union[int, tuple[int, float]]]] = None,
         groups: Optional[Sequence[int]] = None,
         still: bool = True,
+        solids: bool = False,
     ) -> WorldAnswer: ...
+    def probe_many(
+        self,
+        utime_us: Union[int, tuple[int, float], npt.ArrayLike],
+        a: npt.ArrayLike,
+        *,
+        b: Optional[npt.ArrayLike] = None,
+        radius: Union[float, npt.ArrayLike] = 0.0,
+        hull: Optional[npt.ArrayLike] = None,
+        direction: Optional[npt.ArrayLike] = None,
+        reach: Union[float, npt.ArrayLike] = 1000.0,
+        within: Optional[Union[float, npt.ArrayLike]] = None,
+        which: str = "closest",
+        only: Optional[Sequence[Any]] = None,
+        without: Optional[Sequence[Any]] = None,
+        instants: Optional[Mapping[int, Union[int, tuple[int, float], npt.ArrayLike]]] = None,
+        groups: Optional[Sequence[int]] = None,
+        still: bool = True,
+        solids: bool = False,
+    ) -> WorldAnswers: ...
     def fly(
         self,
         from_us: int,

@@ -729,11 +729,15 @@ class WorldHit(NamedTuple):
 
 
 class UnknownBody(NamedTuple):
-    """A body that was asked about, and is not known at the instant."""
+    """A body that was asked about, and is not known at the instant; or an object that has no inside."""
 
-    body: int
+    body: Optional[int]
+    """None: what stands still."""
     why: str
-    """'assumed' (taken to hold still), or 'silent', 'not_there' or 'unresolved': it was left out."""
+    """'assumed' (taken to hold still), or 'silent', 'not_there' or 'unresolved': it was left out. Of
+    solids, 'open': it is not closed."""
+    object: Optional[int]
+    """Of one that is open; None of a link's surface."""
 
 
 class WorldAnswer(NamedTuple):
@@ -745,6 +749,28 @@ class WorldAnswer(NamedTuple):
     """Nearest first."""
     unknown: list[UnknownBody]
     is_complete: bool
+    """All that was asked about is known."""
+
+
+class WorldAnswers(NamedTuple):
+    """What World.probe_many() found: one row per question, of its first hit. Without one, numbers
+    are NaN and indices are -1."""
+
+    verdict: npt.NDArray[np.uint8]
+    """0 clear (proven), 1 hit, 2 unknown."""
+    distance: Doubles
+    body: npt.NDArray[np.int32]
+    """-1 too of what stands still."""
+    link: npt.NDArray[np.int32]
+    lss: npt.NDArray[np.int32]
+    triangle: npt.NDArray[np.int32]
+    object: npt.NDArray[np.int32]
+    point: Doubles
+    """(n, 3), as the next two."""
+    normal: Doubles
+    weights: Doubles
+    is_assumed: npt.NDArray[np.bool_]
+    is_complete: npt.NDArray[np.bool_]
     """All that was asked about is known."""
 
 

@@ -91,6 +91,14 @@ namespace Foretouch {
       }
     }
 
+    /// <summary>Many in one call, each with its answer alone; `probed` says how many of Hits() and Unknown() are whose.</summary>
+    public void Probe(Span<FtQuestion> questions, Span<FtProbed> probed) {
+      if (probed.Length < questions.Length) throw new ArgumentException("expected room for " + questions.Length, nameof(probed));
+      for (int i = 0; i < questions.Length; ++i) questions[i].size = (uint)sizeof(FtQuestion);
+      fixed (FtQuestion* all = questions)
+      fixed (FtProbed* found = probed) Ft.Must(FtNative.ft_world_probe_many(this, all, (ulong)questions.Length, found));
+    }
+
     /// <summary>The first hit of something that flies while the bodies move; see its `verdict`.</summary>
     public FtFlightHit Fly(FtFlight flight) {
       flight.size = (uint)sizeof(FtFlight);

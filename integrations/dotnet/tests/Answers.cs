@@ -132,6 +132,23 @@ static class Answers {
     moving.Probe(question, without, instants);
     dump.Each(moving.Hits());
     dump.Each(moving.Unknown());
+    fixed (FtAskPart* parts = without)
+    fixed (FtAskInstant* seen = instants) {
+      var whom = FtAskWhom.Usual;
+      whom.without = parts;
+      whom.withoutCount = 1;
+      question.whom = &whom;
+      question.instants = seen;
+      question.instantCount = 1;
+      FtQuestion[] many = { question, question };
+      many[1].which = FtAsk.Closest;
+      many[1].solids = 1;
+      var probed = new FtProbed[2];
+      moving.Probe(many, probed);
+      dump.One(probed[0]);
+      dump.One(probed[1]);
+      dump.Each(moving.Hits());
+    }
     var flight = FtFlight.Usual;
     flight.shape = question.shape;
     flight.way = new FtVector(3, 0, 0);

@@ -184,7 +184,8 @@ static void ask(ft_world* moving, int32_t body, int32_t door, int64_t until) {
   ft_ask_part part = {0, FT_EVERY_LINK, FT_EVERY_OBJECT};
   ft_ask_instant instant = {0, 0, 0, 0.5};
   ft_ask_whom whom;
-  ft_question question;
+  ft_question question, many[2];
+  ft_probed probed[2];
   ft_flight flight;
   ft_flight_hit hit;
   must(ft_ask_whom_init(&whom, sizeof whom));
@@ -211,6 +212,13 @@ static void ask(ft_world* moving, int32_t body, int32_t door, int64_t until) {
   must(ft_world_probe(moving, &question, NULL));
   EACH(ft_world_hit, ft_world_hits(moving, list, MOST, &count));
   EACH(ft_unknown_body, ft_world_unknown(moving, list, MOST, &count));
+  many[0] = many[1] = question;
+  many[1].which = FT_ASK_CLOSEST;
+  many[1].solids = 1;
+  must(ft_world_probe_many(moving, many, 2, probed));
+  ONE(ft_probed, &probed[0]);
+  ONE(ft_probed, &probed[1]);
+  EACH(ft_world_hit, ft_world_hits(moving, list, MOST, &count));
   flight.shape = question.shape;
   flight.way[0] = 3;
   flight.from_us = until - 900;

@@ -78,7 +78,65 @@ class Ask(unittest.TestCase):
     def test_what_is_unknown_is_no_miss(self):
         answer = self.world.probe(2000, [5, 5, 5], direction=[0, 0, 1])
         self.assertEqual(answer.verdict, "unknown")
-        self.assertEqual(answer.unknown, [(self.rod, "silent")])
+        self.assertEqual(answer.unknown, [(self.rod, "silent", None)])
+
+    def test_a_box_is_cast_overlaps_and_is_near(self):
+        box = np.array([[x, y, z] for x in (-1, 1) for y in (0, 1) for z in (-1, 1)]) * 0.25
+        cast = self.world.probe(0, box + [0, 0.5, 2], direction=[0, 0, -1])
+        self.assertAlmostEqual(cast.hits[0].distance, 2 - 0.25 - 0.1, delta=1e-8)
+        rounded = self.world.probe(0, (box + [0, 0.5, 2], 0.05), direction=[0, 0, -1])
+        self.assertAlmostEqual(rounded.hits[0].distance, 2 - 0.25 - 0.15, delta=1e-8)
+        near = self.world.probe(0, box + [1, 0.5, 0], within=1.0)
+        self.assertAlmostEqual(near.hits[0].distance, 0.65, delta=1e-8)
+        self.assertEqual(self.world.probe(0, box + [0.3, 0.5, 0]).verdict, "hit")
+        self.assertEqual(self.world.probe(0, box + [0.4, 0.5, 0]).verdict, "clear")
+        flight = self.world.fly(0, 1000, box + [0, 0, 2], [0, 0, -4])
+        self.assertEqual(flight.verdict, "hit")
+
+    def test_a_point_is_inside_of_what_is_closed(self):
+        corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+        faces = np.array([[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]])
+        for closed in (True, False):
+            world = ft.World(ft.Scene.from_arrays(corners, faces if closed else faces[1:]))
+            answer = world.probe(0, [0.1, 0.1, 0.1], which="all", solids=True)
+            if closed:
+                hit = answer.hits[0]
+                self.assertEqual((hit.distance, hit.what.triangle, hit.what.object), (0.0, None, "object_0"))
+            else:
+                self.assertEqual(answer.unknown, [(None, "open", 0)])
+                self.assertEqual(answer.verdict, "unknown")
+            self.assertEqual(world.probe(0, [0.1, 0.1, 0.1]).verdict, "clear")
+            self.assertEqual(world.probe(0, [2, 2, 2], solids=True).verdict, "clear")
+
+    def test_many_have_the_bits_of_each_alone(self):
+        random = np.random.default_rng(3)
+        n = 200
+        a = random.uniform(-1, 1, (n, 3))
+        way = random.uniform(-0.5, 0.5, (n, 3)) - a
+        times = random.integers(0, 1000, n)
+        radius, reach = random.uniform(0, 0.1, n), random.uniform(0.1, 3, n)
+        many = self.world.probe_many(times, a, radius=radius, direction=way, reach=reach,
+                                     instants={self.rod: times[::-1].copy()})
+        self.assertTrue(10 < (many.verdict == 1).sum() < n - 10)
+        for i in range(n):
+            alone = self.world.probe(int(times[i]), (a[i], float(radius[i])), direction=way[i],
+                                     reach=float(reach[i]), instants={self.rod: int(times[n - 1 - i])})
+            self.assertEqual(["clear", "hit", "unknown"][many.verdict[i]], alone.verdict)
+            if not alone.hits:
+                self.assertTrue(np.isnan(many.distance[i]) and many.body[i] == -1)
+                continue
+            self.assertEqual(many.distance[i], alone.hits[0].distance)
+            np.testing.assert_array_equal(many.point[i], alone.hits[0].what.point)
+            np.testing.assert_array_equal(many.normal[i], alone.hits[0].normal)
+        for message, arguments in {
+            "direction": dict(direction=way[1:]),
+            "'all'|which": dict(which="all"),
+            "radius": dict(radius=radius[1:]),
+            "question 7": dict(direction=np.where(np.arange(n)[:, None] == 7, 0.0, way)),
+        }.items():
+            with self.subTest(message):
+                with self.assertRaisesRegex(ft.InputError, message):
+                    self.world.probe_many(0, a, **arguments)
 
     def test_refuses_by_name(self):
         for message, arguments in {

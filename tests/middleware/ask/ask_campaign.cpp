@@ -12,7 +12,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr const char* kKinds[] = {"ray", "sphere cast", "capsule cast", "overlap", "nearest"};
+constexpr const char* kKinds[] = {"ray",          "sphere cast", "capsule cast", "overlap",
+                                  "nearest",      "hull cast",   "hull overlap", "hull nearest",
+                                  "point inside", "hull inside"};
+constexpr int kFirstHull = 5, kPointInside = 8, kHullInside = 9, kNumKinds = 10;
+
+AskWhat whatOf(int kind) {
+  constexpr AskWhat kWhat[] = {
+      AskWhat::Cast, AskWhat::Cast,    AskWhat::Cast,    AskWhat::Overlap, AskWhat::Nearest,
+      AskWhat::Cast, AskWhat::Overlap, AskWhat::Nearest, AskWhat::Overlap, AskWhat::Overlap};
+  return kWhat[kind];
+}
 
 WorldTime randomTime(Random& random) {
   const std::int64_t us = -5'000 + random.below(180'000);
@@ -28,6 +38,19 @@ Vector3d randomDirection(Random& random) {
   return random.magnitude(1e-3, 1e3) * direction;
 }
 
+/// A box, a wedge or loose corners; flat ones and single ones too.
+std::vector<Vector3d> randomHull(Random& random) {
+  if (random.chance(0.4)) return boxCorners(random.inBox(0.3).cwiseAbs(), random.rotation());
+  const int flat = random.below(5);
+  std::vector<Vector3d> corners;
+  for (int i = random.below(8); i >= 0; --i) {
+    corners.push_back(random.inBox(0.3));
+    if (flat < 2) corners.back()[flat] = 0.0;
+    if (!corners.empty() && random.chance(0.1)) corners.push_back(corners.front());
+  }
+  return corners;
+}
+
 void choosePlace(const std::vector<JudgedPart>& parts, int kind, Random& random,
                  WorldQuestion& question) {
   const bool hasRadius = kind != 0 && !random.chance(0.1);
@@ -39,10 +62,18 @@ void choosePlace(const std::vector<JudgedPart>& parts, int kind, Random& random,
   question.reach = random.chance(0.1) ? random.magnitude(1e-3, 1e6) : random.uniform(0.1, 6.0);
   const double back = question.what == AskWhat::Cast ? random.uniform(0.0, 3.0) : 0.0;
   question.shape.a = at - back * question.direction.normalized();
-  question.shape.b = kind == 0 ? question.shape.a : Vector3d(question.shape.a + axis);
+  const bool hasAxis = kind != 0 && kind < kFirstHull;
+  question.shape.b = hasAxis ? Vector3d(question.shape.a + axis) : question.shape.a;
+  if (kind == kPointInside) question.shape.radius = 0.0;
+  if (kind >= kFirstHull && kind != kPointInside) {
+    question.hull = randomHull(random);
+    if (random.chance(0.7)) question.shape.radius = 0.0;
+  }
+  question.solids = kind == kPointInside || kind == kHullInside || random.chance(0.2);
   if (question.what == AskWhat::Overlap) question.reach = 0.0;
   if (question.what == AskWhat::Nearest && random.chance(0.3)) {
     question.shape.a += random.inBox(0.5);
+    if (!hasAxis) question.shape.b = question.shape.a;
   }
 }
 
@@ -85,13 +116,6 @@ bool isSameAnew(const World& world, const WorldQuestion& question, const WorldAn
                     });
 }
 
-bool areAlike(const std::vector<UnknownBody>& x, const std::vector<UnknownBody>& y) {
-  return std::equal(x.begin(), x.end(), y.begin(), y.end(),
-                    [](const UnknownBody& one, const UnknownBody& other) {
-                      return one.body == other.body && one.why == other.why;
-                    });
-}
-
 void count(const AskedWorld& world, const WorldQuestion& question, const WorldAnswer& answer,
            const char* kind, AskTally& tally) {
   ++tally.questions[kind];
@@ -99,8 +123,10 @@ void count(const AskedWorld& world, const WorldQuestion& question, const WorldAn
   if (answer.verdict() == AskVerdict::Unknown) ++tally.unknown;
   if (!question.only.empty() || !question.without.empty()) ++tally.filtered;
   for (const WorldHit& hit : answer.hits) {
-    ++(hit.what.triangle >= 0 ? tally.ofTriangles : tally.ofLss);
+    if (hit.what.triangle >= 0) ++tally.ofTriangles;
+    if (hit.what.lss >= 0 && hit.what.triangle < 0) ++tally.ofLss;
     if (hit.distance == 0.0) ++tally.starts;
+    if (hit.what.lss < 0 && hit.what.triangle < 0) ++tally.inside;
     if (hit.what.body >= 0 && world.isCarried(hit.what.body)) ++tally.ofCarried;
   }
 }
@@ -115,9 +141,9 @@ AskTally judgeQuestions(std::uint64_t seed, int numQuestions, const AskTamper& t
   WorldAnswer answer;
   WorldTime time;
   for (int i = 0; i < numQuestions; ++i) {
-    const int kind = random.below(5);
+    const int kind = random.below(kNumKinds);
     WorldQuestion question;
-    question.what = kind == 3 ? AskWhat::Overlap : kind == 4 ? AskWhat::Nearest : AskWhat::Cast;
+    question.what = whatOf(kind);
     question.which = static_cast<AskWhich>(random.below(3));
     if (random.chance(0.7)) time = randomTime(random);
     question.time = time;
@@ -136,10 +162,9 @@ AskTally judgeQuestions(std::uint64_t seed, int numQuestions, const AskTamper& t
     }
     if (tamper.answer) tamper.answer(answer);
     const std::size_t before = tally.problems.size();
-    AskJudge(question, parts).judge(answer, tally);
-    if (!areAlike(answer.unknown, world.unknownAt(question))) {
-      tally.problems.emplace_back("unknown bodies differ");
-    }
+    const AskJudge judge(question, parts);
+    judge.judge(answer, tally);
+    judge.judgeUnknown(answer, world.unknownAt(question), tally);
     for (std::size_t p = before; p < tally.problems.size(); ++p) {
       tally.problems[p] = "seed " + std::to_string(seed) + ", question " + std::to_string(i) +
                           " (" + kKinds[kind] + "): " + tally.problems[p];
@@ -156,6 +181,8 @@ void AskTally::add(const AskTally& more) {
   ofTriangles += more.ofTriangles;
   ofLss += more.ofLss;
   starts += more.starts;
+  inside += more.inside;
+  open += more.open;
   ofCarried += more.ofCarried;
   filtered += more.filtered;
   parts += more.parts;
@@ -171,7 +198,8 @@ std::string summaryOf(const AskTally& tally) {
         << " with a hit\n";
   }
   out << "hits: " << tally.ofLss << " of LSS, " << tally.ofTriangles << " of triangles, "
-      << tally.ofCarried << " of what is carried, " << tally.starts << " where they begin\n"
+      << tally.ofCarried << " of what is carried, " << tally.starts << " where they begin, "
+      << tally.inside << " inside of objects; " << tally.open << " objects that are open\n"
       << tally.unknown << " unknown, " << tally.filtered << " filtered, " << tally.parts
       << " parts judged, largest gap at a hit " << static_cast<double>(tally.widest) << " m\n"
       << tally.problems.size() << " problems\n";

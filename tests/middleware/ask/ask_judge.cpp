@@ -15,6 +15,9 @@ using oracle::leastGap;
 /// Places of product and judge differ by so much (m) at most, with coordinates of some metres and
 /// ways of some hundred: what is nearer to a touch is not judged.
 constexpr Real kGuard = 1e-11L;
+/// What has no radius touches surely if it still does so when it is smaller by this share, or is so
+/// far (m) from edges and ends.
+constexpr Real kSmaller = 1e-8L;
 
 std::string said(const WorldHit& hit) {
   std::ostringstream out;
@@ -24,6 +27,11 @@ std::string said(const WorldHit& hit) {
   return out.str();
 }
 
+/// The shape began in it.
+bool isOfSolid(const WorldHit& hit) {
+  return hit.what.lss < 0 && hit.what.triangle < 0;
+}
+
 bool isSame(const ContactSide& x, const ContactSide& y) {
   return x.body == y.body && x.link == y.link && x.triangle == y.triangle &&
          (x.triangle >= 0 || x.lss == y.lss);
@@ -31,11 +39,42 @@ bool isSame(const ContactSide& x, const ContactSide& y) {
 
 }  // namespace
 
-oracle::CastShape AskJudge::shape() const {
-  oracle::CastShape shape{plain(question_.shape.a), plain(question_.shape.b),
-                          question_.shape.radius, plain(question_.direction)};
-  if (question_.what != AskWhat::Cast) shape.direction = {};
-  return shape;
+AskJudge::AskJudge(const WorldQuestion& question, const std::vector<JudgedPart>& parts)
+    : question_(question),
+      parts_(parts),
+      shape_{plain(question.shape.a),
+             plain(question.shape.b),
+             question.shape.radius,
+             plain(question.direction),
+             {},
+             {},
+             {}},
+      place_(shape_.a.as<Real>()) {
+  if (question.what != AskWhat::Cast) shape_.direction = {};
+  smaller_ = shape_;
+  std::vector<oracle::Vec3d> corners;
+  for (const Eigen::Vector3d& corner : question.hull) {
+    corners.push_back(plain(corner));
+    place_ =
+        place_ + (Real(1) / static_cast<Real>(question.hull.size())) * corners.back().as<Real>();
+  }
+  if (!corners.empty()) {
+    shape_.setHull(corners, 1);
+    smaller_.setHull(corners, 1 - kSmaller);
+  }
+  if (question.solids) findSolids();
+}
+
+bool AskJudge::surelyTouches(const JudgedPart& part, Real until) const {
+  if (question_.shape.radius + part.part.radius > 0.0) {
+    return leastGap(shape_, until, part.part, 0) < -kGuard;
+  }
+  if (!question_.hull.empty()) {
+    return leastGap(smaller_, std::max(Real(0), until - kSmaller), part.part, 0) < 1e-15L;
+  }
+  const bool isPoint = question_.shape.a == question_.shape.b;
+  return isPoint && question_.what == AskWhat::Cast &&
+         oracle::surelyCrosses(shape_, until, part.part, kSmaller);
 }
 
 bool AskJudge::isAsked(const JudgedPart& part) const {
@@ -61,8 +100,10 @@ void AskJudge::judge(const WorldAnswer& answer, AskTally& tally) const {
     if (!problem.empty()) tally.problems.push_back(problem);
   };
   report(problemOfOrder(answer));
+  judgeSolids(answer, tally);
   std::vector<const JudgedPart*> reported;
   for (const WorldHit& hit : answer.hits) {
+    if (isOfSolid(hit)) continue;
     const JudgedPart* const part = partOf(hit);
     if (part == nullptr || !isAsked(*part)) {
       report("a part that was not asked about: " + said(hit));
@@ -88,7 +129,7 @@ void AskJudge::judge(const WorldAnswer& answer, AskTally& tally) const {
     const bool moves = question_.what == AskWhat::Cast;
     const Real beyond = question_.what == AskWhat::Nearest ? until : 0;
     const Real gap = leastGap(shape(), moves ? until : 0, part.part, beyond);
-    if (gap >= beyond - kGuard) continue;
+    if (beyond > 0 ? gap >= beyond - kGuard : !surelyTouches(part, moves ? until : 0)) continue;
     std::ostringstream out;
     out.precision(17);
     out << "missed: body " << part.side.body << " link " << part.side.link << " lss "
@@ -104,7 +145,7 @@ std::string AskJudge::problemOf(const WorldHit& hit, const JudgedPart& part) con
   if (question_.what == AskWhat::Cast) {
     const Real gap = gapAfter(shape(), distance, part.part);
     if (gap > kAskTolerance + kGuard) return "early, or none: " + said(hit);
-    if (hit.distance > 0.0 && leastGap(shape(), distance, part.part, 0) < -kGuard) {
+    if (hit.distance > 0.0 && surelyTouches(part, distance)) {
       return "late: " + said(hit);
     }
   } else {
@@ -139,7 +180,7 @@ std::string AskJudge::problemOfPlace(const WorldHit& hit, const JudgedPart& part
   const double length = hit.nhat_W.norm();
   if (length != 0.0 && std::abs(length - 1.0) > 1e-12) return "normal: " + said(hit);
   // Along it, the gap grows as it should: by the whole way, where they are apart.
-  oracle::CastShape away = shape();
+  oracle::CastShape away = shape_;
   const oracle::Vec3d step = plain(Eigen::Vector3d(1e-4 * hit.nhat_W));
   const bool isApart = hit.distance > 0.0 && part.part.radius + question_.shape.radius > 1e-3;
   if (!isApart) return "";
@@ -161,7 +202,9 @@ std::string AskJudge::problemOfOrder(const WorldAnswer& answer) const {
   if (!isOrdered) return "hits are not in order";
   for (std::size_t i = 0; i < answer.hits.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (isSame(answer.hits[i].what, answer.hits[j].what)) return "twice: " + said(answer.hits[i]);
+      const bool isAgain = answer.hits[i].object == answer.hits[j].object;
+      if (isAgain && isSame(answer.hits[i].what, answer.hits[j].what))
+        return "twice: " + said(answer.hits[i]);
     }
   }
   if (question_.which != AskWhich::All && answer.hits.size() > 1) return "more than one hit";

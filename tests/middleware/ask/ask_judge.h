@@ -11,11 +11,13 @@ namespace foretouch::test {
 /// Refers to both.
 class AskJudge {
  public:
-  AskJudge(const WorldQuestion& question, const std::vector<JudgedPart>& parts)
-      : question_(question), parts_(parts) {}
+  AskJudge(const WorldQuestion& question, const std::vector<JudgedPart>& parts);
 
   /// Appends what is wrong with the hits to the tally's problems.
   void judge(const WorldAnswer& answer, AskTally& tally) const;
+  /// Of what has no inside, beside `others`.
+  void judgeUnknown(const WorldAnswer& answer, std::vector<UnknownBody> others,
+                    AskTally& tally) const;
 
  private:
   [[nodiscard]] bool isAsked(const JudgedPart& part) const;
@@ -23,10 +25,30 @@ class AskJudge {
   [[nodiscard]] std::string problemOf(const WorldHit& hit, const JudgedPart& part) const;
   [[nodiscard]] std::string problemOfPlace(const WorldHit& hit, const JudgedPart& part) const;
   [[nodiscard]] std::string problemOfOrder(const WorldAnswer& answer) const;
-  [[nodiscard]] oracle::CastShape shape() const;
+  [[nodiscard]] const oracle::CastShape& shape() const { return shape_; }
+  /// Free of the part up to there? Where nothing has a thickness, by what is clearly no touch of
+  /// rounding.
+  [[nodiscard]] bool surelyTouches(const JudgedPart& part, Real until) const;
+  void judgeSolids(const WorldAnswer& answer, AskTally& tally) const;
+
+  /// A mesh's object, or a link's triangles, as one surface.
+  struct Solid {
+    BodyId body = kStillScene;
+    LinkId link = 0;
+    ObjectId object = kEveryObject;
+    std::vector<oracle::Corners<Real>> surface;
+    Real gap = 0;     ///< Of the place and the surface.
+    Real boxGap = 0;  ///< How far it is outside of the surface's box; below 0: inside.
+    bool isClosed = false, isInside = false;
+    bool isWithin = false;  ///< A mean of its corners.
+  };
+  void findSolids();
 
   const WorldQuestion& question_;
   const std::vector<JudgedPart>& parts_;
+  oracle::CastShape shape_, smaller_;
+  oracle::Vec3r place_;
+  std::vector<Solid> solids_;
 };
 
 }  // namespace foretouch::test

@@ -1,4 +1,5 @@
 // Random questions now and then, held against the judge's own world; and lies, which it must name.
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -25,7 +26,7 @@ TEST(AskOracle, QuestionsNowAndThenAreAnsweredAsTheJudgeSees) {
   for (const std::string& problem : tally.problems) ADD_FAILURE() << problem;
   SCOPED_TRACE(summaryOf(tally));
   for (const auto& [kind, count] : tally.questions) {
-    EXPECT_GT(count, 300) << kind;
+    EXPECT_GT(count, 150) << kind;
     EXPECT_GT(tally.hits.at(kind), count / 4) << kind;
     EXPECT_LT(tally.hits.at(kind), count - count / 20) << kind;
   }
@@ -34,6 +35,8 @@ TEST(AskOracle, QuestionsNowAndThenAreAnsweredAsTheJudgeSees) {
   EXPECT_GT(tally.ofTriangles, 1000);
   EXPECT_GT(tally.ofCarried, 20);
   EXPECT_GT(tally.starts, 100);
+  EXPECT_GT(tally.inside, 25);
+  EXPECT_GT(tally.open, 100);
   EXPECT_LE(static_cast<double>(tally.widest), 1.01 * kAskTolerance);
 }
 
@@ -86,6 +89,35 @@ TEST(AskOracle, NamesWhatIsLateEarlyMissedOrOfAnother) {
       5U);
 }
 
+// Of rays and hulls without a radius as well, and of what is inside.
+TEST(AskOracle, NamesWhatIsMissedByWhatHasNoThickness) {
+  const auto missed = [](bool (*isIt)(const WorldQuestion&, const WorldHit&)) {
+    WorldQuestion last;
+    AskTamper tamper;
+    tamper.question = [&last](WorldQuestion& question) { last = question; };
+    tamper.answer = [&last, isIt](WorldAnswer& answer) {
+      const auto isHidden = [&](const WorldHit& hit) { return isIt(last, hit); };
+      answer.hits.erase(std::remove_if(answer.hits.begin(), answer.hits.end(), isHidden),
+                        answer.hits.end());
+    };
+    return problemsWith(tamper);
+  };
+  EXPECT_GT(missed([](const WorldQuestion& question, const WorldHit& hit) {
+              const bool isPoint = question.shape.a == question.shape.b && question.hull.empty();
+              return isPoint && question.shape.radius == 0.0 && hit.what.triangle >= 0;
+            }),
+            10U);
+  EXPECT_GT(missed([](const WorldQuestion& question, const WorldHit& hit) {
+              return !question.hull.empty() && question.shape.radius == 0.0 &&
+                     hit.what.triangle >= 0;
+            }),
+            20U);
+  EXPECT_GT(missed([](const WorldQuestion&, const WorldHit& hit) {
+              return hit.what.triangle < 0 && hit.what.lss < 0;
+            }),
+            3U);
+}
+
 TEST(AskOracle, FlightsHitWhatTheJudgeSeesThemHitFirst) {
   AskTally tally;
   for (std::uint64_t seed = 0; seed < 40; ++seed) tally.add(test::judgeFlights(seed, 6));
@@ -93,7 +125,7 @@ TEST(AskOracle, FlightsHitWhatTheJudgeSeesThemHitFirst) {
   SCOPED_TRACE(summaryOf(tally));
   EXPECT_GT(tally.hits["flight"], 60);
   EXPECT_LT(tally.hits["flight"], 220);
-  EXPECT_GT(tally.ofLss, 15);
+  EXPECT_GT(tally.ofLss, 5);
   EXPECT_GT(tally.ofTriangles, 15);
   EXPECT_GT(tally.ofCarried, 0);
   EXPECT_LT(tally.filtered, 5);  // not resolved

@@ -7,10 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/middleware/ask/asked.h"
+
 namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
+using test::ask;
+using test::errorOf;
 
 Avatar rod() {
   RawSkeleton raw;
@@ -31,21 +35,6 @@ Scene walls() {
     raw.objectOf.insert(raw.objectOf.end(), {i, i});
   }
   return Scene::build(std::move(raw)).value();
-}
-
-WorldAnswer ask(const World& world, const WorldQuestion& question) {
-  Scratch scratch;
-  WorldAnswer answer;
-  const auto done = askWorld(world, question, scratch, answer);
-  EXPECT_TRUE(done.ok()) << describe(done.error());
-  return answer;
-}
-
-std::string errorOf(const World& world, const WorldQuestion& question) {
-  Scratch scratch;
-  WorldAnswer answer;
-  const auto done = askWorld(world, question, scratch, answer);
-  return done.ok() ? std::string() : describe(done.error());
 }
 
 TEST(Ask, ARayTellsWhatWhereAndHowFar) {

@@ -1,6 +1,7 @@
 #include "tests/middleware/ask/asked_world.h"
 
 #include <algorithm>
+#include <array>
 
 #include "tests/support/judged.h"
 #include "tests/support/own_surface.h"
@@ -50,7 +51,7 @@ std::vector<UnknownBody> AskedWorld::unknownAt(const WorldQuestion& question) co
                                   [&](const AskPart& part) { return part.body == body; });
     if (isOut || !isIn) continue;
     const auto why = whyUnknown(body, timeOf(question, body));
-    if (why) unknown.push_back({body, *why});
+    if (why) unknown.push_back({body, *why, kEveryObject});
   }
   return unknown;
 }
@@ -74,6 +75,28 @@ std::vector<JudgedPart> AskedWorld::partsAt(const WorldQuestion& question) const
     appendParts(body, both_.oracle.partsAt(body, -1, 0, us), all);
   }
   return all;
+}
+
+void AskedWorld::addClosed(RawScene& raw, Random& random, double size) {
+  const Vector3d centre = random.inBox(0.5 * size);
+  const auto object = static_cast<ObjectId>(raw.objectNames.size());
+  raw.objectNames.emplace_back("solid");
+  const bool isHollow = random.chance(0.3), isOpen = random.chance(0.2);
+  std::array<double, 6> lengths{};
+  for (double& length : lengths) length = size * random.uniform(0.2, 1.0);
+  for (int shell = isHollow ? 1 : 0; shell >= 0; --shell) {
+    for (unsigned face = isOpen ? 1 : 0; face < 8; ++face) {
+      Triangle triangle;
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        const bool isUp = (face >> axis & 1U) != 0;
+        const double length = lengths[2 * axis + (isUp ? 1 : 0)] * (shell == 1 ? 0.4 : 1.0);
+        triangle.vertices[axis] = centre;
+        triangle.vertices[axis][axis] += isUp ? length : -length;
+      }
+      raw.triangles.push_back(triangle);
+      raw.objectOf.push_back(object);
+    }
+  }
 }
 
 /// In the order in which the judge was told of them: of each link LSS, then triangles.

@@ -44,16 +44,21 @@ class AskedWorld {
   [[nodiscard]] std::vector<UnknownBody> unknownAt(const WorldQuestion& question) const;
 
  private:
+  /// One more object: an eight-sided star, perhaps with a hollow in it; perhaps a face is missing.
+  static void addClosed(RawScene& raw, Random& random, double size);
   static Scene clutterOf(Random& random, int triangles, int objects) {
     RawScene raw = clutter(random, triangles, objects, Eigen::Vector3d::Zero());
     for (Triangle& triangle : raw.triangles) {
       for (Eigen::Vector3d& v : triangle.vertices) v *= 0.15;
     }
+    addClosed(raw, random, 0.3);
     return Scene::build(std::move(raw)).value();
   }
   static std::optional<Scene> stillScene(Random& random) {
     if (random.chance(0.2)) return std::nullopt;
-    return Scene::build(clutter(random, 5 + random.below(60), 3, Eigen::Vector3d::Zero())).value();
+    RawScene raw = clutter(random, 5 + random.below(60), 3, Eigen::Vector3d::Zero());
+    for (int i = random.below(3); i > 0; --i) addClosed(raw, random, 1.0);
+    return Scene::build(std::move(raw)).value();
   }
 
   BodyOptions optionsOf(Random& random) {

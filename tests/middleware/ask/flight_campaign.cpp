@@ -30,6 +30,22 @@ class FlightJudge {
                     2,
                     {plain(question.shape.a), plain(question.shape.b), plain(question.shape.b)},
                     question.shape.radius}};
+    shape_ = oracle::CastShape{plain(question.shape.a), plain(question.shape.b),
+                               question.shape.radius, plain(question.way)};
+    if (!question.hull.empty()) {
+      std::vector<oracle::Vec3d> corners;
+      for (const Vector3d& corner : question.hull) corners.push_back(plain(corner));
+      shape_.setHull(corners, 1);
+      // Its surface, which is far smaller than what it could be within.
+      flown.parts.clear();
+      for (const auto& v : shape_.outer) {
+        oracle::OraclePart part{0, 3, {}, question.shape.radius};
+        for (std::size_t i = 0; i < 3; ++i) {
+          part.corners[i] = (v[i] + shape_.a.as<Real>()).as<double>();
+        }
+        flown.parts.push_back(part);
+      }
+    }
     OracleEpisode episode{question.fromUs, -1, 0, {question.fromUs, question.toUs}, {}};
     episode.poses = {{OraclePlace{}}, {OraclePlace{}}};
     episode.poses.back().front().translation = plain(question.way);
@@ -129,6 +145,8 @@ class FlightJudge {
   void judgeHit(const FlightHit& first, Real us, AskTally& tally) {
     const ContactSide& what = first.hit.what;
     if (what.body == kStillScene) return;
+    // A surface that begins around a part is not near it.
+    if (!question_.hull.empty() && us == 0) return;
     if (!isAsked(what.body, what.link)) tally.problems.emplace_back("not asked about");
     // Where it changes who carries it, it has two places.
     const Real before = judge_.separationAt(flown_, 0, what.body, what.link, question_.fromUs, us);
@@ -149,8 +167,7 @@ class FlightJudge {
     if (!world_.still() || !question_.asksStill) return;
     const auto isOut = [](const AskPart& part) { return part.body == kStillScene; };
     if (std::any_of(question_.without.begin(), question_.without.end(), isOut)) return;
-    const oracle::CastShape shape{plain(question_.shape.a), plain(question_.shape.b),
-                                  question_.shape.radius, plain(question_.way)};
+    const oracle::CastShape& shape = shape_;
     const Real length = question_.way.norm();
     const Real share = until / static_cast<Real>(question_.toUs - question_.fromUs);
     for (std::size_t i = 0; i < world_.still()->numTriangles(); ++i) {
@@ -168,6 +185,7 @@ class FlightJudge {
   const AskedWorld& world_;
   const FlightQuestion& question_;
   OracleWorld judge_;
+  oracle::CastShape shape_;
   int flown_ = 0;
 };
 
@@ -183,6 +201,11 @@ FlightQuestion randomFlight(const AskedWorld& world, Random& random) {
   flight.shape.a = at - random.uniform(0.2, 0.8) * flight.way;
   flight.shape.b = flight.shape.a + axis;
   flight.shape.radius = random.chance(0.2) ? 0.0 : random.magnitude(1e-3, 0.1);
+  if (random.chance(0.3)) {
+    flight.shape.b = flight.shape.a;
+    flight.hull = boxCorners(random.inBox(0.06).cwiseAbs(), random.rotation());
+    flight.shape.radius = random.magnitude(1e-3, 0.05);
+  }
   flight.asksStill = random.chance(0.5);
   if (random.chance(0.3)) flight.groups = static_cast<std::uint32_t>(random.below(16));
   if (random.chance(0.4)) {

@@ -1,8 +1,8 @@
 /* ask.h: questions to a moving world at an instant, in C99 and C++: what a ray hits, what a moved
- * sphere or capsule hits first, what a shape overlaps, what is nearest; and what a shape that flies
- * hits first while the bodies move. At any instant that the world knows, of the past and between
- * poses too. What they are good for, task by task: docs/ask.md. Units, frames, errors, memory and
- * sizes of structs are as in foretouch.h; time is as in world.h. */
+ * sphere, capsule or convex solid hits first, what a shape overlaps, what is nearest, what a point is
+ * inside of; and what a shape that flies hits first while the bodies move. At any instant that the
+ * world knows, of the past and between poses too. What they are good for, task by task: docs/ask.md.
+ * Units, frames, errors, memory and sizes of structs are as in foretouch.h; time is as in world.h. */
 #ifndef FORETOUCH_ASK_H
 #define FORETOUCH_ASK_H
 
@@ -73,6 +73,15 @@ typedef struct ft_question {
   const ft_ask_whom* whom;         /* NULL: everybody */
   const ft_ask_instant* instants; /* these bodies at these instants, all others at time_us */
   size_t instant_count;
+  /* Three numbers each, from shape.a: corners of the convex solid that takes the place of the axis,
+   * whose ends are alike then; the radius is around it. None: the axis. Up to 1024. */
+  const double* hull;
+  size_t hull_count;
+  /* 1: closed objects of meshes and of what is still are solid: what begins inside one touches it,
+   * and an object that is not closed is unknown where its box holds the shape's place (a, or the
+   * middle of the corners). 0, the default: surfaces count. */
+  int32_t solids;
+  int32_t reserved_end; /* 0 */
 } ft_question;
 
 FT_API ft_status ft_question_init(ft_question* question, size_t size);
@@ -92,7 +101,8 @@ enum {
  * answer stays. */
 FT_API ft_status ft_world_probe(ft_world* world, const ft_question* question, int32_t* verdict);
 
-/* An LSS, or a triangle, that was hit or is near. */
+/* An LSS or a triangle that was hit or is near; or, without either, an object that is solid and holds
+ * the shape's place, which is its point then. */
 typedef struct ft_world_hit {
   uint32_t size;
   int32_t is_assumed;  /* 1: it rests on a body that was silent, and was taken to hold still */
@@ -102,8 +112,23 @@ typedef struct ft_world_hit {
   double weights[3];   /* of a triangle: the point as a sum of its corners; else zero */
 } ft_world_hit;
 
-/* Of the last ft_world_probe(): by distance, then by body, link, LSS and triangle. In arrays, the
- * first element's size applies to all. FT_ERROR_NO_STEP before the first answer. O(n). */
+/* What one of many questions found: its hits are the next hit_count of ft_world_hits(), after those
+ * of the questions before it; so are its unknown ones of ft_world_unknown(). */
+typedef struct ft_probed {
+  int32_t verdict;
+  uint32_t hit_count, unknown_count;
+  int32_t reserved; /* 0 */
+} ft_probed;
+
+/* Many questions in one call, each answered as ft_world_probe() answers it, to the bit, whatever
+ * their order; cheaper where they are at the same instants. All have the same size. If one is refused,
+ * none is answered, and the message names it. `probed` has room for `count`. */
+FT_API ft_status ft_world_probe_many(ft_world* world, const ft_question* questions, size_t count,
+                                     ft_probed* probed);
+
+/* Of the last ft_world_probe(): by distance, then by body, link, LSS and triangle; of the last
+ * ft_world_probe_many(), question after question. In arrays, the first element's size applies to
+ * all. FT_ERROR_NO_STEP before the first answer. O(n). */
 FT_API ft_status ft_world_hits(const ft_world* world, ft_world_hit* hits, size_t capacity,
                                size_t* required);
 
@@ -111,24 +136,26 @@ enum {
   FT_ASK_ASSUMED = 0,   /* silent, and taken to hold still: hits of it are assumed */
   FT_ASK_SILENT = 1,    /* nothing is known after its last pose; it was left out */
   FT_ASK_NOT_THERE = 2, /* before its first pose; it was left out */
-  FT_ASK_UNRESOLVED = 3 /* of a flight: more triangles, or steps, than are followed in motion */
+  FT_ASK_UNRESOLVED = 3, /* of a flight: more triangles, or steps, than are followed in motion */
+  FT_ASK_OPEN = 4 /* of solids: an object of it, or of what is still, has no inside: it is not closed */
 };
 
-/* A body that was asked about and is not known then. */
+/* A body that was asked about and is not known then; or an object that has no inside. */
 typedef struct ft_unknown_body {
   uint32_t size;
-  int32_t body;
-  int32_t why;      /* FT_ASK_ASSUMED to FT_ASK_UNRESOLVED */
-  int32_t reserved; /* 0 */
+  int32_t body;   /* or FT_STILL_SCENE */
+  int32_t why;    /* FT_ASK_ASSUMED to FT_ASK_OPEN */
+  int32_t object; /* of FT_ASK_OPEN, unless it is a link's surface; else FT_EVERY_OBJECT */
 } ft_unknown_body;
 
-/* Of the last ft_world_probe() or ft_world_fly(), whichever came last; by body. */
+/* Of the last ft_world_probe(), ft_world_probe_many() or ft_world_fly(), whichever came last; by body,
+ * of many questions one after the other. */
 FT_API ft_status ft_world_unknown(const ft_world* world, ft_unknown_body* bodies, size_t capacity,
                                   size_t* required);
 
 /* ---- Through a time ---- */
 
-/* A sphere or capsule on its way, at constant speed and without a turn. */
+/* A sphere, capsule or convex solid on its way, at constant speed and without a turn. */
 typedef struct ft_flight {
   uint32_t size;
   uint32_t reserved;       /* 0 */
@@ -136,6 +163,8 @@ typedef struct ft_flight {
   double way[3];           /* to where it is at to_us; zero: it waits */
   int64_t from_us, to_us;
   const ft_ask_whom* whom; /* NULL: everybody */
+  const double* hull;      /* as in ft_question */
+  size_t hull_count;
 } ft_flight;
 
 FT_API ft_status ft_flight_init(ft_flight* flight, size_t size);

@@ -81,6 +81,16 @@ namespace Foretouch {
     /// <summary>these bodies at these instants, all others at time_us</summary>
     public FtAskInstant* instants;
     public ulong instantCount;
+    /// <summary>Three numbers each, from shape.a: corners of the convex solid that takes the place of the
+    /// axis, whose ends are alike then; the radius is around it. None: the axis. Up to 1024.</summary>
+    public double* hull;
+    public ulong hullCount;
+    /// <summary>1: closed objects of meshes and of what is still are solid: what begins inside one touches
+    /// it, and an object that is not closed is unknown where its box holds the shape's place (a, or the
+    /// middle of the corners). 0, the default: surfaces count.</summary>
+    public int solids;
+    /// <summary>0</summary>
+    public int reservedEnd;
   }
   public static partial class FtAsk {
     /// <summary>nothing is hit or near, proven</summary>
@@ -90,7 +100,8 @@ namespace Foretouch {
     /// <summary>nothing that is known is; of what is unknown nothing is claimed</summary>
     public const int Unknown = 2;
   }
-  /// <summary>An LSS, or a triangle, that was hit or is near.</summary>
+  /// <summary>An LSS or a triangle that was hit or is near; or, without either, an object that is solid
+  /// and holds the shape's place, which is its point then.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtWorldHit {
     public uint size;
@@ -105,6 +116,16 @@ namespace Foretouch {
     /// <summary>of a triangle: the point as a sum of its corners; else zero</summary>
     public FtVector weights;
   }
+  /// <summary>What one of many questions found: its hits are the next hit_count of ft_world_hits(), after
+  /// those of the questions before it; so are its unknown ones of ft_world_unknown().</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  public partial struct FtProbed {
+    public int verdict;
+    public uint hitCount;
+    public uint unknownCount;
+    /// <summary>0</summary>
+    public int reserved;
+  }
   public static partial class FtAsk {
     /// <summary>silent, and taken to hold still: hits of it are assumed</summary>
     public const int Assumed = 0;
@@ -114,18 +135,23 @@ namespace Foretouch {
     public const int NotThere = 2;
     /// <summary>of a flight: more triangles, or steps, than are followed in motion</summary>
     public const int Unresolved = 3;
+    /// <summary>of solids: an object of it, or of what is still, has no inside: it is not closed</summary>
+    public const int Open = 4;
   }
-  /// <summary>A body that was asked about and is not known then.</summary>
+  /// <summary>A body that was asked about and is not known then; or an object that has no
+  /// inside.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtUnknownBody {
     public uint size;
+    /// <summary>or FT_STILL_SCENE</summary>
     public int body;
-    /// <summary>FT_ASK_ASSUMED to FT_ASK_UNRESOLVED</summary>
+    /// <summary>FT_ASK_ASSUMED to FT_ASK_OPEN</summary>
     public int why;
-    /// <summary>0</summary>
-    public int reserved;
+    /// <summary>of FT_ASK_OPEN, unless it is a link's surface; else FT_EVERY_OBJECT</summary>
+    public int @object;
   }
-  /// <summary>A sphere or capsule on its way, at constant speed and without a turn.</summary>
+  /// <summary>A sphere, capsule or convex solid on its way, at constant speed and without a
+  /// turn.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public unsafe partial struct FtFlight {
     public uint size;
@@ -139,6 +165,9 @@ namespace Foretouch {
     public long toUs;
     /// <summary>NULL: everybody</summary>
     public FtAskWhom* whom;
+    /// <summary>as in ft_question</summary>
+    public double* hull;
+    public ulong hullCount;
   }
   /// <summary>The first hit of all.</summary>
   [StructLayout(LayoutKind.Sequential)]
@@ -181,8 +210,9 @@ namespace Foretouch {
   }
   public sealed unsafe partial class FtWorld {
     readonly FtBuffer<FtWorldHit> hitsBuffer = new FtBuffer<FtWorldHit>();
-    /// <summary>Of the last ft_world_probe(): by distance, then by body, link, LSS and triangle. In arrays,
-    /// the first element's size applies to all. FT_ERROR_NO_STEP before the first answer. O(n).</summary>
+    /// <summary>Of the last ft_world_probe(): by distance, then by body, link, LSS and triangle; of the
+    /// last ft_world_probe_many(), question after question. In arrays, the first element's size applies to
+    /// all. FT_ERROR_NO_STEP before the first answer. O(n).</summary>
     public ReadOnlySpan<FtWorldHit> Hits() {
       ulong count;
       int status;
@@ -195,7 +225,8 @@ namespace Foretouch {
       return hitsBuffer.First(count);
     }
     readonly FtBuffer<FtUnknownBody> unknownBuffer = new FtBuffer<FtUnknownBody>();
-    /// <summary>Of the last ft_world_probe() or ft_world_fly(), whichever came last; by body.</summary>
+    /// <summary>Of the last ft_world_probe(), ft_world_probe_many() or ft_world_fly(), whichever came last;
+    /// by body, of many questions one after the other.</summary>
     public ReadOnlySpan<FtUnknownBody> Unknown() {
       ulong count;
       int status;
@@ -229,10 +260,16 @@ namespace Foretouch {
     /// length; unknown bodies and links; an instant before what was forgotten. After an error the last
     /// answer stays.</summary>
     [DllImport(Library)] public static extern int ft_world_probe(FtWorld world, FtQuestion* question, out int verdict);
-    /// <summary>Of the last ft_world_probe(): by distance, then by body, link, LSS and triangle. In arrays,
-    /// the first element's size applies to all. FT_ERROR_NO_STEP before the first answer. O(n).</summary>
+    /// <summary>Many questions in one call, each answered as ft_world_probe() answers it, to the bit,
+    /// whatever their order; cheaper where they are at the same instants. All have the same size. If one is
+    /// refused, none is answered, and the message names it. `probed` has room for `count`.</summary>
+    [DllImport(Library)] public static extern int ft_world_probe_many(FtWorld world, FtQuestion* questions, ulong count, FtProbed* probed);
+    /// <summary>Of the last ft_world_probe(): by distance, then by body, link, LSS and triangle; of the
+    /// last ft_world_probe_many(), question after question. In arrays, the first element's size applies to
+    /// all. FT_ERROR_NO_STEP before the first answer. O(n).</summary>
     [DllImport(Library)] public static extern int ft_world_hits(FtWorld world, FtWorldHit* hits, ulong capacity, out ulong required);
-    /// <summary>Of the last ft_world_probe() or ft_world_fly(), whichever came last; by body.</summary>
+    /// <summary>Of the last ft_world_probe(), ft_world_probe_many() or ft_world_fly(), whichever came last;
+    /// by body, of many questions one after the other.</summary>
     [DllImport(Library)] public static extern int ft_world_unknown(FtWorld world, FtUnknownBody* bodies, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_flight_init(FtFlight* flight, ulong size);
     /// <summary>The bodies' true motion and the shape's own, not a cast against where they were. Never

@@ -1,5 +1,5 @@
 // What has an inside, and what is in it.
-#include "middleware/triggers/closed_mesh.h"
+#include "middleware/exact/closed_mesh.h"
 
 #include <algorithm>
 #include <cmath>

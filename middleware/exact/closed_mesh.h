@@ -1,4 +1,4 @@
-// middleware/triggers/closed_mesh.h: a mesh that has an inside, and which points are in it. Exact.
+// middleware/exact/closed_mesh.h: a mesh that has an inside, and which points are in it. Exact.
 // Metres, in the mesh's own frame. Not installed.
 #pragma once
 
@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "articulated/result.h"
+#include "middleware/exact/ray_up.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
@@ -17,6 +18,19 @@ enum class PointPlace : std::uint8_t {
   Inside,
   AtSurface,  ///< Nearer to the surface than the point is known.
 };
+
+/// Of objects that a point is in, or at; each once, in order.
+struct ObjectsAround {
+  std::vector<ObjectId> inside;     ///< Of those that are closed: crossed an odd number of times.
+  std::vector<ObjectId> atSurface;  ///< Nearer to it than the point is known.
+  std::vector<TriangleId> ids;      ///< Memory.
+};
+/// Replaces both. `rounding`: the point is not farther from where it is given (m).
+void findObjectsAround(const SceneParts& scene, const Eigen::Vector3d& p, double rounding,
+                       ObjectsAround& around);
+/// The same of loose triangles, all of object 0.
+void findObjectsAround(const std::vector<Triangle>& triangles, const Eigen::Vector3d& p,
+                       double rounding, ObjectsAround& around);
 
 /// Each object of the scene by itself is a surface without a border: of its triangles, every edge
 /// belongs to two, or to another even number. Their order and the way they are turned do not
@@ -31,10 +45,7 @@ class ClosedMesh {
   [[nodiscard]] const Scene& scene() const { return scene_; }
   /// `rounding`: the point is not farther from where it is given (m). Exact beyond that. O(log n,
   /// and what is above the point). For one thread at a time, per `memory`.
-  struct Memory {
-    std::vector<TriangleId> ids;
-    std::vector<ObjectId> crossed;
-  };
+  using Memory = ObjectsAround;
   [[nodiscard]] PointPlace placeOf(const Eigen::Vector3d& p, double rounding, Memory& memory) const;
 
  private:
