@@ -17,24 +17,23 @@ using wire::field;
 using wire::in;
 
 constexpr auto kBody = std::make_tuple(
-    field("body", &BodyMessage::body, &body_t::body, wire::indexFrom(0)),
-    field("session", &BodyMessage::session, &body_t::session, wire::kWhole),
-    field("sequence", &BodyMessage::sequence, &body_t::sequence, wire::kWhole),
-    field("utime", &BodyMessage::utimeUs, &body_t::utime, wire::kWhole),
-    field("send_utime", &BodyMessage::sendUtimeUs, &body_t::send_utime, wire::kWhole),
-    field("kind", &BodyMessage::kind, &body_t::kind, wire::kFlag),
-    field("state", &BodyMessage::isPresent, &body_t::state, wire::kFlag),
-    field("shape", &BodyMessage::shape, &body_t::shape, wire::kJointName),
-    field("shape_hash", &BodyMessage::shapeHash, &body_t::shape_hash, wire::kAny),
-    field("carried_by", &BodyMessage::carrier, &body_t::carried_by, wire::indexFrom(kNoBody)),
-    field("carried_link", &BodyMessage::carrierLink, &body_t::carried_link,
-          wire::indexFrom(0, kMaxJoints - 1)),
-    field("moves_in_frame", &BodyMessage::movesInFrame, &body_t::moves_in_frame, wire::kFlag),
-    field("rotation", in(&BodyMessage::pose, &RigidPose::rotation), &body_t::rotation_w,
-          &body_t::rotation_x, &body_t::rotation_y, &body_t::rotation_z, wire::kTurn),
-    field("position", in(&BodyMessage::pose, &RigidPose::translation), &body_t::position_x,
-          &body_t::position_y, &body_t::position_z, wire::kCoordinate),
-    field("since_utime", &BodyMessage::sinceUs, &body_t::since_utime, wire::kWhole));
+    field(&BodyMessage::body, &body_t::body, wire::indexFrom(0)),
+    field(&BodyMessage::session, &body_t::session, wire::kWhole),
+    field(&BodyMessage::sequence, &body_t::sequence, wire::kWhole),
+    field(&BodyMessage::utimeUs, &body_t::utime, wire::kWhole),
+    field(&BodyMessage::sendUtimeUs, &body_t::send_utime, wire::kWhole),
+    field(&BodyMessage::kind, &body_t::kind, wire::kFlag),
+    field(&BodyMessage::isPresent, &body_t::state, wire::kFlag),
+    field(&BodyMessage::shape, &body_t::shape, wire::kJointName),
+    field(&BodyMessage::shapeHash, &body_t::shape_hash, wire::kAny),
+    field(&BodyMessage::carrier, &body_t::carried_by, wire::indexFrom(kNoBody)),
+    field(&BodyMessage::carrierLink, &body_t::carried_link, wire::indexFrom(0, kMaxJoints - 1)),
+    field(&BodyMessage::movesInFrame, &body_t::moves_in_frame, wire::kFlag),
+    field(in(&BodyMessage::pose, &RigidPose::rotation), &body_t::rotation_w, &body_t::rotation_x,
+          &body_t::rotation_y, &body_t::rotation_z, wire::kTurn),
+    field(in(&BodyMessage::pose, &RigidPose::translation), &body_t::position_x, &body_t::position_y,
+          &body_t::position_z, wire::kCoordinate),
+    field(&BodyMessage::sinceUs, &body_t::since_utime, wire::kWhole));
 
 Reject checkCarrier(const body_t& wire) {
   if (wire.carried_by == wire.body) return Reject::CarrierLoop;

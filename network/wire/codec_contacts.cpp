@@ -20,8 +20,9 @@ static_assert(static_cast<int>(StepKind::First) == contacts_t::FIRST);
 static_assert(static_cast<int>(StepKind::AcrossGap) == contacts_t::ACROSS_GAP);
 constexpr auto kLastVerdict = static_cast<std::uint8_t>(Verdict::Undecided);
 
-constexpr auto kContacts = std::tuple_cat(wire::kContactsKey, wire::kContactsStep,
-                                          wire::kContactsOptions, wire::kContactsStamps);
+constexpr auto kContacts =
+    std::tuple_cat(wire::kContactsKey, wire::kContactsStep, wire::kContactsTolerance,
+                   wire::kContactsOptions, wire::kContactsStamps);
 constexpr auto kContact = std::tuple_cat(wire::kContactLink, wire::kContact);
 
 std::optional<Fidelity> fidelityOf(const std::string& word) {
@@ -54,31 +55,24 @@ Reject readVerdicts(const contacts_t& wire, std::vector<Verdict>& verdicts, std:
   return Reject::None;
 }
 
-/// +0.0, which stands in for a number without meaning.
-bool isNothing(double number) {
-  return number == 0.0 && !std::signbit(number);
-}
-
-bool isNothing(const Eigen::Vector3d& vector) {
-  return isNothing(vector.x()) && isNothing(vector.y()) && isNothing(vector.z());
-}
-
-/// An undecided link has no contact to describe.
-bool describesNothing(const contacts_t& wire, std::size_t i, const LinkContact& contact) {
-  return isNothing(contact.separation) && isNothing(contact.penetration) &&
-         isNothing(contact.p_WScene) && isNothing(contact.p_WLink) &&
-         isNothing(contact.nhat_SL_W) && contact.triangle == -1 && wire.objects[i].empty() &&
-         contact.linkTriangle == -1 && wire.link_features[i] == 0 && wire.scene_features[i] == 0;
+/// An undecided link has no contact to describe: what a contact has is 0, -1 or "".
+AnsweredContact bare(const AnsweredContact& answered) {
+  const LinkContact& contact = answered.contact;
+  AnsweredContact row{
+      undecidedContact(contact.link, contact.freeUntil, contact.reason), answered.linkName, {}};
+  row.contact.linkFeature = row.contact.sceneFeature = FeatureKind{};
+  return row;
 }
 
 /// What the row itself does not say; and what may not be said of an undecided link.
-Reject settle(const contacts_t& wire, std::size_t i, LinkContact& contact) {
+Reject settle(AnsweredContact& answered) {
+  LinkContact& contact = answered.contact;
   const bool isUndecided = contact.verdict == Verdict::Undecided;
   if ((contact.reason != UndecidedReason::None) != isUndecided) return Reject::OutOfRange;
   contact.toi = contact.freeUntil;
   contact.lss = -1;  // does not travel
   if (!isUndecided) return Reject::None;
-  const bool isBare = describesNothing(wire, i, contact);
+  const bool isBare = wire::areSame(answered, bare(answered), wire::kContact);
   contact.linkFeature = LinkContact{}.linkFeature;
   contact.sceneFeature = LinkContact{}.sceneFeature;
   return isBare ? Reject::None : Reject::OutOfRange;
@@ -90,31 +84,18 @@ Reject readContacts(const contacts_t& wire, ContactsMessage& message) {
   Reject reject = readVerdicts(wire, message.verdicts, notClear);
   if (reject != Reject::None) return reject;
   std::bitset<static_cast<std::size_t>(kMaxListed)> listed;
-  const auto settleRow = [&](AnsweredContact& answered, std::size_t i) {
+  const auto settleRow = [&](AnsweredContact& answered, std::size_t) {
     LinkContact& contact = answered.contact;
     if (contact.link >= wire.num_links) return Reject::BadIndex;
     const auto place = slotOf(contact.link);
     contact.verdict = message.verdicts[place];
     if (listed[place] || contact.verdict == Verdict::Clear) return Reject::BadIndex;
     listed.set(place);
-    return settle(wire, i, contact);
+    return settle(answered);
   };
   reject = wire::readRows(wire, kContact, &contacts_t::num_contacts, message.contacts, settleRow);
   if (reject != Reject::None) return reject;
   return message.contacts.size() == notClear ? Reject::None : Reject::BadIndex;
-}
-
-/// Without a contact, its fields are 0, -1 or "".
-AnsweredContact bare(const AnsweredContact& answered) {
-  AnsweredContact row{{}, answered.linkName, {}};
-  row.contact.link = answered.contact.link;
-  row.contact.reason = answered.contact.reason;
-  row.contact.freeUntil = answered.contact.freeUntil;
-  row.contact.separation = row.contact.penetration = 0.0;
-  row.contact.p_WScene = row.contact.p_WLink = row.contact.nhat_SL_W = Eigen::Vector3d::Zero();
-  row.contact.triangle = row.contact.linkTriangle = -1;
-  row.contact.linkFeature = row.contact.sceneFeature = FeatureKind{};
-  return row;
 }
 
 /// Of receive_utime, send_utime and query_us; in a solid_t solid_us.

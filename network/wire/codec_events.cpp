@@ -28,9 +28,10 @@ static_assert(kMaxToldBodies * 13 + kMaxToldUnknown * 25 + kMaxToldEvents * 217 
 /// In messages: neither side weighs anything.
 constexpr double kNoMass = -1.0;
 
-constexpr auto kEvents = std::tuple_cat(wire::kEvents, wire::kEventsWindow, wire::kEventsStamps);
-constexpr auto kEvent =
-    std::tuple_cat(wire::kEventTime, wire::kEventA, wire::kEventB, wire::kEvent);
+constexpr auto kEvents =
+    std::tuple_cat(wire::kEvents, wire::kEventsOptions, wire::kEventsWindow, wire::kEventsStamps);
+constexpr auto kEvent = std::tuple_cat(wire::kEventKind, wire::kEventTimes, wire::kEventA,
+                                       wire::kEventB, wire::kEventObject, wire::kEvent);
 
 Reject checkHead(const events_t& wire) {
   if (wire.window_from > wire.window_to) return Reject::OutOfRange;

@@ -26,7 +26,8 @@ static_assert(kMaxPersonBrackets * (kMaxNameBytes + kMaxTextBytes + 2 * 5 + 3 * 
 constexpr auto kPerson =
     std::tuple_cat(wire::kPersonKey, wire::kPersonOptions, wire::kPersonStep, wire::kPersonAhead,
                    wire::kPersonLeftOut, wire::kPersonStamps);
-constexpr auto kBracket = std::tuple_cat(wire::kBracketSides, wire::kBracket);
+constexpr auto kBracket = std::tuple_cat(wire::kBracketSides, wire::kBracketPossible,
+                                         wire::kBracketCertain, wire::kBracketGrowth);
 
 Reject checkSteps(const person_t& wire) {
   if (wire.sequence_from > wire.sequence_to || wire.utime_from > wire.utime_to) {

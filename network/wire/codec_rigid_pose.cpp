@@ -18,23 +18,23 @@ static_assert(kJointInferred == rigid_pose_t::INFERRED);
 using wire::field;
 using wire::in;
 
-constexpr auto kRigidHead = std::make_tuple(
-    field("session", &RigidPoseMessage::session, &rigid_pose_t::session, wire::kWhole),
-    field("sequence", &RigidPoseMessage::sequence, &rigid_pose_t::sequence, wire::kWhole),
-    field("utime", &RigidPoseMessage::utimeUs, &rigid_pose_t::utime, wire::kWhole),
-    field("send_utime", &RigidPoseMessage::sendUtimeUs, &rigid_pose_t::send_utime, wire::kWhole));
+constexpr auto kRigidHead =
+    std::make_tuple(field(&RigidPoseMessage::session, &rigid_pose_t::session, wire::kWhole),
+                    field(&RigidPoseMessage::sequence, &rigid_pose_t::sequence, wire::kWhole),
+                    field(&RigidPoseMessage::utimeUs, &rigid_pose_t::utime, wire::kWhole),
+                    field(&RigidPoseMessage::sendUtimeUs, &rigid_pose_t::send_utime, wire::kWhole));
 
 constexpr auto kBodyNumber =
-    std::make_tuple(field("body", &BodyPose::body, &rigid_pose_t::bodies, wire::indexFrom(0)),
-                    field("flags", &BodyPose::flags, &rigid_pose_t::flags, wire::kKnownFlags));
+    std::make_tuple(field(&BodyPose::body, &rigid_pose_t::bodies, wire::indexFrom(0)),
+                    field(&BodyPose::flags, &rigid_pose_t::flags, wire::kKnownFlags));
 
 /// Meaningless unless kJointValid.
-constexpr auto kPlace = std::make_tuple(
-    field("rotation", in(&BodyPose::pose, &RigidPose::rotation), &rigid_pose_t::rotation_w,
-          &rigid_pose_t::rotation_x, &rigid_pose_t::rotation_y, &rigid_pose_t::rotation_z,
-          wire::kTurn),
-    field("position", in(&BodyPose::pose, &RigidPose::translation), &rigid_pose_t::position_x,
-          &rigid_pose_t::position_y, &rigid_pose_t::position_z, wire::kCoordinate));
+constexpr auto kPlace =
+    std::make_tuple(field(in(&BodyPose::pose, &RigidPose::rotation), &rigid_pose_t::rotation_w,
+                          &rigid_pose_t::rotation_x, &rigid_pose_t::rotation_y,
+                          &rigid_pose_t::rotation_z, wire::kTurn),
+                    field(in(&BodyPose::pose, &RigidPose::translation), &rigid_pose_t::position_x,
+                          &rigid_pose_t::position_y, &rigid_pose_t::position_z, wire::kCoordinate));
 
 /// Of thousands of bodies, in the time of sorting them.
 bool areDifferent(const std::vector<BodyPose>& told) {

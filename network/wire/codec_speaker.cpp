@@ -9,12 +9,12 @@
 namespace foretouch {
 namespace {
 
-constexpr auto kSpeaker = std::make_tuple(
-    wire::field("avatar", &SpeakerMessage::avatar, &speaker_t::avatar, wire::kWhole),
-    wire::field("utime", &SpeakerMessage::utimeUs, &speaker_t::utime, wire::kWhole),
-    wire::field("address", &SpeakerMessage::address, &speaker_t::address, wire::kAny),
-    wire::field("port", &SpeakerMessage::port, &speaker_t::port,
-                wire::Whole{0, std::numeric_limits<std::uint16_t>::max()}));
+constexpr auto kSpeaker =
+    std::make_tuple(wire::field(&SpeakerMessage::avatar, &speaker_t::avatar, wire::kWhole),
+                    wire::field(&SpeakerMessage::utimeUs, &speaker_t::utime, wire::kWhole),
+                    wire::field(&SpeakerMessage::address, &speaker_t::address, wire::kAny),
+                    wire::field(&SpeakerMessage::port, &speaker_t::port,
+                                wire::Whole{0, std::numeric_limits<std::uint16_t>::max()}));
 
 }  // namespace
 

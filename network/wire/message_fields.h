@@ -61,9 +61,10 @@ inline constexpr auto kContactsKey = std::make_tuple(
     field("avatar", &ContactsMessage::avatar, &contacts_t::avatar, kAny),
     field("session", &ContactsMessage::session, &contacts_t::session, kWhole),
     field("sequence_to", &ContactsMessage::sequenceTo, &contacts_t::sequence_to, kWhole));
-/// What of it any answer to the same pose has by the same options; `fidelity` is one of these, too.
+/// What any answer to the same pose has by the same options; `fidelity`, too.
+inline constexpr auto kContactsTolerance = std::make_tuple(
+    field("tolerance", &ContactsMessage::tolerance, &contacts_t::tolerance, kNotNegative));
 inline constexpr auto kContactsOptions = std::make_tuple(
-    field("tolerance", &ContactsMessage::tolerance, &contacts_t::tolerance, kNotNegative),
     field("work_budget", &ContactsMessage::workBudget, &contacts_t::work_budget, kWhole),
     field("skeleton_hash", &ContactsMessage::skeletonHash, &contacts_t::skeleton_hash, kHash),
     field("kind", &ContactsMessage::kind, &contacts_t::kind, codeBelow(kNumStepKinds)));
@@ -80,7 +81,7 @@ constexpr auto ofContact(Member member) {
   return in(&AnsweredContact::contact, member);
 }
 inline constexpr auto kContactLink =
-    std::make_tuple(field("", ofContact(&LinkContact::link), &contacts_t::links, indexFrom(0)),
+    std::make_tuple(field(ofContact(&LinkContact::link), &contacts_t::links, indexFrom(0)),
                     field("link", &AnsweredContact::linkName, &contacts_t::link_names, kJointName));
 inline constexpr int kNumFeatures = static_cast<int>(FeatureKind::Face) + 1;
 inline constexpr auto kContact = std::make_tuple(
@@ -117,16 +118,25 @@ inline constexpr auto kSolidOptions =
                     field("tolerance", &SolidMessage::tolerance, &solid_t::tolerance, kNotNegative),
                     field("catch_up", &SolidMessage::catchUp, &solid_t::catch_up, kNotNegative),
                     field("work_budget", &SolidMessage::workBudget, &solid_t::work_budget, kWhole));
-inline constexpr auto kSolidState = std::make_tuple(
-    field("state", &SolidMessage::state, &solid_t::state, codeBelow(kNumSolidStates)),
-    field("limit", &SolidMessage::limit, &solid_t::limit, codeBelow(kNumSolidLimits)),
-    field("certified", &SolidMessage::isCertified, &solid_t::certified, kFlag),
-    sparse("appeared", &SolidMessage::hasAppeared, &solid_t::appeared, kFlag));
-inline constexpr auto kSolidLengths =
-    std::make_tuple(field("deviation", &SolidMessage::deviation, &solid_t::deviation, kNotNegative),
-                    field("lift", &SolidMessage::lift, &solid_t::lift, kNotNegative),
-                    field("clearance", &SolidMessage::clearance, &solid_t::clearance, kNotNegative),
-                    sparse("snap_in_us", &SolidMessage::snapInUs, &solid_t::snap_in_us, Whole{-1}));
+/// Of whatever holds what is shown at one tick: this message, a page's step, a line of a file.
+template <typename Shown>
+constexpr auto shownState() {
+  return std::make_tuple(field("state", &Shown::state, &solid_t::state, codeBelow(kNumSolidStates)),
+                         field("limit", &Shown::limit, &solid_t::limit, codeBelow(kNumSolidLimits)),
+                         field("certified", &Shown::isCertified, &solid_t::certified, kFlag));
+}
+template <typename Shown>
+constexpr auto shownLengths() {
+  return std::make_tuple(field("deviation", &Shown::deviation, &solid_t::deviation, kNotNegative),
+                         field("lift", &Shown::lift, &solid_t::lift, kNotNegative),
+                         field("clearance", &Shown::clearance, &solid_t::clearance, kNotNegative));
+}
+inline constexpr auto kSolidState = std::tuple_cat(
+    shownState<SolidMessage>(),
+    std::make_tuple(sparse("appeared", &SolidMessage::hasAppeared, &solid_t::appeared, kFlag)));
+inline constexpr auto kSolidLengths = std::tuple_cat(
+    shownLengths<SolidMessage>(), std::make_tuple(sparse("snap_in_us", &SolidMessage::snapInUs,
+                                                         &solid_t::snap_in_us, Whole{-1})));
 inline constexpr auto kSolidLeftOut = std::make_tuple(sparse(
     "contacts_left_out", &SolidMessage::contactsLeftOut, &solid_t::contacts_left_out, kWhole));
 inline constexpr auto kSolidStamps = stamps("solid_us", &SolidMessage::solidUs, &solid_t::solid_us);
@@ -149,7 +159,7 @@ constexpr auto solidCounters(Outer of) {
 /// What is pushed, of a row that holds a contact and its link's name: in solid_t and in pushes_t.
 template <typename Wire, typename Row, typename Contact>
 constexpr auto pushedLink(Contact Row::*contact, std::string Row::*linkName) {
-  return std::make_tuple(field("", in(contact, &Contact::link), &Wire::links, kAny),
+  return std::make_tuple(field(in(contact, &Contact::link), &Wire::links, kAny),
                          field("link", linkName, &Wire::link_names, kJointName),
                          field("lss", in(contact, &Contact::lss), &Wire::lss, indexFrom(-1)));
 }
@@ -170,8 +180,8 @@ constexpr auto pushFields(Outer of) {
 inline constexpr auto kShownSides = std::tuple_cat(
     pushedLink<solid_t>(&ShownContact::contact, &ShownContact::linkName),
     std::make_tuple(
-        field("", &ShownContact::otherName, &solid_t::objects, kAny),
-        field("", in(&ShownContact::contact, &SolidContact::other), &solid_t::others, kAny)));
+        field(&ShownContact::otherName, &solid_t::objects, kAny),
+        field(in(&ShownContact::contact, &SolidContact::other), &solid_t::others, kAny)));
 inline constexpr auto kShownPush = pushFields<solid_t, SolidContact>(&ShownContact::contact);
 
 // Persons.
@@ -201,21 +211,23 @@ constexpr auto ofBracket(Member member) {
 }
 /// Lines say whether the other side is an object or an own link.
 inline constexpr auto kBracketSides =
-    std::make_tuple(field("", ofBracket(&LinkBracket::link), &person_t::links, kAny),
+    std::make_tuple(field(ofBracket(&LinkBracket::link), &person_t::links, kAny),
                     field("link", &ToldBracket::linkName, &person_t::link_names, kJointName),
-                    field("", ofBracket(&LinkBracket::other), &person_t::others, kAny),
-                    field("", &ToldBracket::otherName, &person_t::objects, kAny));
-inline constexpr auto kBracket = std::make_tuple(
+                    field(ofBracket(&LinkBracket::other), &person_t::others, kAny),
+                    field(&ToldBracket::otherName, &person_t::objects, kAny));
+inline constexpr auto kBracketPossible = std::make_tuple(
     sparse("triangle", ofBracket(&LinkBracket::triangle), &person_t::triangles, indexFrom(-1)),
     field("verdict", ofBracket(&LinkBracket::verdict), &person_t::claims,
           Whole{person_t::POSSIBLE, person_t::CERTAIN}),
     field("possible_from", ofBracket(&LinkBracket::possibleFrom), &person_t::possible_from,
           kFraction),
     field("possible_until", ofBracket(&LinkBracket::possibleUntil), &person_t::possible_until,
-          kFraction),
+          kFraction));
+inline constexpr auto kBracketCertain = std::make_tuple(
     field("certain_from", ofBracket(&LinkBracket::certainFrom), &person_t::certain_from, kFraction),
     field("certain_until", ofBracket(&LinkBracket::certainUntil), &person_t::certain_until,
-          kFraction),
+          kFraction));
+inline constexpr auto kBracketGrowth = std::make_tuple(
     field("growth", ofBracket(&LinkBracket::growth), &person_t::growth, kNotNegative));
 
 inline constexpr auto kBroken =

@@ -230,6 +230,13 @@ constexpr Numbers<Member, Wired, 4, Rule> field(const char* name, Member member,
   return {name, member, {w, x, y, z}, rule};
 }
 
+/// One that nobody tells by name.
+template <typename Member, typename... Rest,
+          typename = std::enable_if_t<!std::is_convertible_v<Member, const char*>>>
+constexpr auto field(Member member, Rest... rest) {
+  return field("", member, rest...);
+}
+
 /// A field that lines have only where it is not what it is at first: a flag that is set, a count
 /// that is not 0.
 template <typename Told>
@@ -276,6 +283,25 @@ template <typename Wire, typename Message, typename Fields, typename Place = Alo
 template <typename Message, typename Fields, typename Wire, typename Place = Alone>
 void write(const Message& message, const Fields& fields, Wire& wire, Place place = {}) {
   std::apply([&](const auto&... each) { (each.write(message, place, wire), ...); }, fields);
+}
+
+inline bool isSame(double x, double y) {
+  return x == y && std::signbit(x) == std::signbit(y);
+}
+inline bool isSame(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+  return isSame(x.x(), y.x()) && isSame(x.y(), y.y()) && isSame(x.z(), y.z());
+}
+template <typename Value>
+bool isSame(const Value& x, const Value& y) {
+  return x == y;
+}
+
+/// Bit for bit.
+template <typename Record, typename Fields>
+bool areSame(const Record& x, const Record& y, const Fields& fields) {
+  return std::apply(
+      [&](const auto&... each) { return (isSame(at(x, each.member), at(y, each.member)) && ...); },
+      fields);
 }
 
 /// Makes room for as many rows, and says so in `count`.

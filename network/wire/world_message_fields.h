@@ -12,45 +12,13 @@
 
 namespace foretouch::wire {
 
-/// A WorldTime as two values.
-template <typename Member, typename Us, typename Fraction>
-struct Instant {
-  const char* name;
-  Member member;
-  Us us;
-  Fraction fraction;
-
-  template <typename Wire, typename Place, typename Message>
-  Reject read(const Wire& wire, Place place, Message& message) const {
-    constexpr Real kPartOfMicrosecond{0.0, 0x1.fffffffffffffp-1};  // below 1
-    WorldTime& time = at(message, member);
-    time = {cell(wire, us, place), cell(wire, fraction, place)};
-    const Reject reject = kWhole(time.us);
-    return reject == Reject::None ? kPartOfMicrosecond(time.fraction) : reject;
-  }
-  template <typename Message, typename Place, typename Wire>
-  void write(const Message& message, Place place, Wire& wire) const {
-    cell(wire, us, place) = at(message, member).us;
-    cell(wire, fraction, place) = at(message, member).fraction;
-  }
-  template <typename Wire>
-  void resize(std::size_t rows, Wire& wire) const {
-    (wire.*us).resize(rows);
-    (wire.*fraction).resize(rows);
-  }
-};
-template <typename Member, typename Us, typename Fraction>
-constexpr Instant<Member, Us, Fraction> instant(const char* name, Member member, Us us,
-                                                Fraction fraction) {
-  return {name, member, us, fraction};
-}
-
 // Events.
 
-inline constexpr auto kEvents = std::make_tuple(
-    field("timeline", &EventsMessage::timeline, &events_t::timeline, kWhole),
-    field("sequence", &EventsMessage::sequence, &events_t::sequence, kWhole),
-    field("more", &EventsMessage::hasMore, &events_t::more, kFlag),
+inline constexpr auto kEvents =
+    std::make_tuple(field(&EventsMessage::timeline, &events_t::timeline, kWhole),
+                    field(&EventsMessage::sequence, &events_t::sequence, kWhole),
+                    field(&EventsMessage::hasMore, &events_t::more, kFlag));
+inline constexpr auto kEventsOptions = std::make_tuple(
     field("tolerance", &EventsMessage::tolerance, &events_t::tolerance, kNotNegative));
 inline constexpr auto kEventsWindow =
     std::make_tuple(field("window_from", &EventsMessage::fromUs, &events_t::window_from, kWhole),
@@ -59,18 +27,16 @@ inline constexpr auto kEventsStamps =
     stamps("world_us", &EventsMessage::worldUs, &events_t::world_us);
 
 inline constexpr auto kToldBody = std::make_tuple(
-    field("", &ToldBody::body, &events_t::bodies, indexFrom(0)),
+    field(&ToldBody::body, &events_t::bodies, indexFrom(0)),
     field("known_until", &ToldBody::knownUntilUs, &events_t::known_until, Whole{-1}),
     field("waiting", &ToldBody::isWaitedFor, &events_t::waiting, kFlag));
 
 inline constexpr auto kUnknownPart = std::make_tuple(
-    field("body", &UnknownPart::body, &events_t::unknown_bodies, indexFrom(kEveryBody)),
-    field("link", &UnknownPart::link, &events_t::unknown_links,
-          indexFrom(kEveryLink, kMaxJoints - 1)),
-    field("reason", &UnknownPart::reason, &events_t::unknown_reasons,
-          Whole{1, kNumUndecidedReasons - 1}),
-    field("from", &UnknownPart::fromUs, &events_t::unknown_from, kWhole),
-    field("to", &UnknownPart::toUs, &events_t::unknown_to, kWhole));
+    field(&UnknownPart::body, &events_t::unknown_bodies, indexFrom(kEveryBody)),
+    field(&UnknownPart::link, &events_t::unknown_links, indexFrom(kEveryLink, kMaxJoints - 1)),
+    field(&UnknownPart::reason, &events_t::unknown_reasons, Whole{1, kNumUndecidedReasons - 1}),
+    field(&UnknownPart::fromUs, &events_t::unknown_from, kWhole),
+    field(&UnknownPart::toUs, &events_t::unknown_to, kWhole));
 
 template <typename Member>
 constexpr auto ofEvent(Member member) {
@@ -87,9 +53,18 @@ constexpr auto sideFields(ContactSide WorldEvent::*side, Numbers body, Numbers l
       field("triangle", in(of, &ContactSide::triangle), triangle, indexFrom(-1)),
       field("point", in(of, &ContactSide::p_W), x, y, z, kFinite));
 }
-inline constexpr auto kEventTime = std::make_tuple(
-    field("kind", ofEvent(&WorldEvent::kind), &events_t::kinds, codeBelow(kNumEventKinds)),
-    instant("time", ofEvent(&WorldEvent::time), &events_t::utime, &events_t::fraction));
+inline constexpr auto kEventKind = std::make_tuple(
+    field("kind", ofEvent(&WorldEvent::kind), &events_t::kinds, codeBelow(kNumEventKinds)));
+inline constexpr auto kEventObject = std::make_tuple(
+    field("object", ofEvent(&WorldEvent::object), &events_t::object, indexFrom(-1)));
+inline constexpr Real kPartOfMicrosecond{0.0, 0x1.fffffffffffffp-1};  // below 1
+inline constexpr auto kEventTimes = std::make_tuple(
+    field(in(ofEvent(&WorldEvent::time), &WorldTime::us), &events_t::utime, kWhole),
+    field(in(ofEvent(&WorldEvent::time), &WorldTime::fraction), &events_t::fraction,
+          kPartOfMicrosecond),
+    field(in(ofEvent(&WorldEvent::since), &WorldTime::us), &events_t::since_utime, kWhole),
+    field(in(ofEvent(&WorldEvent::since), &WorldTime::fraction), &events_t::since_fraction,
+          kPartOfMicrosecond));
 inline constexpr auto kEventA = sideFields(
     &WorldEvent::a, &events_t::body_a, &events_t::link_a, &events_t::lss_a, &events_t::triangle_a,
     &events_t::point_a_x, &events_t::point_a_y, &events_t::point_a_z);
@@ -97,9 +72,6 @@ inline constexpr auto kEventB = sideFields(
     &WorldEvent::b, &events_t::body_b, &events_t::link_b, &events_t::lss_b, &events_t::triangle_b,
     &events_t::point_b_x, &events_t::point_b_y, &events_t::point_b_z);
 inline constexpr auto kEvent = std::make_tuple(
-    field("object", ofEvent(&WorldEvent::object), &events_t::object, indexFrom(-1)),
-    instant("since", ofEvent(&WorldEvent::since), &events_t::since_utime,
-            &events_t::since_fraction),
     field("cause", &ToldEvent::cause, &events_t::causes, codeBelow(kNumToldCauses)),
     field("reason", ofEvent(&WorldEvent::reason), &events_t::reasons,
           codeBelow(kNumUndecidedReasons)),
@@ -120,19 +92,20 @@ inline constexpr auto kEvent = std::make_tuple(
     field("points", ofEvent(&WorldEvent::numPoints), &events_t::numbers_of_points,
           Whole{0, WorldEvent::kMostPoints, Reject::Limit}));
 
-inline constexpr auto kEventPoint = std::make_tuple(
-    field("a", &EventPoint::p_WA, &events_t::near_a_x, &events_t::near_a_y, &events_t::near_a_z,
-          kFinite),
-    field("b", &EventPoint::p_WB, &events_t::near_b_x, &events_t::near_b_y, &events_t::near_b_z,
-          kFinite),
-    field("separation", &EventPoint::separation, &events_t::near_separation, kFinite));
+inline constexpr auto kEventPoint =
+    std::make_tuple(field(&EventPoint::p_WA, &events_t::near_a_x, &events_t::near_a_y,
+                          &events_t::near_a_z, kFinite),
+                    field(&EventPoint::p_WB, &events_t::near_b_x, &events_t::near_b_y,
+                          &events_t::near_b_z, kFinite),
+                    field(&EventPoint::separation, &events_t::near_separation, kFinite));
 
 // Pushes.
 
-inline constexpr auto kPushesKey = poseKey<PushesMessage, pushes_t>(indexFrom(0));
+inline constexpr auto kPushesKey = std::tuple_cat(
+    poseKey<PushesMessage, pushes_t>(indexFrom(0)),
+    std::make_tuple(field("step_us", &PushesMessage::stepUs, &pushes_t::step_us, kWhole)));
 inline constexpr auto kPushes =
-    std::make_tuple(field("step_us", &PushesMessage::stepUs, &pushes_t::step_us, kWhole),
-                    field("timeline", &PushesMessage::timeline, &pushes_t::timeline, kWhole),
+    std::make_tuple(field("timeline", &PushesMessage::timeline, &pushes_t::timeline, kWhole),
                     sparse("assumed", &PushesMessage::isAssumed, &pushes_t::assumed, kFlag));
 inline constexpr auto kPushesLeftOut = std::make_tuple(sparse(
     "contacts_left_out", &PushesMessage::contactsLeftOut, &pushes_t::contacts_left_out, kWhole));
@@ -147,7 +120,7 @@ inline constexpr auto kPush =
                    pushFields<pushes_t, SolidBodyContact>(&ToldPush::contact));
 inline constexpr auto kCrush = std::make_tuple(
     field("body", in(&ToldCrush::crush, &SolidCrush::body), &pushes_t::crushers, kAny),
-    field("", in(&ToldCrush::crush, &SolidCrush::link), &pushes_t::crushed_links, kAny),
+    field(in(&ToldCrush::crush, &SolidCrush::link), &pushes_t::crushed_links, kAny),
     field("link", &ToldCrush::linkName, &pushes_t::crushed_names, kJointName),
     field("since", in(&ToldCrush::crush, &SolidCrush::sinceUs), &pushes_t::crushed_since, kWhole),
     sparse("over", in(&ToldCrush::crush, &SolidCrush::isOver), &pushes_t::over, kFlag),
