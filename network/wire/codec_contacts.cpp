@@ -56,10 +56,9 @@ Reject readVerdicts(const contacts_t& wire, std::vector<Verdict>& verdicts, std:
 }
 
 /// An undecided link has no contact to describe: what a contact has is 0, -1 or "".
-AnsweredContact bare(const AnsweredContact& answered) {
-  const LinkContact& contact = answered.contact;
-  AnsweredContact row{
-      undecidedContact(contact.link, contact.freeUntil, contact.reason), answered.linkName, {}};
+AnsweredContact bare(const LinkContact& contact) {
+  AnsweredContact row;
+  row.contact = undecidedContact(contact.link, contact.freeUntil, contact.reason);
   row.contact.linkFeature = row.contact.sceneFeature = FeatureKind{};
   return row;
 }
@@ -72,7 +71,7 @@ Reject settle(AnsweredContact& answered) {
   contact.toi = contact.freeUntil;
   contact.lss = -1;  // does not travel
   if (!isUndecided) return Reject::None;
-  const bool isBare = wire::areSame(answered, bare(answered), wire::kContact);
+  const bool isBare = wire::areSame(answered, bare(contact), wire::kContact);
   contact.linkFeature = LinkContact{}.linkFeature;
   contact.sceneFeature = LinkContact{}.sceneFeature;
   return isBare ? Reject::None : Reject::OutOfRange;
@@ -123,8 +122,9 @@ void encode(const ContactsMessage& message, Bytes& payload) {
   wire::resize(message.contacts.size(), kContact, &contacts_t::num_contacts, wire);
   for (std::size_t i = 0; i < message.contacts.size(); ++i) {
     const AnsweredContact& answered = message.contacts[i];
-    const bool isUndecided = answered.contact.verdict == Verdict::Undecided;
-    wire::write(isUndecided ? bare(answered) : answered, kContact, wire, i);
+    wire::write(answered, kContact, wire, i);
+    if (answered.contact.verdict != Verdict::Undecided) continue;
+    wire::write(bare(answered.contact), wire::kContact, wire, i);
   }
   toBytes(PayloadType::Contacts, wire, payload);
 }
