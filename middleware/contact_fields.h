@@ -1,6 +1,6 @@
 // middleware/contact_fields.h: the fields of a contact, in one list. Code that writes contacts as
-// JSON takes their names and order from here. Tests compare the C struct, the Python class, the
-// wire message, the page's decoder and the tables in docs with it.
+// JSON takes their names and order from here, and the Python class its properties. Tests compare
+// the C struct, that class's stub, the wire message, the page's decoder and the tables in docs.
 #pragma once
 
 #include <array>
@@ -34,43 +34,43 @@ struct ContactField {
   const char* onWire;
   ContactMember member;
   ContactFieldUse use;
-  const char* unit;  ///< "1" if it has none.
-  const char* meaning;
+  const char* unit;     ///< "1" if it has none.
+  const char* meaning;  ///< A sentence, which Python shows.
 };
 
 /// In the order of JSON. `object` is the name of the triangle's object in the scene.
 inline constexpr std::array<ContactField, 16> kContactFields{{
     {"link", "link", "links", &LinkContact::link, ContactFieldUse::Every, "1",
-     "the link that is told of"},
+     "The link that is told of."},
     {"verdict", "verdict", "verdicts", &LinkContact::verdict, ContactFieldUse::Every, "1",
-     "what is known of its motion"},
+     "What is known of its motion."},
     {"free_until", "free_until", "free_until", &LinkContact::freeUntil, ContactFieldUse::Undecided,
-     "1", "nothing is touched before this t"},
+     "1", "Nothing is touched before this t; 1 where the link is clear."},
     {"reason", "reason", "reasons", &LinkContact::reason, ContactFieldUse::Undecided, "1",
-     "why nothing is known after it"},
+     "Why it is undecided: 'work-budget', 'resolution' or 'after-first'."},
     {"toi", "toi", "", &LinkContact::toi, ContactFieldUse::Touching, "1",
-     "time of impact, never late"},
+     "Time of impact in [0, 1], never late."},
     {"separation", "separation", "separation", &LinkContact::separation, ContactFieldUse::Touching,
-     "m", "at toi"},
+     "m", "At toi, at most the tolerance."},
     {"penetration", "penetration", "penetration", &LinkContact::penetration,
-     ContactFieldUse::StartsInContact, "m", "how deep it begins"},
+     ContactFieldUse::StartsInContact, "m", "How deep it starts; not known of triangles."},
     {"point", "point_scene", "point", &LinkContact::p_WScene, ContactFieldUse::Touching, "m",
-     "witness point on the scene, in the world"},
+     "Witness point on the scene, in the world."},
     {"on_link", "point_link", "on_link", &LinkContact::p_WLink, ContactFieldUse::Touching, "m",
-     "witness point on the link's surface, in the world"},
+     "Witness point on the link's surface, in the world."},
     {"normal", "normal", "normal", &LinkContact::nhat_SL_W, ContactFieldUse::Touching, "1",
-     "unit, from the scene to the link, in the world"},
+     "Unit, from the scene to the link, in the world."},
     {"triangle", "triangle", "triangles", &LinkContact::triangle, ContactFieldUse::Touching, "1",
-     "of the scene"},
+     "Of the scene."},
     {"object", "object", "objects", &LinkContact::triangle, ContactFieldUse::Touching, "1",
-     "the triangle's object"},
-    {"lss", "lss", "", &LinkContact::lss, ContactFieldUse::Never, "1", "which of the link's LSS"},
+     "The triangle's object."},
+    {"lss", "lss", "", &LinkContact::lss, ContactFieldUse::Never, "1", "Which of the link's LSS."},
     {"link_triangle", "link_triangle", "link_triangles", &LinkContact::linkTriangle,
-     ContactFieldUse::Exact, "1", "which of the link's triangles"},
+     ContactFieldUse::Exact, "1", "At exact fidelity: which of the link's triangles."},
     {"link_feature", "link_feature", "link_features", &LinkContact::linkFeature,
-     ContactFieldUse::Exact, "1", "what of it holds the witness point"},
+     ContactFieldUse::Exact, "1", "At exact fidelity: 'vertex', 'edge' or 'face'."},
     {"scene_feature", "scene_feature", "scene_features", &LinkContact::sceneFeature,
-     ContactFieldUse::Exact, "1", "the same of the scene's triangle"},
+     ContactFieldUse::Exact, "1", "The same of the scene's triangle."},
 }};
 
 /// Whether a format writes a field of this use for `contact`.

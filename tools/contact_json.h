@@ -31,15 +31,4 @@ inline void writePenetration(double penetration, JsonWriter& out) {
   penetration > 0.0 ? out.value(penetration) : out.null();
 }
 
-/// Where and how hard a solid body is pushed, into an open object: of SolidContact, where what it
-/// meets stands still, and of SolidBodyContact, where that moves.
-template <typename Push>
-void writePush(const Push& push, JsonWriter& out) {
-  out.field("point", push.p_W);
-  out.field("normal", push.nhat_W);
-  out.field("gap", push.gap);
-  out.field("push", push.push);
-  out.field("slip", push.slipSpeed);
-}
-
 }  // namespace foretouch::tools

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
-#include "tools/contact_json.h"
+#include "network/wire/message_fields.h"
+#include "tools/fields_json.h"
+#include "tools/json_line.h"
 
 namespace foretouch::tools {
 namespace {
@@ -28,27 +30,16 @@ void writePose(const Pose& pose, JsonWriter& out) {
 }
 
 void writeCounters(const SolidCounters& counters, JsonWriter& out) {
-  out.key("counters");
-  out.beginObject();
-  out.field("queries", counters.queries);
-  out.field("iterations", counters.iterations);
-  out.field("features", counters.features);
-  out.field("rows", counters.rows);
-  out.field("around_queries", counters.aroundQueries);
-  out.field("placing_queries", counters.placingQueries);
-  out.field("work", counters.work);
-  out.endObject();
+  writeObject("counters", out,
+              [&] { writeFields(counters, out, wire::solidCounters(wire::Self{})); });
 }
 
 void writeSolidContact(const SolidContact& contact, std::string_view link, std::string_view touched,
                        JsonWriter& out) {
-  out.beginObject();
   out.rawField("link", link);
   out.field("lss", contact.lss);
   out.rawField(contact.triangle >= 0 ? "object" : "other", touched);
-  if (contact.triangle >= 0) out.field("triangle", contact.triangle);
-  writePush(contact, out);
-  out.endObject();
+  writeFields(contact, out, wire::pushFields<solid_t, SolidContact>(wire::Self{}));
 }
 
 }  // namespace foretouch::tools

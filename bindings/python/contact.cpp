@@ -1,12 +1,14 @@
 // bindings/python/contact.cpp: foretouch.Contact and Verdict.
 #include <array>
 #include <cstdio>
-#include <type_traits>
+#include <string_view>
+#include <variant>
 
 #include "bindings/python/answers.h"
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
 #include "bindings/python/int_enum.h"
+#include "middleware/contact_fields.h"
 #include "middleware/exact/feature.h"
 
 namespace foretouch::python {
@@ -16,38 +18,12 @@ using Eigen::Vector3d;
 
 PyObject* verdictType = nullptr;  // borrowed from the module
 
-py::object verdictOf(const LinkContact& contact) {
-  return memberOf(verdictType, contact.verdict);
-}
-
 const foretouch::PairContact& pairOf(const PairContact& contact) {
   return contact.answers->pairs[contact.place];
 }
 
-/// A property that only a contact has; None for clear or undecided links.
-template <typename Read>
-auto ofTouch(const Read& read) {
-  return [read](const Contact& contact) -> py::object {
-    const LinkContact& c = contactOf(contact);
-    if (!isTouching(c)) return py::none();
-    auto value = read(contact, c);
-    if constexpr (std::is_base_of_v<py::object, decltype(value)>) {
-      return value;
-    } else {
-      return py::cast(value);
-    }
-  };
-}
-
-auto pointOf(Vector3d LinkContact::*field) {
-  return ofTouch(
-      [field](const Contact&, const LinkContact& c) { return Numbers(3, (c.*field).data()); });
-}
-
-py::object featureOf(const Contact& contact, FeatureKind LinkContact::*field) {
-  const LinkContact& c = contactOf(contact);
-  if (c.linkTriangle < 0) return py::none();
-  return py::str(toString(c.*field));
+py::str linkNameOf(const Contact& contact) {
+  return nameOf(*contact.answers->avatar, contactOf(contact).link);
 }
 
 /// What the link touches: an object of the scene, or another link.
@@ -61,19 +37,16 @@ const std::string& metBy(const Contact& contact, const LinkContact& c) {
 }
 
 /// None for another link.
-py::object objectOf(const Contact& contact, const LinkContact& c) {
-  if (contact.isOfPair()) return py::none();
+py::object objectOf(const Contact& contact) {
+  const LinkContact& c = contactOf(contact);
+  if (!isTouching(c) || contact.isOfPair()) return py::none();
   return readable(metBy(contact, c));
 }
 
-py::object objectIdOf(const Contact& contact, const LinkContact& c) {
-  if (contact.isOfPair()) return py::none();
+py::object objectIdOf(const Contact& contact) {
+  const LinkContact& c = contactOf(contact);
+  if (!isTouching(c) || contact.isOfPair()) return py::none();
   return py::int_(contact.answers->scene->object(c.triangle));
-}
-
-py::object triangleOf(const Contact&, const LinkContact& c) {
-  if (c.triangle < 0) return py::none();  // of a link's LSS
-  return py::int_(c.triangle);
 }
 
 /// Triangles have no inside.
@@ -81,9 +54,55 @@ bool startsAtUnknownDepth(const LinkContact& contact) {
   return contact.verdict == Verdict::StartsInContact && !(contact.penetration > 0.0);
 }
 
-py::object penetrationOf(const Contact&, const LinkContact& c) {
-  if (startsAtUnknownDepth(c)) return py::none();
+py::object penetrationOf(const Contact& contact) {
+  const LinkContact& c = contactOf(contact);
+  if (!isTouching(c) || startsAtUnknownDepth(c)) return py::none();
   return py::float_(c.penetration);
+}
+
+// Of a member whose meaning is its type alone; None for what only a contact has where the link is
+// clear or undecided.
+
+py::object valueOf(const LinkContact& c, std::int32_t LinkContact::*member) {
+  if (!isTouching(c) || c.*member < 0) return py::none();
+  return py::int_(c.*member);
+}
+
+py::object valueOf(const LinkContact& c, double LinkContact::*member) {
+  if (member != &LinkContact::freeUntil && !isTouching(c)) return py::none();
+  return py::float_(c.*member);
+}
+
+py::object valueOf(const LinkContact& c, Vector3d LinkContact::*member) {
+  if (!isTouching(c)) return py::none();
+  return Numbers(3, (c.*member).data());
+}
+
+py::object valueOf(const LinkContact& c, Verdict LinkContact::*member) {
+  return memberOf(verdictType, c.*member);
+}
+
+py::object valueOf(const LinkContact& c, UndecidedReason LinkContact::*member) {
+  if (c.*member == UndecidedReason::None) return py::none();
+  return py::str(toString(c.*member));
+}
+
+py::object valueOf(const LinkContact& c, FeatureKind LinkContact::*member) {
+  if (c.linkTriangle < 0) return py::none();
+  return py::str(toString(c.*member));
+}
+
+/// A property of foretouch.Contact.
+py::cpp_function readerOf(const ContactField& field) {
+  const std::string_view name = field.name;
+  if (name == "link") return &linkNameOf;
+  if (name == "object") return &objectOf;
+  if (name == "penetration") return &penetrationOf;
+  return std::visit(
+      [](auto member) -> py::cpp_function {
+        return [member](const Contact& contact) { return valueOf(contactOf(contact), member); };
+      },
+      field.member);
 }
 
 /// Both links, where they are named.
@@ -97,10 +116,6 @@ std::string subjectOf(const Contact& contact, const LinkContact& c) {
 /// ", triangle 7>" of the scene.
 std::string endOf(const Contact& contact, const LinkContact& c) {
   return contact.isOfPair() ? ">" : ", triangle " + std::to_string(c.triangle) + ">";
-}
-
-py::str linkNameOf(const Contact& contact) {
-  return nameOf(*contact.answers->avatar, contactOf(contact).link);
 }
 
 }  // namespace
@@ -139,59 +154,15 @@ std::string textOf(const Contact& contact) {
 }
 
 void bindContact(py::module_& module) {
-  const auto field = [](auto member) {
-    return [member](const Contact& contact) { return contactOf(contact).*member; };
-  };
-  py::class_<Contact>(module, "Contact",
-                      "What one link meets first in one step. What only a contact has is None\n"
-                      "where the link is clear or undecided. Metres, world frame.")
-      .def_property_readonly("link", &linkNameOf, "The link's name.")
-      .def_property_readonly("link_id", field(&LinkContact::link))
-      .def_property_readonly("verdict", [](const Contact& c) { return verdictOf(contactOf(c)); })
-      .def_property_readonly(
-          "reason",
-          [](const Contact& contact) -> py::object {
-            const LinkContact& c = contactOf(contact);
-            if (c.reason == UndecidedReason::None) return py::none();
-            return py::str(toString(c.reason));
-          },
-          "Why it is undecided: 'work-budget', 'resolution' or 'after-first'.")
-      .def_property_readonly("toi",
-                             ofTouch([](const Contact&, const LinkContact& c) { return c.toi; }),
-                             "Time of impact in [0, 1], never late.")
-      .def_property_readonly("free_until", field(&LinkContact::freeUntil),
-                             "Nothing is touched before; 1 where the link is clear.")
-      .def_property_readonly(
-          "separation", ofTouch([](const Contact&, const LinkContact& c) { return c.separation; }),
-          "At toi, at most the tolerance.")
-      .def_property_readonly("penetration", ofTouch(&penetrationOf),
-                             "How deep it starts; None if that is not known, as of triangles.")
-      .def_property_readonly("point", pointOf(&LinkContact::p_WScene), "(3,), on the scene.")
-      .def_property_readonly("on_link", pointOf(&LinkContact::p_WLink), "(3,), on the link.")
-      .def_property_readonly("normal", pointOf(&LinkContact::nhat_SL_W),
-                             "(3,), unit, from the scene to the link.")
-      .def_property_readonly("triangle", ofTouch(&triangleOf))
-      .def_property_readonly("object", ofTouch(&objectOf), "The name of the triangle's object.")
-      .def_property_readonly("object_id", ofTouch(&objectIdOf))
-      .def_property_readonly("lss",
-                             ofTouch([](const Contact&, const LinkContact& c) { return c.lss; }),
-                             "Which of the link's LSS.")
-      .def_property_readonly(
-          "link_triangle",
-          [](const Contact& contact) -> py::object {
-            const LinkContact& c = contactOf(contact);
-            if (c.linkTriangle < 0) return py::none();
-            return py::int_(c.linkTriangle);
-          },
-          "At exact fidelity: which of the link's triangles.")
-      .def_property_readonly(
-          "link_feature",
-          [](const Contact& contact) { return featureOf(contact, &LinkContact::linkFeature); },
-          "At exact fidelity: 'vertex', 'edge' or 'face'.")
-      .def_property_readonly(
-          "scene_feature",
-          [](const Contact& contact) { return featureOf(contact, &LinkContact::sceneFeature); },
-          "The same of the scene's triangle.")
+  py::class_<Contact> type(
+      module, "Contact",
+      "What one link meets first in one step. What only a contact has is None\n"
+      "where the link is clear or undecided. Metres, world frame.");
+  for (const ContactField& field : kContactFields) {
+    type.def_property_readonly(field.name, readerOf(field), field.meaning);
+  }
+  type.def_property_readonly("link_id", [](const Contact& c) { return contactOf(c).link; })
+      .def_property_readonly("object_id", &objectIdOf)
       .def("details", &detailsOf,
            "ContactDetails: how fast the two sides approach, and where else they are near. It "
            "looks\n"

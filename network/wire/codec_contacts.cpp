@@ -1,13 +1,12 @@
 #include <bitset>
 #include <cstddef>
-#include <foretouch/contacts_t.hpp>
 #include <optional>
 #include <tuple>
 
 #include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
-#include "network/wire/wire_fields.h"
+#include "network/wire/message_fields.h"
 
 namespace foretouch {
 namespace {
@@ -20,52 +19,11 @@ static_assert(static_cast<int>(StepKind::Consecutive) == contacts_t::CONSECUTIVE
 static_assert(static_cast<int>(StepKind::First) == contacts_t::FIRST);
 static_assert(static_cast<int>(StepKind::AcrossGap) == contacts_t::ACROSS_GAP);
 constexpr auto kLastVerdict = static_cast<std::uint8_t>(Verdict::Undecided);
-constexpr int kNumFeatures = static_cast<int>(FeatureKind::Face) + 1;
 
-using wire::field;
-using wire::in;
-
-constexpr auto kContactsHead = std::make_tuple(
-    field(&ContactsMessage::avatar, &contacts_t::avatar, wire::kAny),
-    field(&ContactsMessage::session, &contacts_t::session, wire::kWhole),
-    field(&ContactsMessage::sequenceFrom, &contacts_t::sequence_from, wire::kWhole),
-    field(&ContactsMessage::sequenceTo, &contacts_t::sequence_to, wire::kWhole),
-    field(&ContactsMessage::utimeFromUs, &contacts_t::utime_from, wire::kWhole),
-    field(&ContactsMessage::utimeToUs, &contacts_t::utime_to, wire::kWhole),
-    field(&ContactsMessage::skeletonHash, &contacts_t::skeleton_hash, wire::kAny),
-    field(&ContactsMessage::kind, &contacts_t::kind, wire::codeBelow(kNumStepKinds)),
-    field(&ContactsMessage::lost, &contacts_t::lost, wire::kWhole),
-    field(&ContactsMessage::tolerance, &contacts_t::tolerance, wire::kNotNegative),
-    field(&ContactsMessage::workBudget, &contacts_t::work_budget, wire::kWhole),
-    field(&ContactsMessage::receiveUtimeUs, &contacts_t::receive_utime, wire::kWhole),
-    field(&ContactsMessage::sendUtimeUs, &contacts_t::send_utime, wire::kWhole),
-    field(&ContactsMessage::queryUs, &contacts_t::query_us, wire::kNotNegative));
-
-template <typename Member>
-constexpr auto ofContact(Member member) {
-  return in(&AnsweredContact::contact, member);
-}
-constexpr auto kContact = std::make_tuple(
-    field(ofContact(&LinkContact::link), &contacts_t::links, wire::indexFrom(0)),
-    field(&AnsweredContact::linkName, &contacts_t::link_names, wire::kJointName),
-    field(ofContact(&LinkContact::reason), &contacts_t::reasons,
-          wire::codeBelow(kNumUndecidedReasons)),
-    field(ofContact(&LinkContact::freeUntil), &contacts_t::free_until, wire::kFraction),
-    field(ofContact(&LinkContact::separation), &contacts_t::separation, wire::kNotNegative),
-    field(ofContact(&LinkContact::penetration), &contacts_t::penetration, wire::kNotNegative),
-    field(ofContact(&LinkContact::p_WScene), &contacts_t::point_x, &contacts_t::point_y,
-          &contacts_t::point_z, wire::kFinite),
-    field(ofContact(&LinkContact::p_WLink), &contacts_t::on_link_x, &contacts_t::on_link_y,
-          &contacts_t::on_link_z, wire::kFinite),
-    field(ofContact(&LinkContact::nhat_SL_W), &contacts_t::normal_x, &contacts_t::normal_y,
-          &contacts_t::normal_z, wire::kFinite),
-    field(ofContact(&LinkContact::triangle), &contacts_t::triangles, wire::Whole{-1}),
-    field(&AnsweredContact::objectName, &contacts_t::objects, wire::kAny),
-    field(ofContact(&LinkContact::linkTriangle), &contacts_t::link_triangles, wire::Whole{-1}),
-    field(ofContact(&LinkContact::linkFeature), &contacts_t::link_features,
-          wire::codeBelow(kNumFeatures)),
-    field(ofContact(&LinkContact::sceneFeature), &contacts_t::scene_features,
-          wire::codeBelow(kNumFeatures)));
+constexpr auto kContacts =
+    std::tuple_cat(wire::kContactsKey, wire::kContactsStep, wire::kContactsTolerance,
+                   wire::kContactsOptions, wire::kContactsStamps);
+constexpr auto kContact = std::tuple_cat(wire::kContactLink, wire::kContact);
 
 std::optional<Fidelity> fidelityOf(const std::string& word) {
   for (const Fidelity fidelity : {Fidelity::Link, Fidelity::Exact, Fidelity::Skinned}) {
@@ -75,7 +33,7 @@ std::optional<Fidelity> fidelityOf(const std::string& word) {
 }
 
 Reject readHead(const contacts_t& wire, ContactsMessage& message) {
-  const Reject reject = wire::read(wire, kContactsHead, message);
+  const Reject reject = wire::read(wire, kContacts, message);
   const auto fidelity = fidelityOf(wire.fidelity);
   if (reject != Reject::None) return reject;
   if (wire.sequence_from > wire.sequence_to || wire.utime_from > wire.utime_to || !fidelity) {
@@ -97,31 +55,23 @@ Reject readVerdicts(const contacts_t& wire, std::vector<Verdict>& verdicts, std:
   return Reject::None;
 }
 
-/// +0.0, which stands in for a number without meaning.
-bool isNothing(double number) {
-  return number == 0.0 && !std::signbit(number);
-}
-
-bool isNothing(const Eigen::Vector3d& vector) {
-  return isNothing(vector.x()) && isNothing(vector.y()) && isNothing(vector.z());
-}
-
-/// An undecided link has no contact to describe.
-bool describesNothing(const contacts_t& wire, std::size_t i, const LinkContact& contact) {
-  return isNothing(contact.separation) && isNothing(contact.penetration) &&
-         isNothing(contact.p_WScene) && isNothing(contact.p_WLink) &&
-         isNothing(contact.nhat_SL_W) && contact.triangle == -1 && wire.objects[i].empty() &&
-         contact.linkTriangle == -1 && wire.link_features[i] == 0 && wire.scene_features[i] == 0;
+/// An undecided link has no contact to describe: what a contact has is 0, -1 or "".
+AnsweredContact bare(const LinkContact& contact) {
+  AnsweredContact row;
+  row.contact = undecidedContact(contact.link, contact.freeUntil, contact.reason);
+  row.contact.linkFeature = row.contact.sceneFeature = FeatureKind{};
+  return row;
 }
 
 /// What the row itself does not say; and what may not be said of an undecided link.
-Reject settle(const contacts_t& wire, std::size_t i, LinkContact& contact) {
+Reject settle(AnsweredContact& answered) {
+  LinkContact& contact = answered.contact;
   const bool isUndecided = contact.verdict == Verdict::Undecided;
   if ((contact.reason != UndecidedReason::None) != isUndecided) return Reject::OutOfRange;
   contact.toi = contact.freeUntil;
   contact.lss = -1;  // does not travel
   if (!isUndecided) return Reject::None;
-  const bool isBare = describesNothing(wire, i, contact);
+  const bool isBare = wire::areSame(answered, bare(contact), wire::kContact);
   contact.linkFeature = LinkContact{}.linkFeature;
   contact.sceneFeature = LinkContact{}.sceneFeature;
   return isBare ? Reject::None : Reject::OutOfRange;
@@ -133,31 +83,18 @@ Reject readContacts(const contacts_t& wire, ContactsMessage& message) {
   Reject reject = readVerdicts(wire, message.verdicts, notClear);
   if (reject != Reject::None) return reject;
   std::bitset<static_cast<std::size_t>(kMaxListed)> listed;
-  const auto settleRow = [&](AnsweredContact& answered, std::size_t i) {
+  const auto settleRow = [&](AnsweredContact& answered, std::size_t) {
     LinkContact& contact = answered.contact;
     if (contact.link >= wire.num_links) return Reject::BadIndex;
     const auto place = slotOf(contact.link);
     contact.verdict = message.verdicts[place];
     if (listed[place] || contact.verdict == Verdict::Clear) return Reject::BadIndex;
     listed.set(place);
-    return settle(wire, i, contact);
+    return settle(answered);
   };
   reject = wire::readRows(wire, kContact, &contacts_t::num_contacts, message.contacts, settleRow);
   if (reject != Reject::None) return reject;
   return message.contacts.size() == notClear ? Reject::None : Reject::BadIndex;
-}
-
-/// Without a contact, its fields are 0, -1 or "".
-AnsweredContact bare(const AnsweredContact& answered) {
-  AnsweredContact row{{}, answered.linkName, {}};
-  row.contact.link = answered.contact.link;
-  row.contact.reason = answered.contact.reason;
-  row.contact.freeUntil = answered.contact.freeUntil;
-  row.contact.separation = row.contact.penetration = 0.0;
-  row.contact.p_WScene = row.contact.p_WLink = row.contact.nhat_SL_W = Eigen::Vector3d::Zero();
-  row.contact.triangle = row.contact.linkTriangle = -1;
-  row.contact.linkFeature = row.contact.sceneFeature = FeatureKind{};
-  return row;
 }
 
 /// Of receive_utime, send_utime and query_us; in a solid_t solid_us.
@@ -175,7 +112,7 @@ Reject decode(ByteView payload, ContactsMessage& message) {
 
 void encode(const ContactsMessage& message, Bytes& payload) {
   auto& wire = wire::scratch<contacts_t>();
-  wire::write(message, kContactsHead, wire);
+  wire::write(message, kContacts, wire);
   wire.fidelity = toString(message.fidelity);
   wire.num_links = static_cast<std::int32_t>(message.verdicts.size());
   wire.verdicts.resize(message.verdicts.size());
@@ -185,8 +122,9 @@ void encode(const ContactsMessage& message, Bytes& payload) {
   wire::resize(message.contacts.size(), kContact, &contacts_t::num_contacts, wire);
   for (std::size_t i = 0; i < message.contacts.size(); ++i) {
     const AnsweredContact& answered = message.contacts[i];
-    const bool isUndecided = answered.contact.verdict == Verdict::Undecided;
-    wire::write(isUndecided ? bare(answered) : answered, kContact, wire, i);
+    wire::write(answered, kContact, wire, i);
+    if (answered.contact.verdict != Verdict::Undecided) continue;
+    wire::write(bare(answered.contact), wire::kContact, wire, i);
   }
   toBytes(PayloadType::Contacts, wire, payload);
 }

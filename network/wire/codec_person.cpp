@@ -1,11 +1,10 @@
 #include <cstddef>
-#include <foretouch/person_t.hpp>
 #include <tuple>
 
 #include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
-#include "network/wire/wire_fields.h"
+#include "network/wire/message_fields.h"
 
 namespace foretouch {
 namespace {
@@ -24,52 +23,11 @@ static_assert(kMaxPersonBrackets * (kMaxNameBytes + kMaxTextBytes + 2 * 5 + 3 * 
                   kMaxListed * (1 + 8 + 4 + 1 + 8) + 1024 <=
               kMaxMessageBytes);
 
-using wire::field;
-using wire::in;
-
-constexpr auto kPersonHead = std::make_tuple(
-    field(&PersonMessage::avatar, &person_t::avatar, wire::kAny),
-    field(&PersonMessage::session, &person_t::session, wire::kWhole),
-    field(&PersonMessage::sequence, &person_t::sequence, wire::kWhole),
-    field(&PersonMessage::utimeUs, &person_t::utime, wire::kWhole),
-    field(&PersonMessage::model, &person_t::between, wire::codeBelow(person_t::CUBIC_LATE + 1)),
-    field(&PersonMessage::boundsHash, &person_t::bounds_hash, wire::kAny),
-    field(&PersonMessage::resolution, &person_t::resolution, wire::kNotNegative),
-    field(&PersonMessage::kind, &person_t::kind, wire::codeBelow(kNumStepKinds)),
-    field(&PersonMessage::sequenceFrom, &person_t::sequence_from, wire::kWhole),
-    field(&PersonMessage::sequenceTo, &person_t::sequence_to, wire::kWhole),
-    field(&PersonMessage::utimeFromUs, &person_t::utime_from, wire::kWhole),
-    field(&PersonMessage::utimeToUs, &person_t::utime_to, wire::kWhole),
-    field(&PersonMessage::aheadUs, &person_t::ahead_us, wire::kWhole),
-    field(&PersonMessage::bracketsLeftOut, &person_t::brackets_left_out, wire::kWhole),
-    field(&PersonMessage::receiveUtimeUs, &person_t::receive_utime, wire::kWhole),
-    field(&PersonMessage::sendUtimeUs, &person_t::send_utime, wire::kWhole),
-    field(&PersonMessage::personUs, &person_t::person_us, wire::kNotNegative));
-
-constexpr auto kBracket = std::make_tuple(
-    field(in(&ToldBracket::bracket, &LinkBracket::link), &person_t::links, wire::kAny),
-    field(in(&ToldBracket::bracket, &LinkBracket::other), &person_t::others, wire::kAny),
-    field(in(&ToldBracket::bracket, &LinkBracket::triangle), &person_t::triangles,
-          wire::indexFrom(-1)),
-    field(in(&ToldBracket::bracket, &LinkBracket::verdict), &person_t::claims,
-          wire::Whole{person_t::POSSIBLE, person_t::CERTAIN}),
-    field(in(&ToldBracket::bracket, &LinkBracket::possibleFrom), &person_t::possible_from,
-          wire::kFraction),
-    field(in(&ToldBracket::bracket, &LinkBracket::possibleUntil), &person_t::possible_until,
-          wire::kFraction),
-    field(in(&ToldBracket::bracket, &LinkBracket::certainFrom), &person_t::certain_from,
-          wire::kFraction),
-    field(in(&ToldBracket::bracket, &LinkBracket::certainUntil), &person_t::certain_until,
-          wire::kFraction),
-    field(in(&ToldBracket::bracket, &LinkBracket::growth), &person_t::growth, wire::kNotNegative),
-    field(&ToldBracket::linkName, &person_t::link_names, wire::kJointName),
-    field(&ToldBracket::otherName, &person_t::objects, wire::kAny));
-
-constexpr auto kBroken =
-    std::make_tuple(field(&BrokenBound::link, &person_t::broken_links, wire::indexFrom(0)),
-                    field(&BrokenBound::claim, &person_t::broken_claims,
-                          wire::codeBelow(person_t::BROKEN_AHEAD + 1)),
-                    field(&BrokenBound::beyond, &person_t::beyond, wire::kNotNegative));
+constexpr auto kPerson =
+    std::tuple_cat(wire::kPersonKey, wire::kPersonOptions, wire::kPersonStep, wire::kPersonAhead,
+                   wire::kPersonLeftOut, wire::kPersonStamps);
+constexpr auto kBracket = std::tuple_cat(wire::kBracketSides, wire::kBracketPossible,
+                                         wire::kBracketCertain, wire::kBracketGrowth);
 
 Reject checkSteps(const person_t& wire) {
   if (wire.sequence_from > wire.sequence_to || wire.utime_from > wire.utime_to) {
@@ -118,7 +76,7 @@ void writeLinks(const PersonMessage& message, person_t& wire) {
 Reject decode(ByteView payload, PersonMessage& message) {
   auto& wire = wire::scratch<person_t>();
   Reject reject = fromBytes(PayloadType::Person, payload, wire);
-  if (reject == Reject::None) reject = wire::read(wire, kPersonHead, message);
+  if (reject == Reject::None) reject = wire::read(wire, kPerson, message);
   if (reject == Reject::None) reject = checkSteps(wire);
   if (reject == Reject::None) reject = readLinks(wire, message);
   if (reject != Reject::None) return reject;
@@ -127,7 +85,7 @@ Reject decode(ByteView payload, PersonMessage& message) {
                             return checkBracket(told.bracket, wire.num_links);
                           });
   if (reject != Reject::None) return reject;
-  return wire::readRows(wire, kBroken, &person_t::num_broken, message.broken,
+  return wire::readRows(wire, wire::kBroken, &person_t::num_broken, message.broken,
                         [&](const BrokenBound& broken, std::size_t) {
                           return broken.link < wire.num_links ? Reject::None : Reject::BadIndex;
                         });
@@ -136,10 +94,10 @@ Reject decode(ByteView payload, PersonMessage& message) {
 void encode(const PersonMessage& message, Bytes& payload) {
   FORETOUCH_ASSERT(message.brackets.size() <= kMaxPersonBrackets);
   auto& wire = wire::scratch<person_t>();
-  wire::write(message, kPersonHead, wire);
+  wire::write(message, kPerson, wire);
   writeLinks(message, wire);
   wire::writeRows(message.brackets, kBracket, &person_t::num_brackets, wire);
-  wire::writeRows(message.broken, kBroken, &person_t::num_broken, wire);
+  wire::writeRows(message.broken, wire::kBroken, &person_t::num_broken, wire);
   toBytes(PayloadType::Person, wire, payload);
 }
 

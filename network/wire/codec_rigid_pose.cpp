@@ -14,7 +14,6 @@ namespace {
 static_assert(kJointValid == rigid_pose_t::VALID);
 static_assert(kJointTracked == rigid_pose_t::TRACKED);
 static_assert(kJointInferred == rigid_pose_t::INFERRED);
-constexpr int kKnownFlags = kJointValid | kJointTracked | kJointInferred;
 
 using wire::field;
 using wire::in;
@@ -27,7 +26,7 @@ constexpr auto kRigidHead =
 
 constexpr auto kBodyNumber =
     std::make_tuple(field(&BodyPose::body, &rigid_pose_t::bodies, wire::indexFrom(0)),
-                    field(&BodyPose::flags, &rigid_pose_t::flags, wire::Whole{0, kKnownFlags}));
+                    field(&BodyPose::flags, &rigid_pose_t::flags, wire::kKnownFlags));
 
 /// Meaningless unless kJointValid.
 constexpr auto kPlace =

@@ -1,36 +1,15 @@
 #include <algorithm>
 #include <cstddef>
-#include <foretouch/skeleton_t.hpp>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
-#include "network/wire/wire_fields.h"
+#include "network/wire/message_fields.h"
 
 namespace foretouch {
 namespace {
-
-using wire::field;
-
-constexpr auto kSkeletonHead =
-    std::make_tuple(field(&SkeletonMessage::avatar, &skeleton_t::avatar, wire::kAny),
-                    field(&SkeletonMessage::session, &skeleton_t::session, wire::kWhole),
-                    field(&SkeletonMessage::sendUtimeUs, &skeleton_t::send_utime, wire::kWhole),
-                    field(&SkeletonMessage::generation, &skeleton_t::generation, wire::kWhole),
-                    field(&SkeletonMessage::hash, &skeleton_t::hash, wire::kAny),
-                    field(&SkeletonMessage::source, &skeleton_t::source, wire::kAny),
-                    field(&SkeletonMessage::rateHz, &skeleton_t::rate, wire::kNotNegative));
-
-constexpr auto kJoint =
-    std::make_tuple(field(&RawJoint::name, &skeleton_t::names, wire::kJointName),
-                    field(&RawJoint::parent, &skeleton_t::parents, wire::kAny),
-                    field(&RawJoint::offset, &skeleton_t::offset_x, &skeleton_t::offset_y,
-                          &skeleton_t::offset_z, wire::kCoordinate),
-                    field(&RawJoint::rotation, &skeleton_t::rotation_w, &skeleton_t::rotation_x,
-                          &skeleton_t::rotation_y, &skeleton_t::rotation_z, wire::kTurn));
 
 /// By sorting: crafted names could collide in a hash table.
 Reject checkNames(const RawSkeleton& skeleton) {
@@ -66,10 +45,11 @@ Reject decode(ByteView payload, SkeletonMessage& message) {
   Reject reject = fromBytes(PayloadType::Skeleton, payload, wire);
   if (reject != Reject::None) return reject;
   if (wire.num_joints < 1) return Reject::Limit;  // a skeleton needs joints
-  reject = wire::read(wire, kSkeletonHead, message);
+  reject = wire::read(wire, wire::kSkeleton, message);
   if (reject != Reject::None) return reject;
   RawSkeleton& skeleton = message.skeleton;
-  reject = wire::readRows(wire, kJoint, &skeleton_t::num_joints, skeleton.joints, wire::kAnyRow);
+  reject = wire::readRows(wire, wire::kSkeletonJoint, &skeleton_t::num_joints, skeleton.joints,
+                          wire::kAnyRow);
   if (reject == Reject::None) reject = checkNames(skeleton);
   if (reject == Reject::None) reject = checkParents(skeleton);
   if (reject != Reject::None) return reject;
@@ -78,8 +58,8 @@ Reject decode(ByteView payload, SkeletonMessage& message) {
 
 void encode(const SkeletonMessage& message, Bytes& payload) {
   skeleton_t wire;
-  wire::write(message, kSkeletonHead, wire);
-  wire::writeRows(message.skeleton.joints, kJoint, &skeleton_t::num_joints, wire);
+  wire::write(message, wire::kSkeleton, wire);
+  wire::writeRows(message.skeleton.joints, wire::kSkeletonJoint, &skeleton_t::num_joints, wire);
   toBytes(PayloadType::Skeleton, wire, payload);
 }
 

@@ -1,13 +1,10 @@
 #include <cstddef>
-#include <foretouch/solid_t.hpp>
-#include <limits>
 #include <tuple>
 
 #include "lss/index.h"
 #include "network/wire/codec.h"
 #include "network/wire/codec_lcm.h"
-#include "network/wire/push_fields.h"
-#include "network/wire/wire_fields.h"
+#include "network/wire/message_fields.h"
 
 namespace foretouch {
 namespace {
@@ -34,50 +31,10 @@ static_assert(kMaxSolidPoses * (kMaxSolidJoints * 7 + 1) * sizeof(double) +
                   1024 <=
               kMaxMessageBytes);
 
-using wire::field;
-using wire::in;
-
-constexpr wire::Whole kCount{0, std::numeric_limits<std::uint32_t>::max()};
-constexpr auto kSolidHead = std::make_tuple(
-    field(&SolidMessage::avatar, &solid_t::avatar, wire::kAny),
-    field(&SolidMessage::session, &solid_t::session, wire::kWhole),
-    field(&SolidMessage::sequence, &solid_t::sequence, wire::kWhole),
-    field(&SolidMessage::utimeUs, &solid_t::utime, wire::kWhole),
-    field(&SolidMessage::kind, &solid_t::kind, wire::codeBelow(kNumStepKinds)),
-    field(&SolidMessage::lost, &solid_t::lost, wire::kWhole),
-    field(&SolidMessage::stepUs, &solid_t::step_us, wire::kWhole),
-    field(&SolidMessage::avatarHash, &solid_t::avatar_hash, wire::kAny),
-    field(&SolidMessage::skin, &solid_t::skin, wire::kNotNegative),
-    field(&SolidMessage::tolerance, &solid_t::tolerance, wire::kNotNegative),
-    field(&SolidMessage::catchUp, &solid_t::catch_up, wire::kNotNegative),
-    field(&SolidMessage::workBudget, &solid_t::work_budget, wire::kWhole),
-    field(&SolidMessage::state, &solid_t::state, wire::codeBelow(kNumSolidStates)),
-    field(&SolidMessage::limit, &solid_t::limit, wire::codeBelow(kNumSolidLimits)),
-    field(&SolidMessage::isCertified, &solid_t::certified, wire::kFlag),
-    field(&SolidMessage::hasAppeared, &solid_t::appeared, wire::kFlag),
-    field(&SolidMessage::deviation, &solid_t::deviation, wire::kNotNegative),
-    field(&SolidMessage::lift, &solid_t::lift, wire::kNotNegative),
-    field(&SolidMessage::clearance, &solid_t::clearance, wire::kNotNegative),
-    field(&SolidMessage::snapInUs, &solid_t::snap_in_us, wire::Whole{-1}),
-    field(&SolidMessage::contactsLeftOut, &solid_t::contacts_left_out, wire::kWhole),
-    field(in(&SolidMessage::counters, &SolidCounters::queries), &solid_t::queries, kCount),
-    field(in(&SolidMessage::counters, &SolidCounters::iterations), &solid_t::iterations, kCount),
-    field(in(&SolidMessage::counters, &SolidCounters::features), &solid_t::features, kCount),
-    field(in(&SolidMessage::counters, &SolidCounters::rows), &solid_t::rows, kCount),
-    field(in(&SolidMessage::counters, &SolidCounters::aroundQueries), &solid_t::around_queries,
-          kCount),
-    field(in(&SolidMessage::counters, &SolidCounters::placingQueries), &solid_t::placing_queries,
-          kCount),
-    field(in(&SolidMessage::counters, &SolidCounters::work), &solid_t::work, wire::kWhole),
-    field(&SolidMessage::receiveUtimeUs, &solid_t::receive_utime, wire::kWhole),
-    field(&SolidMessage::sendUtimeUs, &solid_t::send_utime, wire::kWhole),
-    field(&SolidMessage::solidUs, &solid_t::solid_us, wire::kNotNegative));
-
-constexpr auto kSolidContact = std::tuple_cat(
-    wire::pushFields<solid_t>(&ShownContact::contact, &ShownContact::linkName),
-    std::make_tuple(
-        field(&ShownContact::otherName, &solid_t::objects, wire::kAny),
-        field(in(&ShownContact::contact, &SolidContact::other), &solid_t::others, wire::kAny)));
+constexpr auto kSolid = std::tuple_cat(
+    wire::kSolidKey, wire::kSolidOptions, wire::kSolidState, wire::kSolidLengths,
+    wire::kSolidLeftOut, wire::solidCounters(&SolidMessage::counters), wire::kSolidStamps);
+constexpr auto kSolidContact = std::tuple_cat(wire::kShownSides, wire::kShownPush);
 
 Reject checkLimits(const solid_t& wire) {
   const bool isWithinLimits = wire.num_joints >= 1 && countOf(wire.num_joints) <= kMaxSolidJoints &&
@@ -188,7 +145,7 @@ void writeWay(const SolidMessage& message, solid_t& wire) {
 Reject decode(ByteView payload, SolidMessage& message) {
   auto& wire = wire::scratch<solid_t>();
   Reject reject = fromBytes(PayloadType::Solid, payload, wire);
-  if (reject == Reject::None) reject = wire::read(wire, kSolidHead, message);
+  if (reject == Reject::None) reject = wire::read(wire, kSolid, message);
   if (reject == Reject::None) reject = checkLimits(wire);
   if (reject == Reject::None) reject = readJoints(wire, message);
   if (reject == Reject::None) reject = readWay(wire, message);
@@ -202,7 +159,7 @@ Reject decode(ByteView payload, SolidMessage& message) {
 void encode(const SolidMessage& message, Bytes& payload) {
   FORETOUCH_ASSERT(message.contacts.size() <= kMaxSolidContacts);
   auto& wire = wire::scratch<solid_t>();
-  wire::write(message, kSolidHead, wire);
+  wire::write(message, kSolid, wire);
   writeJoints(message, wire);
   writeWay(message, wire);
   wire::writeRows(message.contacts, kSolidContact, &solid_t::num_contacts, wire);

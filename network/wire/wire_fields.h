@@ -1,6 +1,7 @@
-// network/wire/wire_fields.h: a message's fields as one list: for each field its place in the
-// message, its place in the lcm-gen type, and which values are legal. A reader checks every value
-// before it hands it on, and what a list writes it reads. For the codec's sources only.
+// network/wire/wire_fields.h: a message's fields as one list: for each field its name in lines of
+// JSON, its place in the message, its place in the lcm-gen type, and which values are legal. A
+// reader checks every value before it hands it on, and what a list writes it reads. Whoever tells
+// of a message by names has them from here; a field without a name is one that he does not tell.
 //
 // The same list serves a message's head, whose fields stand alone, and its rows (contacts, joints),
 // whose fields stand in one vector each.
@@ -33,6 +34,9 @@ struct Any {
   }
 };
 inline constexpr Any kAny;
+/// Every value, of which people see the 16 hexadecimal digits.
+struct Hash : Any {};
+inline constexpr Hash kHash;
 
 /// Whole numbers from `least` to `most`.
 struct Whole {
@@ -44,6 +48,7 @@ struct Whole {
   }
 };
 inline constexpr Whole kWhole, kFlag{0, 1};
+inline constexpr Whole kKnownFlags{0, kJointValid | kJointTracked | kJointInferred};
 /// An enumeration's values, from 0 to below `count`.
 constexpr Whole codeBelow(std::int64_t count) {
   return {0, count - 1};
@@ -111,6 +116,13 @@ constexpr Path<Outer, Inner> in(Outer outer, Inner inner) {
   return {outer, inner};
 }
 
+/// What a list is about, where it stands for itself and not in a row.
+struct Self {};
+template <typename Inner>
+constexpr Inner in(Self, Inner inner) {
+  return inner;
+}
+
 template <typename Object, typename Value, typename Owner>
 constexpr auto& at(Object& object, Value Owner::*member) {
   return object.*member;
@@ -144,6 +156,7 @@ void assign(const Given& given, Value& value) {
 /// One value: whole numbers, flags and enumerations as the wire's own type has them.
 template <typename Member, typename Wired, typename Rule>
 struct Field {
+  const char* name;
   Member member;
   Wired wired;
   Rule rule;
@@ -165,13 +178,15 @@ struct Field {
   }
 };
 template <typename Member, typename Wired, typename Rule>
-constexpr Field<Member, Wired, Rule> field(Member member, Wired wired, Rule rule) {
-  return {member, wired, rule};
+constexpr Field<Member, Wired, Rule> field(const char* name, Member member, Wired wired,
+                                           Rule rule) {
+  return {name, member, wired, rule};
 }
 
 /// An Eigen::Vector3d as three values, or a Quaternion as four: w, x, y, z.
 template <typename Member, typename Wired, std::size_t kNum, typename Rule>
 struct Numbers {
+  const char* name;
   Member member;
   std::array<Wired, kNum> wired;
   Rule rule;
@@ -205,14 +220,49 @@ struct Numbers {
   }
 };
 template <typename Member, typename Wired, typename Rule>
-constexpr Numbers<Member, Wired, 3, Rule> field(Member member, Wired x, Wired y, Wired z,
-                                                Rule rule) {
-  return {member, {x, y, z}, rule};
+constexpr Numbers<Member, Wired, 3, Rule> field(const char* name, Member member, Wired x, Wired y,
+                                                Wired z, Rule rule) {
+  return {name, member, {x, y, z}, rule};
 }
 template <typename Member, typename Wired, typename Rule>
-constexpr Numbers<Member, Wired, 4, Rule> field(Member member, Wired w, Wired x, Wired y, Wired z,
-                                                Rule rule) {
-  return {member, {w, x, y, z}, rule};
+constexpr Numbers<Member, Wired, 4, Rule> field(const char* name, Member member, Wired w, Wired x,
+                                                Wired y, Wired z, Rule rule) {
+  return {name, member, {w, x, y, z}, rule};
+}
+
+/// One that nobody tells by name.
+template <typename Member, typename... Rest,
+          typename = std::enable_if_t<!std::is_convertible_v<Member, const char*>>>
+constexpr auto field(Member member, Rest... rest) {
+  return field("", member, rest...);
+}
+
+/// A field that lines have only where it is not what it is at first: a flag that is set, a count
+/// that is not 0.
+template <typename Told>
+struct Sparse : Told {};
+template <typename Member, typename Wired, typename Rule>
+constexpr Sparse<Field<Member, Wired, Rule>> sparse(const char* name, Member member, Wired wired,
+                                                    Rule rule) {
+  return {field(name, member, wired, rule)};
+}
+
+/// Which pose of which avatar a message is about.
+template <typename Message, typename Wire, typename Rule = Any>
+constexpr auto poseKey(Rule avatar = {}) {
+  return std::make_tuple(field("avatar", &Message::avatar, &Wire::avatar, avatar),
+                         field("session", &Message::session, &Wire::session, kWhole),
+                         field("sequence", &Message::sequence, &Wire::sequence, kWhole),
+                         field("utime", &Message::utimeUs, &Wire::utime, kWhole));
+}
+
+/// What no replay repeats: when it was received and sent, and the time that it took.
+template <typename Wire, typename Message>
+constexpr auto stamps(const char* name, double Message::*member, double Wire::*wired) {
+  return std::make_tuple(
+      field("receive_utime", &Message::receiveUtimeUs, &Wire::receive_utime, kWhole),
+      field("send_utime", &Message::sendUtimeUs, &Wire::send_utime, kWhole),
+      field(name, member, wired, kNotNegative));
 }
 
 // Whole lists of fields (tuples of the above).
@@ -233,6 +283,25 @@ template <typename Wire, typename Message, typename Fields, typename Place = Alo
 template <typename Message, typename Fields, typename Wire, typename Place = Alone>
 void write(const Message& message, const Fields& fields, Wire& wire, Place place = {}) {
   std::apply([&](const auto&... each) { (each.write(message, place, wire), ...); }, fields);
+}
+
+inline bool isSame(double x, double y) {
+  return x == y && std::signbit(x) == std::signbit(y);
+}
+inline bool isSame(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+  return isSame(x.x(), y.x()) && isSame(x.y(), y.y()) && isSame(x.z(), y.z());
+}
+template <typename Value>
+bool isSame(const Value& x, const Value& y) {
+  return x == y;
+}
+
+/// Bit for bit.
+template <typename Record, typename Fields>
+bool areSame(const Record& x, const Record& y, const Fields& fields) {
+  return std::apply(
+      [&](const auto&... each) { return (isSame(at(x, each.member), at(y, each.member)) && ...); },
+      fields);
 }
 
 /// Makes room for as many rows, and says so in `count`.

@@ -1,19 +1,24 @@
 // Whoever tells of a contact by names of his own has the fields of middleware/contact_fields.h, all
-// of them and no others, in types that fit: the C struct, the message on the wire, the Python
-// class, the page's decoder and the tables for readers.
+// of them and no others, in types that fit: the C struct, the message on the wire, the stub of the
+// Python class, the page's decoder and the tables for readers.
 #include "middleware/contact_fields.h"
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <map>
 #include <regex>
 #include <set>
 #include <string>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "network/wire/world_message_fields.h"
 #include "tests/house/source_files.h"
 
 namespace foretouch {
@@ -123,17 +128,15 @@ TEST(ContactFields, AreThoseOfTheMessage) {
 
 TEST(ContactFields, AreThoseOfTheClassInPython) {
   const std::string text =
-      between("bindings/python/contact.cpp", "py::class_<Contact>", "\"__repr__\"");
+      between("bindings/python/foretouch/_foretouch.pyi", "class Contact:", "def details");
   Names expected{"link_id", "object_id"};  // the numbers of what `link` and `object` name
   for (const ContactField& field : kContactFields) expected.insert(field.name);
-  EXPECT_EQ(namesIn(text, "def_property_readonly\\(\\s*\"(\\w+)\""), expected);
+  EXPECT_EQ(namesIn(text, "def (\\w+)\\(self\\)"), expected);
 }
 
 TEST(ContactFields, AreReadByThePage) {
   const std::string decoder = between("viewer/src/data/decode_contact.ts",
                                       "export function decodeContact", "return contact");
-  const std::string interface =
-      between("viewer/src/data/document.ts", "export interface ContactFields {", "\n}");
   // And what a solid avatar adds, and a second body.
   Names inJson{"time", "missed_by_poses", "push", "slip", "other_avatar", "other"};
   Names inCode{"time", "missedByPoses", "push", "slip", "otherAvatar", "otherLink"};
@@ -146,11 +149,11 @@ TEST(ContactFields, AreReadByThePage) {
   }
   EXPECT_EQ(namesIn(decoder, "(?:field\\(|item, )\"(\\w+)\""), inJson);
   EXPECT_EQ(namesIn(decoder, "\n    (\\w+)[:,]"), inCode);
-  EXPECT_EQ(namesIn(interface, "readonly (\\w+):"), inCode);
 }
 
 TEST(ContactFields, AreExplainedToReaders) {
-  const std::string table = between("docs/formats.md", "A contact holds:", "\n\nAn entry of `objects`");
+  const std::string table =
+      between("docs/formats.md", "A contact holds:", "\n\nAn entry of `objects`");
   Names found;
   const std::regex row("\n\\|([^|]*)\\|");
   for (std::sregex_iterator at(table.begin(), table.end(), row), end; at != end; ++at) {
@@ -161,6 +164,106 @@ TEST(ContactFields, AreExplainedToReaders) {
     if (field.use != ContactFieldUse::Never) expected.insert(field.name);
   }
   EXPECT_EQ(found, expected);
+}
+
+/// Of what lines of JSON hold.
+template <typename... Lists>
+Names namesOf(const Lists&... lists) {
+  Names names;
+  const auto add = [&](const char* name) {
+    if (name[0] != '\0') names.insert(name);
+  };
+  (std::apply([&](const auto&... field) { (add(field.name), ...); }, lists), ...);
+  return names;
+}
+
+Names with(Names names, const Names& more) {
+  names.insert(more.begin(), more.end());
+  return names;
+}
+
+/// What docs/formats.md names from `begin` to `end`.
+Names toldBetween(const std::string& begin, const std::string& end) {
+  const std::string text = between("docs/formats.md", begin, end);
+  return namesIn(text.substr(std::min(text.size(), begin.size())), "`(\\w+)`");
+}
+
+TEST(MessageFields, AreExplainedWhereLinesAre) {
+  using namespace wire;
+  const Names ofTwo{"object", "other"};
+  EXPECT_EQ(toldBetween("only where they say something, `contacts` of", "and\n`crushes`"),
+            namesOf(kPush));
+  EXPECT_EQ(toldBetween("and\n`crushes` of", "`listen --world"), namesOf(kCrush));
+  EXPECT_EQ(toldBetween("`deviations`,\n`contacts` of", "and `counters`"),
+            with(namesOf(kShownSides, kShownPush), ofTwo));
+  EXPECT_EQ(toldBetween("ahead, `brackets` of", "and `broken`"),
+            with(namesOf(kBracketSides, kBracketPossible, kBracketCertain, kBracketGrowth), ofTwo));
+  EXPECT_EQ(toldBetween("and `broken` of", "\n\n"), with(namesOf(kBroken), {"gap", "ahead"}));
+  EXPECT_EQ(toldBetween("fields of `status_t`:", "\n\n"),
+            with(namesOf(kStatus, kStatusFailures, kStatusLatency, kStatusQuery),
+                 {"reasons", "latency_us", "query_us"}));
+  EXPECT_EQ(toldBetween("| `skeleton` |", "\n"),
+            with(namesOf(kSkeleton, kSkeletonJoint), {"joints"}));
+  EXPECT_EQ(toldBetween("| `pose` |", "\n"),
+            with(namesOf(kPose, kPoseJoint, kPoseRotation, kMovedJoint, kMovedPlace),
+                 {"joints", "translations"}));
+  EXPECT_EQ(toldBetween("| `counters` |", "\n"), namesOf(solidCounters(Self{})));
+}
+
+/// The fields of a message, in order; but its version and its numbers of others.
+std::vector<std::string> fieldsOfMessage(const std::string& type) {
+  const std::string text =
+      between("network/wire/lcm/foretouch_" + type + ".lcm", "struct " + type + " {", "\n}");
+  const std::regex line("\n  (?:\\w+) (\\w+)(?:\\[\\w+\\])*;");
+  std::vector<std::string> fields;
+  for (std::sregex_iterator at(text.begin(), text.end(), line), end; at != end; ++at) {
+    const std::string name = (*at)[1].str();
+    if (name != "version" && name.rfind("num_", 0) != 0) fields.push_back(name);
+  }
+  return fields;
+}
+
+/// Those that `text` names: alone, from one to another, or as `rotation_*`.
+Names namedIn(const std::string& text, const std::vector<std::string>& fields) {
+  const Names alone = namesIn(text, "`(\\w+)`"), begins = namesIn(text, "`(\\w+_)\\*`");
+  Names named;
+  for (const std::string& field : fields) {
+    const auto isBegun = [&](const std::string& begin) { return field.rfind(begin, 0) == 0; };
+    if (alone.count(field) != 0 || std::any_of(begins.begin(), begins.end(), isBegun)) {
+      named.insert(field);
+    }
+  }
+  const std::regex range("`(\\w+)` to `(\\w+)`");
+  for (std::sregex_iterator at(text.begin(), text.end(), range), end; at != end; ++at) {
+    const auto from = std::find(fields.begin(), fields.end(), (*at)[1].str());
+    const auto to = std::find(from, fields.end(), (*at)[2].str());
+    if (to != fields.end()) named.insert(from, to + 1);
+  }
+  return named;
+}
+
+TEST(MessageFields, AreExplainedWhereTheWireIs) {
+  const std::pair<const char*, const char*> sections[] = {
+      {"person_t", "### The person, live\n"},
+      {"solid_t", "### Shown poses on the wire\n"},
+      {"pushes_t", "### Pushes on the wire\n"}};
+  for (const auto& [type, title] : sections) {
+    const std::string text = between("docs/formats.md", title, "\n### ");
+    const std::vector<std::string> fields = fieldsOfMessage(type);
+    ASSERT_GT(fields.size(), 15u) << type;
+    // Whose message it is, each of them says in its first words.
+    Names expected(fields.begin() + 2, fields.end()), named = namedIn(text, fields);
+    named.erase("avatar");
+    named.erase("session");
+    EXPECT_EQ(named, expected) << type;
+    // The first cells of its table name nothing else.
+    const std::regex cell("\n\\|([^|]*)\\|");
+    for (std::sregex_iterator at(text.begin(), text.end(), cell), end; at != end; ++at) {
+      for (const std::string& name : namesIn((*at)[1].str(), "`(\\w+)`")) {
+        EXPECT_EQ(std::count(fields.begin(), fields.end(), name), 1) << type << " " << name;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "assets/json_writer.h"
+#include "tools/json_line.h"
 #include "tools/world/world_results.h"
 
 namespace foretouch::tools {
@@ -36,7 +37,6 @@ const char* reasonOf(AskUnknown why) {
 }
 
 void writeHit(const LoadedWorld& world, const WorldHit& hit, JsonWriter& out) {
-  out.beginObject();
   out.field("distance", hit.distance);
   out.key("of");
   writeContactSide(world, hit.what, true, out);
@@ -45,7 +45,6 @@ void writeHit(const LoadedWorld& world, const WorldHit& hit, JsonWriter& out) {
     out.field("weights", Eigen::Vector3d(hit.weights[0], hit.weights[1], hit.weights[2]));
   }
   if (hit.isAssumed) out.field("assumed", true);
-  out.endObject();
 }
 
 }  // namespace
@@ -76,12 +75,10 @@ std::string answerLine(const LoadedWorld& world, const WorldQuestion& question,
   out.beginObject();
   writeInstant("time", question.time, out);
   out.field("verdict", toString(answer.verdict()));
-  out.list("hits", answer.hits, [&](const WorldHit& hit) { writeHit(world, hit, out); });
-  out.list("unknown", answer.unknown, [&](const UnknownBody& body) {
-    out.beginObject();
+  writeObjects("hits", answer.hits, out, [&](const WorldHit& hit) { writeHit(world, hit, out); });
+  writeObjects("unknown", answer.unknown, out, [&](const UnknownBody& body) {
     out.field("body", world.nameOf(body.body));
     out.field("why", reasonOf(body.why));
-    out.endObject();
   });
   out.endObject();
   return text + "\n";

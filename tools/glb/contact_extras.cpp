@@ -5,6 +5,7 @@
 #include "assets/json_writer.h"
 #include "lss/index.h"
 #include "tools/contact_json.h"
+#include "tools/json_line.h"
 #include "tools/touches/touch_json.h"
 
 namespace foretouch::tools {
@@ -44,10 +45,7 @@ nlohmann::json contactExtras(const ShownTouch& shown, const Skeleton& skeleton,
   TouchWords ofTouch;
   ofTouch.link = link;
   ofTouch.object = object;
-  out.key("touch");
-  out.beginObject();
-  writeTouch(shown.touch, ofTouch, out);
-  out.endObject();
+  writeObject("touch", out, [&] { writeTouch(shown.touch, ofTouch, out); });
   out.endObject();
   return nlohmann::json::parse(text);
 }

@@ -10,6 +10,7 @@
 #include "assets/avatar/avatar_file.h"
 #include "lss/index.h"
 #include "tools/console.h"
+#include "tools/json_line.h"
 #include "tools/replay/results_writer.h"
 #include "tools/settings/stream_settings.h"
 #include "tools/settings/world_settings.h"
@@ -67,27 +68,25 @@ Result<HeldAnswers> answersIn(const std::string& path, const ChannelNames& chann
 void writeSolidFields(const StreamSolidRequest& request, JsonWriter& out) {
   if (!request.solid.isAsked) return;
   const SolidOptions& options = request.solid.options;
-  out.key("solid");
-  out.beginObject();
-  out.field("skin", options.skin);
-  out.field("catch_up", options.catchUp);
-  out.field("floor", toString(options.floor));
-  out.field("snap", options.maySnap);
-  out.field("around", options.aroundPerTick);
-  out.field("self", request.stopsItself);
-  out.field("budget_us", request.budgetUs);
-  out.endObject();
+  writeObject("solid", out, [&] {
+    out.field("skin", options.skin);
+    out.field("catch_up", options.catchUp);
+    out.field("floor", toString(options.floor));
+    out.field("snap", options.maySnap);
+    out.field("around", options.aroundPerTick);
+    out.field("self", request.stopsItself);
+    out.field("budget_us", request.budgetUs);
+  });
 }
 
 /// What decides what is known of persons; nothing if it is not asked.
 void writePersonFields(const PersonRequest& request, JsonWriter& out) {
   if (!request.isAsked()) return;
-  out.key("person");
-  out.beginObject();
-  writeFileName("bounds", request.boundsPath, out);
-  out.field("between", toString(request.model));
-  out.field("ahead_us", request.aheadUs);
-  out.endObject();
+  writeObject("person", out, [&] {
+    writeFileName("bounds", request.boundsPath, out);
+    out.field("between", toString(request.model));
+    out.field("ahead_us", request.aheadUs);
+  });
 }
 
 /// One replay: the events of a log, one by one.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "tools/json_line.h"
+
 namespace foretouch::tools {
 void writeBeginAndEnd(const PersonTouch& touch, const char* begins, const char* ends,
                       JsonWriter& out) {
@@ -31,27 +33,21 @@ void writeShownTouch(const PersonTouch& touch, const std::string& object, JsonWr
 }
 
 std::string personTouchLine(const PersonNames& names, const PersonTouch& touch) {
-  std::string text;
-  JsonWriter out(text);
-  out.beginObject();
-  out.key("person_touch");
-  out.beginObject();
-  const std::pair<const char*, const std::string&> fields[] = {{"body", names.body},
-                                                               {"link", names.link},
-                                                               {"other_body", names.otherBody},
-                                                               {"other", names.other},
-                                                               {"object", names.object}};
-  for (const auto& [name, value] : fields) {
-    if (!value.empty()) out.field(name, value);
-  }
-  if (touch.triangle >= 0) out.field("triangle", touch.triangle);
-  out.field("verdict", touch.isCertain ? "certain" : "possible");
-  writeBeginAndEnd(touch, "begins_s", "ends_s", out);
-  if (touch.beginsBefore) out.field("begins_before", true);
-  if (touch.endsAfter) out.field("ends_after", true);
-  out.endObject();
-  out.endObject();
-  return text + "\n";
+  return objectLine("person_touch", [&](JsonWriter& out) {
+    const std::pair<const char*, const std::string&> fields[] = {{"body", names.body},
+                                                                 {"link", names.link},
+                                                                 {"other_body", names.otherBody},
+                                                                 {"other", names.other},
+                                                                 {"object", names.object}};
+    for (const auto& [name, value] : fields) {
+      if (!value.empty()) out.field(name, value);
+    }
+    if (touch.triangle >= 0) out.field("triangle", touch.triangle);
+    out.field("verdict", touch.isCertain ? "certain" : "possible");
+    writeBeginAndEnd(touch, "begins_s", "ends_s", out);
+    if (touch.beginsBefore) out.field("begins_before", true);
+    if (touch.endsAfter) out.field("ends_after", true);
+  });
 }
 
 void BracketJoiner::add(double beginS, double endS, const StepBrackets& brackets) {

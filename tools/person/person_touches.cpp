@@ -11,6 +11,7 @@
 #include "assets/json_writer.h"
 #include "lss/index.h"
 #include "middleware/bracket/axis_places.h"
+#include "tools/json_line.h"
 
 namespace foretouch::tools {
 namespace {
@@ -129,28 +130,22 @@ std::string lineOf(const ReplayInputs& inputs, const PersonTouch& touch) {
 std::string lineOf(const ReplayInputs& inputs, const PersonRequest& request,
                    const PersonAnswer& answer) {
   const PersonCounts& counts = answer.counts;
-  std::string text;
-  JsonWriter out(text);
-  out.beginObject();
-  out.key("person");
-  out.beginObject();
-  out.field("bounds", std::filesystem::path(request.boundsPath).filename().string());
-  out.field("between", toString(request.model));
-  out.field("rate_hz", answer.rateHz);
-  out.field("link_steps", counts.intervals);
-  out.field("excluded", counts.excluded);
-  out.field("possible", counts.possible);
-  out.field("certain", counts.certain);
-  out.field("unclaimed", counts.unclaimed);
-  out.field("bounds_broken", counts.broken);
-  if (counts.broken > 0) {
-    out.field("worst_link", inputs.avatar.skeleton().name(counts.worstLink));
-    out.field("worst_s", counts.worstS);
-    out.field("worst_m", counts.worstM);
-  }
-  out.endObject();
-  out.endObject();
-  return text + "\n";
+  return objectLine("person", [&](JsonWriter& out) {
+    out.field("bounds", std::filesystem::path(request.boundsPath).filename().string());
+    out.field("between", toString(request.model));
+    out.field("rate_hz", answer.rateHz);
+    out.field("link_steps", counts.intervals);
+    out.field("excluded", counts.excluded);
+    out.field("possible", counts.possible);
+    out.field("certain", counts.certain);
+    out.field("unclaimed", counts.unclaimed);
+    out.field("bounds_broken", counts.broken);
+    if (counts.broken > 0) {
+      out.field("worst_link", inputs.avatar.skeleton().name(counts.worstLink));
+      out.field("worst_s", counts.worstS);
+      out.field("worst_m", counts.worstM);
+    }
+  });
 }
 
 }  // namespace

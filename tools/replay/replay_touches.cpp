@@ -6,6 +6,7 @@
 #include "articulated/try.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
+#include "tools/json_line.h"
 #include "tools/touches/touch_json.h"
 
 namespace foretouch::tools {
@@ -109,14 +110,7 @@ std::string ReplayTouches::lines() const {
     TouchWords words;
     words.link = link;
     (isOwn ? words.other : words.object) = name;
-    JsonWriter out(text);
-    out.beginObject();
-    out.key("touch");
-    out.beginObject();
-    writeTouch(touch, words, out);
-    out.endObject();
-    out.endObject();
-    text += "\n";
+    text += objectLine("touch", [&](JsonWriter& out) { writeTouch(touch, words, out); });
   }
   return text + touchSummaryLine(counts_, steps_, {inputs_.query.self.has_value(), areFollowed()});
 }

@@ -5,6 +5,7 @@
 
 #include "lss/index.h"
 #include "tools/contact_json.h"
+#include "tools/json_line.h"
 #include "tools/settings/clip_settings.h"
 #include "tools/settings/world_settings.h"
 
@@ -30,20 +31,17 @@ void writeLinkNames(const Avatar& avatar, JsonWriter& out) {
 
 void writeSelf(const PairRules& rules, const Skeleton& skeleton, const std::string& path,
                JsonWriter& out) {
-  out.key("self");
-  out.beginObject();
-  if (!path.empty()) writeFileName("file", path, out);
-  out.field("pairs", rules.numPairs());
-  out.field("asked", rules.numAsked());
-  out.field("radii", rules.radii().size());
-  out.list("left_out", rules.leftOut(), [&](const LeftOutPair& pair) {
-    out.beginObject();
-    out.field("a", skeleton.name(pair.a));
-    out.field("b", skeleton.name(pair.b));
-    out.field("reason", toString(pair.reason));
-    out.endObject();
+  writeObject("self", out, [&] {
+    if (!path.empty()) writeFileName("file", path, out);
+    out.field("pairs", rules.numPairs());
+    out.field("asked", rules.numAsked());
+    out.field("radii", rules.radii().size());
+    writeObjects("left_out", rules.leftOut(), out, [&](const LeftOutPair& pair) {
+      out.field("a", skeleton.name(pair.a));
+      out.field("b", skeleton.name(pair.b));
+      out.field("reason", toString(pair.reason));
+    });
   });
-  out.endObject();
 }
 
 std::string headerLine(const ReplayInputs& inputs) {
@@ -102,11 +100,11 @@ std::string StepFormat::line(const StepAnswer& answer) const {
   out.field("t0", answer.t0S);
   out.field("t1", answer.t1S);
   const auto writeOne = [&](const LinkContact& contact) { write(contact, answer, out); };
-  out.list("contacts", answer.contacts, writeOne);
-  if (asked_.objects) out.list("objects", answer.objects, writeOne);
+  writeObjects("contacts", answer.contacts, out, writeOne);
+  if (asked_.objects) writeObjects("objects", answer.objects, out, writeOne);
   if (asked_.pairs) {
-    out.list("pairs", answer.pairs,
-             [&](const PairContact& contact) { write(contact, answer, out); });
+    writeObjects("pairs", answer.pairs, out,
+                 [&](const PairContact& contact) { write(contact, answer, out); });
   }
   out.key("latency_us");
   out.fixed(answer.latencyUs, 1);
@@ -120,9 +118,7 @@ void StepFormat::write(const PairContact& contact, const StepAnswer& answer,
   words.link = links_[slotOf(contact.link)];
   words.other = links_[slotOf(contact.other)];
   words.timeS = timeOf(contact, answer.t0S, answer.t1S);
-  out.beginObject();
   writeContact(contact, words, out);
-  out.endObject();
 }
 
 void StepFormat::write(const LinkContact& contact, const StepAnswer& answer,
@@ -133,9 +129,7 @@ void StepFormat::write(const LinkContact& contact, const StepAnswer& answer,
     words.object = objects_[slotOf(scene_.object(contact.triangle))];
     words.timeS = timeOf(contact, answer.t0S, answer.t1S);
   }
-  out.beginObject();
   writeContact(contact, words, out);
-  out.endObject();
 }
 
 }  // namespace foretouch::tools

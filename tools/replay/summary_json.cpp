@@ -1,6 +1,7 @@
 #include "tools/replay/summary_json.h"
 
 #include "assets/json_writer.h"
+#include "tools/json_line.h"
 
 namespace foretouch::tools {
 namespace {
@@ -12,10 +13,7 @@ void writeCounts(const ReplaySummary::Counts& counts, JsonWriter& out) {
 }
 
 void writeCounts(const char* name, const ReplaySummary::Counts& counts, JsonWriter& out) {
-  out.key(name);
-  out.beginObject();
-  writeCounts(counts, out);
-  out.endObject();
+  writeObject(name, out, [&] { writeCounts(counts, out); });
 }
 
 /// Those that met something.
@@ -36,13 +34,12 @@ void writeByLink(const ReplaySummary& summary, JsonWriter& out) {
 }
 
 void writeLatency(const ReplaySummary& summary, JsonWriter& out) {
-  out.key("latency_us");
-  out.beginObject();
-  out.field("p50", summary.latencyUs(0.5));
-  out.field("p90", summary.latencyUs(0.9));
-  out.field("p99", summary.latencyUs(0.99));
-  out.field("max", summary.latencyUs(1.0));
-  out.endObject();
+  writeObject("latency_us", out, [&] {
+    out.field("p50", summary.latencyUs(0.5));
+    out.field("p90", summary.latencyUs(0.9));
+    out.field("p99", summary.latencyUs(0.99));
+    out.field("max", summary.latencyUs(1.0));
+  });
 }
 
 }  // namespace

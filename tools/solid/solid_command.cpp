@@ -13,6 +13,7 @@
 #include "assets/avatar/avatar_file.h"
 #include "assets/json_writer.h"
 #include "tools/inputs/replay_inputs.h"
+#include "tools/json_line.h"
 #include "tools/progress.h"
 #include "tools/settings/file_mark.h"
 #include "tools/solid/solid_check.h"
@@ -122,12 +123,11 @@ std::string jsonOf(const AskedSolidCheck& asked, const CheckedSolid& checked) {
   out.field("begins", checked.begins);
   out.field("least_tolerance", checked.leastTolerance);
   if (checked.finding) {
-    out.key("finding");
-    out.beginObject();
-    if (checked.finding->tick >= 0) out.field("tick", checked.finding->tick);
-    if (checked.finding->line > 0) out.field("line", checked.finding->line);
-    out.field("text", checked.finding->text);
-    out.endObject();
+    writeObject("finding", out, [&] {
+      if (checked.finding->tick >= 0) out.field("tick", checked.finding->tick);
+      if (checked.finding->line > 0) out.field("line", checked.finding->line);
+      out.field("text", checked.finding->text);
+    });
   }
   out.endObject();
   return text + "\n";

@@ -10,6 +10,9 @@
 #include "assets/avatar/avatar_file.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
+#include "network/wire/message_fields.h"
+#include "tools/fields_json.h"
+#include "tools/json_line.h"
 #include "tools/replay/results_writer.h"
 #include "tools/settings/file_mark.h"
 #include "tools/solid_json.h"
@@ -18,10 +21,7 @@ namespace foretouch::tools {
 namespace {
 
 void writeNamedPose(const char* name, const Pose& pose, JsonWriter& out) {
-  out.key(name);
-  out.beginObject();
-  writePose(pose, out);
-  out.endObject();
+  writeObject(name, out, [&] { writePose(pose, out); });
 }
 
 Result<Done> writeFile(const char* name, const std::string& path, JsonWriter& out) {
@@ -32,30 +32,29 @@ Result<Done> writeFile(const char* name, const std::string& path, JsonWriter& ou
 }
 
 void writeOptions(const SolidOptions& options, const Avatar& avatar, JsonWriter& out) {
-  out.key("options");
-  out.beginObject();
-  out.field("skin", options.skin);
-  out.field("tolerance", options.tolerance);
-  out.field("catch_up", options.catchUp);
-  out.list("visibility", options.visibility, [&](double value) { out.value(value); });
-  out.field("floor", toString(options.floor));
-  out.key("feet");
-  out.beginArray();
-  for (std::size_t link = 0; link < options.feet.size(); ++link) {
-    if (options.feet[link]) out.value(avatar.skeleton().name(static_cast<LinkId>(link)));
-  }
-  out.endArray();
-  out.field("most_lift", options.mostLift);
-  out.field("most_deviation", options.mostDeviation);
-  out.field("most_limb_deviation", options.mostLimbDeviation);
-  out.field("patience", options.patience);
-  out.field("snap", options.maySnap);
-  out.field("snap_notice", options.snapNotice);
-  out.field("around", options.aroundPerTick);
-  out.field("around_in_all", options.aroundInAll);
-  out.field("placing_reach", options.placingReach);
-  out.field("work", options.workBudget);
-  out.endObject();
+  writeObject("options", out, [&] {
+    out.field("skin", options.skin);
+    out.field("tolerance", options.tolerance);
+    out.field("catch_up", options.catchUp);
+    out.list("visibility", options.visibility, [&](double value) { out.value(value); });
+    out.field("floor", toString(options.floor));
+    out.key("feet");
+    out.beginArray();
+    for (std::size_t link = 0; link < options.feet.size(); ++link) {
+      if (options.feet[link]) out.value(avatar.skeleton().name(static_cast<LinkId>(link)));
+    }
+    out.endArray();
+    out.field("most_lift", options.mostLift);
+    out.field("most_deviation", options.mostDeviation);
+    out.field("most_limb_deviation", options.mostLimbDeviation);
+    out.field("patience", options.patience);
+    out.field("snap", options.maySnap);
+    out.field("snap_notice", options.snapNotice);
+    out.field("around", options.aroundPerTick);
+    out.field("around_in_all", options.aroundInAll);
+    out.field("placing_reach", options.placingReach);
+    out.field("work", options.workBudget);
+  });
 }
 
 }  // namespace
@@ -134,9 +133,7 @@ std::string SolidLines::line(const PlayedTick& played) {
   out.beginObject();
   out.field("tick", played.tick);
   out.field("t", played.timeS);
-  out.field("state", toString(answer.state));
-  out.field("limit", toString(answer.limit));
-  out.field("certified", answer.isCertified);
+  writeFields(answer, out, wire::shownState<SolidTick>());
   out.field("deviation", answer.deviation);
   out.field("lift", answer.lift);
   out.field("clearance", played.numPieces() > 0 && answer.isCertified ? answer.clearance : 0.0);
@@ -159,15 +156,15 @@ std::string SolidLines::line(const PlayedTick& played) {
     writeNamedPose("tracked", played.tracked, out);
   }
   out.list("deviations", answer.linkDeviation, [&](double value) { out.value(value); });
-  out.key("joints");
-  out.beginObject();
-  for (std::size_t joint = 0; joint < answer.joints.size(); ++joint) {
-    if (answer.joints[joint] == SolidJointState::Free) continue;
-    out.field(inputs_.avatar.skeleton().name(static_cast<JointId>(joint)),
-              toString(answer.joints[joint]));
-  }
-  out.endObject();
-  out.list("contacts", answer.contacts, [&](const SolidContact& contact) { write(contact, out); });
+  writeObject("joints", out, [&] {
+    for (std::size_t joint = 0; joint < answer.joints.size(); ++joint) {
+      if (answer.joints[joint] == SolidJointState::Free) continue;
+      out.field(inputs_.avatar.skeleton().name(static_cast<JointId>(joint)),
+                toString(answer.joints[joint]));
+    }
+  });
+  writeObjects("contacts", answer.contacts, out,
+               [&](const SolidContact& contact) { write(contact, out); });
   writeCounters(answer.counters, out);
   shownMark_ = answer.state == SolidState::Placing ? "" : markOfPose(answer.shown);
   return marked(std::move(text));

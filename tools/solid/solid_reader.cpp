@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +13,7 @@
 #include "articulated/skeleton.h"
 #include "articulated/try.h"
 #include "assets/text_file.h"
+#include "network/wire/message_fields.h"
 #include "tools/settings/file_mark.h"
 #include "tools/solid/solid_lines.h"
 
@@ -87,6 +90,22 @@ class SolidFields {
       }
     }
     fail(field, "another word");
+  }
+  /// All of a list.
+  template <typename Record, typename List>
+  void listed(Record& record, const List& list) {
+    const auto read = [&](const auto& field) {
+      auto& place = wire::at(record, field.member);
+      using Value = std::decay_t<decltype(place)>;
+      if constexpr (std::is_enum_v<Value>) {
+        word(field.name, static_cast<std::uint8_t>(field.rule.most + 1), place);
+      } else if constexpr (std::is_same_v<Value, bool>) {
+        flag(field.name, place);
+      } else {
+        number(field.name, place);
+      }
+    };
+    std::apply([&](const auto&... each) { (read(each), ...); }, list);
   }
   void texts(const char* field, std::vector<std::string>& place) {
     for (const json& item : list(field)) {
@@ -193,12 +212,8 @@ SolidRecord readRecord(SolidFields& fields, std::size_t joints) {
   SolidRecord record;
   fields.whole("tick", record.tick);
   fields.number("t", record.timeS);
-  fields.word("state", kNumSolidStates, record.state);
-  fields.word("limit", kNumSolidLimits, record.limit);
-  fields.flag("certified", record.isCertified);
-  fields.number("deviation", record.deviation);
-  fields.number("lift", record.lift);
-  fields.number("clearance", record.clearance);
+  fields.listed(record, wire::shownState<SolidRecord>());
+  fields.listed(record, wire::shownLengths<SolidRecord>());
   fields.numbers("deviations", record.deviations);
   readOptionalPose("start", fields, joints, record.start);
   if (fields.has("from")) fields.text("from", record.from);

@@ -7,6 +7,7 @@
 #include "articulated/motion.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
+#include "tools/json_line.h"
 #include "tools/percentile.h"
 
 namespace foretouch::tools {
@@ -41,12 +42,11 @@ std::string inMillimetres(const Deviations& found) {
 }
 
 void writeDeviations(const char* name, const Deviations& found, JsonWriter& out) {
-  out.key(name);
-  out.beginObject();
-  out.field("mean", found.mean);
-  out.field("p90", found.p90);
-  out.field("max", found.most);
-  out.endObject();
+  writeObject(name, out, [&] {
+    out.field("mean", found.mean);
+    out.field("p90", found.p90);
+    out.field("max", found.most);
+  });
 }
 
 }  // namespace
@@ -154,18 +154,16 @@ std::string SolidSummary::fields() const {
   std::string text;
   JsonWriter out(text);
   out.field("ticks", ticks_);
-  out.key("states");
-  out.beginObject();
-  for (std::size_t i = 0; i < ofState_.size(); ++i) {
-    out.field(toString(static_cast<SolidState>(i)), ofState_[i]);
-  }
-  out.endObject();
-  out.key("limits");
-  out.beginObject();
-  for (std::size_t i = 0; i < ofLimit_.size(); ++i) {
-    out.field(toString(static_cast<SolidLimit>(i)), ofLimit_[i]);
-  }
-  out.endObject();
+  writeObject("states", out, [&] {
+    for (std::size_t i = 0; i < ofState_.size(); ++i) {
+      out.field(toString(static_cast<SolidState>(i)), ofState_[i]);
+    }
+  });
+  writeObject("limits", out, [&] {
+    for (std::size_t i = 0; i < ofLimit_.size(); ++i) {
+      out.field(toString(static_cast<SolidLimit>(i)), ofLimit_[i]);
+    }
+  });
   out.field("certified", certified_);
   out.field("motions", motions_);
   writeDeviations("deviation", ofAll(), out);
@@ -187,12 +185,11 @@ std::string SolidSummary::jsonLine(const std::string& output, const std::string&
   out.field("scene", inputs_.request.scenePath);
   out.field("rate", rateTaken(inputs_.steps, inputs_.clip.frameTimeS));
   out.rawItems(fields());
-  out.key("latency_us");
-  out.beginObject();
-  for (const auto& [name, share] : {std::pair{"p50", 0.5}, {"p99", 0.99}, {"max", 1.0}}) {
-    out.field(name, latencyUs(share));
-  }
-  out.endObject();
+  writeObject("latency_us", out, [&] {
+    for (const auto& [name, share] : {std::pair{"p50", 0.5}, {"p99", 0.99}, {"max", 1.0}}) {
+      out.field(name, latencyUs(share));
+    }
+  });
   out.field("output", output);
   if (!report.empty()) out.field("report", report);
   out.endObject();

@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 
 #include "assets/text_file.h"
+#include "network/wire/message_fields.h"
 #include "tools/contact_json.h"
+#include "tools/fields_json.h"
+#include "tools/json_line.h"
 
 namespace foretouch::tools {
 namespace {
@@ -18,9 +21,7 @@ void writeAnswered(const AnsweredContact& answered, const ContactsMessage& messa
   words.link = link;
   words.object = object;
   words.utimeUs = utimeOf(message, answered.contact.toi);
-  out.beginObject();
   writeContact(answered.contact, words, out);
-  out.endObject();
 }
 
 void writePair(const char* name, std::int64_t from, std::int64_t to, JsonWriter& out) {
@@ -29,15 +30,6 @@ void writePair(const char* name, std::int64_t from, std::int64_t to, JsonWriter&
   out.value(from);
   out.value(to);
   out.endArray();
-}
-
-void writeShares(const char* name, double p50, double p99, double most, JsonWriter& out) {
-  out.key(name);
-  out.beginObject();
-  out.field("p50", p50);
-  out.field("p99", p99);
-  out.field("max", most);
-  out.endObject();
 }
 
 double milliseconds(std::int64_t us) {
@@ -79,28 +71,24 @@ std::int64_t utimeOf(std::int64_t fromUs, std::int64_t toUs, double toi) {
   return fromUs + static_cast<std::int64_t>(whole) - (isRoundedUp ? 1 : 0);
 }
 
-std::string hashText(std::int64_t hash) {
-  return fmt::format("{:016x}", static_cast<std::uint64_t>(hash));
-}
-
 void writeContacts(const ContactsMessage& message, Stamps stamps, JsonWriter& out) {
-  out.beginObject();
   out.field("avatar", message.avatar);
   out.field("session", message.session);
   writePair("sequence", message.sequenceFrom, message.sequenceTo, out);
   writePair("utime", message.utimeFromUs, message.utimeToUs, out);
   out.field("kind", toString(message.kind));
   out.field("lost", message.lost);
-  out.list("contacts", message.contacts,
-           [&](const AnsweredContact& answered) { writeAnswered(answered, message, out); });
-  writeStamps(message, "query_us", message.queryUs, stamps, out);
-  out.endObject();
+  writeObjects("contacts", message.contacts, out,
+               [&](const AnsweredContact& answered) { writeAnswered(answered, message, out); });
+  if (stamps == Stamps::With) writeFields(message, out, wire::kContactsStamps);
 }
 
 std::string contactsLine(const ContactsMessage& message, Stamps stamps) {
   std::string text;
   JsonWriter out(text);
+  out.beginObject();
   writeContacts(message, stamps, out);
+  out.endObject();
   return text + "\n";
 }
 
@@ -120,33 +108,17 @@ std::string contactsText(const ContactsMessage& message) {
 }
 
 void writeStatus(const StatusMessage& message, JsonWriter& out) {
-  out.beginObject();
-  out.field("utime", message.utimeUs);
-  out.field("start_utime", message.startUtimeUs);
-  out.field("build", message.build);
-  out.field("scene", message.scene);
-  out.field("avatars", message.numAvatars);
-  out.field("workers", message.numWorkers);
-  out.field("received", message.received);
-  out.field("answered", message.answered);
-  out.field("rejected", message.rejected);
-  out.field("lost", message.lost);
-  out.field("gaps", message.gaps);
-  out.field("waiting", message.waiting);
-  out.key("reasons");
-  out.beginObject();
-  for (const StatusMessage::Count& count : message.counts) out.field(count.reason, count.count);
-  out.endObject();
-  out.field("publish_failures", message.publishFailures);
-  out.field("journal_failures", message.journalFailures);
-  out.field("kernel_drops", message.kernelDrops);
-  writeShares("latency_us", message.latencyP50Us, message.latencyP99Us, message.latencyMaxUs, out);
-  writeShares("query_us", message.queryP50Us, message.queryP99Us, message.queryMaxUs, out);
-  out.endObject();
+  writeFields(message, out, wire::kStatus);
+  writeObject("reasons", out, [&] {
+    for (const StatusMessage::Count& count : message.counts) out.field(count.reason, count.count);
+  });
+  writeFields(message, out, wire::kStatusFailures);
+  writeObject("latency_us", out, [&] { writeFields(message, out, wire::kStatusLatency); });
+  writeObject("query_us", out, [&] { writeFields(message, out, wire::kStatusQuery); });
 }
 
 std::string statusLine(const StatusMessage& message) {
-  return jsonLine("status", [&](JsonWriter& out) { writeStatus(message, out); });
+  return objectLine("status", [&](JsonWriter& out) { writeStatus(message, out); });
 }
 
 std::string statusText(const StatusMessage& message) {

@@ -12,10 +12,7 @@
 
 namespace foretouch::tools {
 
-/// As text: beyond the range of JSON numbers in some readers.
-[[nodiscard]] std::string hashText(std::int64_t hash);
-
-/// An answer and a heartbeat as one object each.
+/// The fields of an answer and of a heartbeat, into an open object.
 void writeContacts(const ContactsMessage& message, Stamps stamps, JsonWriter& out);
 void writeStatus(const StatusMessage& message, JsonWriter& out);
 

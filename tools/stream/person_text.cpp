@@ -6,6 +6,9 @@
 
 #include "articulated/quoted.h"
 #include "lss/index.h"
+#include "network/wire/message_fields.h"
+#include "tools/fields_json.h"
+#include "tools/json_line.h"
 #include "tools/microseconds.h"
 
 namespace foretouch::tools {
@@ -22,23 +25,15 @@ double milliseconds(double us) {
 
 void writeTold(const ToldBracket& told, JsonWriter& out) {
   const LinkBracket& bracket = told.bracket;
-  out.beginObject();
-  out.field("link", told.linkName);
+  writeFields(told, out, wire::kBracketSides);
   if (bracket.other != kNoParent) {
     out.field("other", told.otherName);
   } else if (bracket.triangle >= 0) {
     out.field("object", told.otherName);
-    out.field("triangle", bracket.triangle);
   }
-  out.field("verdict", toString(bracket.verdict));
-  out.field("possible_from", bracket.possibleFrom);
-  out.field("possible_until", bracket.possibleUntil);
-  if (bracket.verdict == BracketVerdict::Certain) {
-    out.field("certain_from", bracket.certainFrom);
-    out.field("certain_until", bracket.certainUntil);
-  }
-  out.field("growth", bracket.growth);
-  out.endObject();
+  writeFields(told, out, wire::kBracketPossible);
+  if (bracket.verdict == BracketVerdict::Certain) writeFields(told, out, wire::kBracketCertain);
+  writeFields(told, out, wire::kBracketGrowth);
 }
 
 std::string touchText(const ToldBracket& told, double stepUs) {
@@ -89,39 +84,24 @@ std::string brokenText(const BrokenBound& broken) {
 }  // namespace
 
 void writePerson(const PersonMessage& message, Stamps stamps, JsonWriter& out) {
-  out.beginObject();
-  writeMessageHead(message, out);
-  out.field("between", toString(message.model));
-  out.field("bounds_hash", hashText(message.boundsHash));
-  out.field("resolution", message.resolution);
-  out.field("kind", toString(message.kind));
-  out.field("sequence_from", message.sequenceFrom);
-  out.field("sequence_to", message.sequenceTo);
-  out.field("utime_from", message.utimeFromUs);
-  out.field("utime_to", message.utimeToUs);
+  writeFields(message, out, wire::kPersonKey, wire::kPersonOptions, wire::kPersonStep);
   out.list("verdicts", message.verdicts,
            [&](BracketVerdict verdict) { out.value(toString(verdict)); });
+  writeFields(message, out, wire::kPersonAhead);
   if (message.aheadUs > 0) {
-    out.field("ahead_us", message.aheadUs);
     out.list("not_before", message.notBeforeUs, [&](std::int64_t notBefore) {
       notBefore < 0 ? out.raw("null") : out.value(notBefore);
     });
   }
-  out.list("brackets", message.brackets, [&](const ToldBracket& told) { writeTold(told, out); });
-  if (message.bracketsLeftOut > 0) out.field("brackets_left_out", message.bracketsLeftOut);
-  out.list("broken", message.broken, [&](const BrokenBound& broken) {
-    out.beginObject();
-    out.field("link", broken.link);
-    out.field("claim", toString(broken.claim));
-    out.field("beyond", broken.beyond);
-    out.endObject();
-  });
-  writeStamps(message, "person_us", message.personUs, stamps, out);
-  out.endObject();
+  writeObjects("brackets", message.brackets, out,
+               [&](const ToldBracket& told) { writeTold(told, out); });
+  writeFields(message, out, wire::kPersonLeftOut);
+  writeRows("broken", message.broken, out, wire::kBroken);
+  if (stamps == Stamps::With) writeFields(message, out, wire::kPersonStamps);
 }
 
 std::string personStepLine(const PersonMessage& message, Stamps stamps) {
-  return jsonLine("person_step", [&](JsonWriter& out) { writePerson(message, stamps, out); });
+  return objectLine("person_step", [&](JsonWriter& out) { writePerson(message, stamps, out); });
 }
 
 std::string personStepText(const PersonMessage& message) {

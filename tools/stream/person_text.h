@@ -14,7 +14,7 @@
 
 namespace foretouch::tools {
 
-/// As one object.
+/// Its fields, into an open object.
 void writePerson(const PersonMessage& message, Stamps stamps, JsonWriter& out);
 /// {"person_step":...} around it, and a line break.
 [[nodiscard]] std::string personStepLine(const PersonMessage& message, Stamps stamps);

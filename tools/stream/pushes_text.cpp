@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include "articulated/quoted.h"
-#include "tools/contact_json.h"
+#include "network/wire/world_message_fields.h"
+#include "tools/fields_json.h"
+#include "tools/json_line.h"
 
 namespace foretouch::tools {
 namespace {
@@ -14,27 +16,6 @@ namespace {
 /// Beyond this many avatars, forgets the known ones.
 constexpr std::size_t kMostPushedAvatars = 4096;
 constexpr double kMillimetres = 1e3;
-
-void writeContact(const ToldPush& told, JsonWriter& out) {
-  const SolidBodyContact& contact = told.contact;
-  out.beginObject();
-  out.field("link", told.linkName);
-  out.field("lss", contact.lss);
-  out.field("body", contact.body);
-  if (contact.triangle >= 0) out.field("triangle", contact.triangle);
-  writePush(contact, out);
-  out.endObject();
-}
-
-void writeCrush(const ToldCrush& told, JsonWriter& out) {
-  out.beginObject();
-  out.field("body", told.crush.body);
-  out.field("link", told.linkName);
-  out.field("since", told.crush.sinceUs);
-  if (told.crush.isOver) out.field("over", true);
-  out.field("depth", told.crush.depth);
-  out.endObject();
-}
 
 std::string textOf(const ToldCrush& told) {
   const SolidCrush& crush = told.crush;
@@ -46,21 +27,15 @@ std::string textOf(const ToldCrush& told) {
 }  // namespace
 
 void writePushes(const PushesMessage& message, JsonWriter& out) {
-  out.beginObject();
-  writeMessageHead(message, out);
-  out.field("step_us", message.stepUs);
-  out.field("timeline", message.timeline);
-  if (message.isAssumed) out.field("assumed", true);
-  out.list("contacts", message.contacts, [&](const ToldPush& told) { writeContact(told, out); });
-  if (message.contactsLeftOut > 0) out.field("contacts_left_out", message.contactsLeftOut);
-  out.list("crushes", message.crushes, [&](const ToldCrush& told) { writeCrush(told, out); });
-  if (message.crushesLeftOut > 0) out.field("crushes_left_out", message.crushesLeftOut);
-  writeStamps(message, "tick_us", message.tickUs, Stamps::With, out);
-  out.endObject();
+  writeFields(message, out, wire::kPushesKey, wire::kPushes);
+  writeRows("contacts", message.contacts, out, wire::kPush);
+  writeFields(message, out, wire::kPushesLeftOut);
+  writeRows("crushes", message.crushes, out, wire::kCrush);
+  writeFields(message, out, wire::kCrushesLeftOut, wire::kPushesStamps);
 }
 
 std::string pushesLine(const PushesMessage& message) {
-  return jsonLine("pushes", [&](JsonWriter& out) { writePushes(message, out); });
+  return objectLine("pushes", [&](JsonWriter& out) { writePushes(message, out); });
 }
 
 std::string pushesText(const PushesMessage& message) {

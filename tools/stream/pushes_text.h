@@ -14,7 +14,7 @@
 
 namespace foretouch::tools {
 
-/// As one object.
+/// Its fields, into an open object.
 void writePushes(const PushesMessage& message, JsonWriter& out);
 /// {"pushes":...} around it, and a line break.
 [[nodiscard]] std::string pushesLine(const PushesMessage& message);

@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include "articulated/quoted.h"
+#include "network/wire/message_fields.h"
+#include "tools/fields_json.h"
+#include "tools/json_line.h"
 #include "tools/microseconds.h"
 #include "tools/solid_json.h"
 
@@ -33,24 +36,8 @@ std::string surfacesOf(const SolidMessage& message) {
 }  // namespace
 
 void writeSolid(const SolidMessage& message, Stamps stamps, JsonWriter& out) {
-  out.beginObject();
-  writeMessageHead(message, out);
-  out.field("kind", toString(message.kind));
-  out.field("lost", message.lost);
-  out.field("step_us", message.stepUs);
-  out.field("avatar_hash", hashText(message.avatarHash));
-  out.field("skin", message.skin);
-  out.field("tolerance", message.tolerance);
-  out.field("catch_up", message.catchUp);
-  out.field("work_budget", message.workBudget);
-  out.field("state", toString(message.state));
-  out.field("limit", toString(message.limit));
-  out.field("certified", message.isCertified);
-  if (message.hasAppeared) out.field("appeared", true);
-  out.field("deviation", message.deviation);
-  out.field("lift", message.lift);
-  out.field("clearance", message.clearance);
-  if (message.snapInUs >= 0) out.field("snap_in_us", message.snapInUs);
+  writeFields(message, out, wire::kSolidKey, wire::kSolidOptions, wire::kSolidState,
+              wire::kSolidLengths);
   out.key("way");
   out.beginArray();
   for (std::size_t i = 0; i < message.way.size(); ++i) {
@@ -62,17 +49,16 @@ void writeSolid(const SolidMessage& message, Stamps stamps, JsonWriter& out) {
   out.endArray();
   out.list("deviations", message.linkDeviation, [&](double value) { out.value(value); });
   out.list("joints", message.joints, [&](SolidJointState state) { out.value(toString(state)); });
-  out.list("contacts", message.contacts, [&](const ShownContact& shown) {
+  writeObjects("contacts", message.contacts, out, [&](const ShownContact& shown) {
     writeSolidContact(shown.contact, jsonString(shown.linkName), jsonString(shown.otherName), out);
   });
-  if (message.contactsLeftOut > 0) out.field("contacts_left_out", message.contactsLeftOut);
+  writeFields(message, out, wire::kSolidLeftOut);
   writeCounters(message.counters, out);
-  writeStamps(message, "solid_us", message.solidUs, stamps, out);
-  out.endObject();
+  if (stamps == Stamps::With) writeFields(message, out, wire::kSolidStamps);
 }
 
 std::string solidLine(const SolidMessage& message, Stamps stamps) {
-  return jsonLine("solid", [&](JsonWriter& out) { writeSolid(message, stamps, out); });
+  return objectLine("solid", [&](JsonWriter& out) { writeSolid(message, stamps, out); });
 }
 
 std::string solidText(const SolidMessage& message) {

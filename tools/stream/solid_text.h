@@ -12,7 +12,7 @@
 
 namespace foretouch::tools {
 
-/// As one object.
+/// Its fields, into an open object.
 void writeSolid(const SolidMessage& message, Stamps stamps, JsonWriter& out);
 /// {"solid":...} around it, and a line break.
 [[nodiscard]] std::string solidLine(const SolidMessage& message, Stamps stamps);

@@ -7,6 +7,7 @@
 #include "articulated/quoted.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
+#include "tools/json_line.h"
 #include "tools/world/served_bodies.h"
 #include "tools/world/world_event_lines.h"
 #include "tools/world/world_results.h"
@@ -24,13 +25,6 @@ LoadedBody bodyOfOneLink() {
   LoadedBody body;
   body.shape.skeleton = Skeleton::build(raw).value();
   return body;
-}
-
-void writeInstantOf(const char* name, std::int64_t utimeUs, JsonWriter& out) {
-  out.key(name);
-  out.beginObject();
-  writeInstant("time", {utimeUs, 0.0}, out);
-  out.endObject();
 }
 
 bool isGone(const ToldEvent& told) {
@@ -141,15 +135,15 @@ void ToldEvents::tellUnknown(const UnknownPart& part, std::string& json) {
   of.link = part.link;
   of.triangle = -1;
   const ContactSide side = sideOf(of);
-  addObjectLine("unknown", json, [&](JsonWriter& out) {
+  json += objectLine("unknown", [&](JsonWriter& out) {
     if (side.body == kEveryBody) {
       out.field("everybody", true);
     } else {
       writeSide(world_, {side.body, side.link}, out);
     }
     out.field("reason", toString(part.reason));
-    writeInstantOf("from", part.fromUs, out);
-    writeInstantOf("to", part.toUs, out);
+    writeInstantObject("from", {part.fromUs, 0.0}, out);
+    writeInstantObject("to", {part.toUs, 0.0}, out);
   });
 }
 
@@ -186,8 +180,9 @@ ToldEvents::Lines ToldEvents::take(const EventsMessage& message) {
     tellUnknown({kEveryBody, kEveryLink, UndecidedReason::Gap, toUs_, message.fromUs}, lines.json);
   }
   if (isOther) {
-    addObjectLine("timeline", lines.json,
-                  [&](JsonWriter& out) { writeInstantOf("from", message.fromUs, out); });
+    lines.json += objectLine("timeline", [&](JsonWriter& out) {
+      writeInstantObject("from", {message.fromUs, 0.0}, out);
+    });
     lines.text += "all contacts begin anew\n";
   }
   // Several messages of one window repeat what is unknown.
@@ -221,10 +216,7 @@ ToldEvents::Lines ToldEvents::take(const EventsMessage& message) {
 }
 
 std::string ToldEvents::summary() const {
-  std::string text;
-  addObjectLine("summary", text,
-                [&](JsonWriter& out) { writeEventCounts("events", counts_, out); });
-  return text;
+  return objectLine("summary", [&](JsonWriter& out) { writeEventCounts("events", counts_, out); });
 }
 
 }  // namespace foretouch::tools

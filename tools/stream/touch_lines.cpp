@@ -4,6 +4,7 @@
 
 #include "articulated/quoted.h"
 #include "assets/json_writer.h"
+#include "tools/json_line.h"
 #include "tools/microseconds.h"
 #include "tools/touches/touch_json.h"
 
@@ -17,17 +18,11 @@ std::string touchLine(const char* name, const StreamTouch& told) {
   words.link = link;
   words.object = object;
   words.isOfStream = true;
-  std::string text;
-  JsonWriter out(text);
-  out.beginObject();
-  out.key(name);
-  out.beginObject();
-  out.field("avatar", told.avatar);
-  out.field("session", told.session);
-  writeTouch(told.touch, words, out);
-  out.endObject();
-  out.endObject();
-  return text + "\n";
+  return objectLine(name, [&](JsonWriter& out) {
+    out.field("avatar", told.avatar);
+    out.field("session", told.session);
+    writeTouch(told.touch, words, out);
+  });
 }
 
 std::string textOf(const StreamTouch& begun, const ContactsMessage& message) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tools/contact_json.h"
+#include "tools/json_line.h"
 
 namespace foretouch::tools {
 namespace {
@@ -46,20 +47,14 @@ void writeTouch(const Touch& touch, const TouchWords& words, JsonWriter& out) {
 
 std::string touchSummaryLine(const TouchCounts& counts, std::int64_t steps,
                              const TouchesAsked& asked) {
-  std::string text;
-  JsonWriter out(text);
-  out.beginObject();
-  out.key("summary");
-  out.beginObject();
-  out.field("steps", steps);
-  out.field("touches", counts.touches);
-  out.field("touches_missed", counts.missed);
-  out.field("touches_ground", counts.ground);
-  if (asked.ofOwnLinks) out.field("touches_own", counts.own);
-  if (asked.areFollowed) out.field("followed", true);
-  out.endObject();
-  out.endObject();
-  return text + "\n";
+  return objectLine("summary", [&](JsonWriter& out) {
+    out.field("steps", steps);
+    out.field("touches", counts.touches);
+    out.field("touches_missed", counts.missed);
+    out.field("touches_ground", counts.ground);
+    if (asked.ofOwnLinks) out.field("touches_own", counts.own);
+    if (asked.areFollowed) out.field("followed", true);
+  });
 }
 
 }  // namespace foretouch::tools

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/json_line.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -23,12 +25,11 @@ TouchStrength strengthOf(const WorldEvent& event) {
 }
 
 void writeStrength(const TouchStrength& strength, JsonWriter& out) {
-  out.key("approach");
-  out.beginObject();
-  writeFinite("speed", strength.approachSpeed, out);
-  writeFinite("lower", strength.approachLower, out);
-  writeFinite("upper", strength.approachUpper, out);
-  out.endObject();
+  writeObject("approach", out, [&] {
+    writeFinite("speed", strength.approachSpeed, out);
+    writeFinite("lower", strength.approachLower, out);
+    writeFinite("upper", strength.approachUpper, out);
+  });
   writeFinite("effective_mass", strength.effectiveMass, out);
 }
 

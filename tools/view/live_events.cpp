@@ -4,7 +4,10 @@
 #include <memory>
 #include <utility>
 
+#include "network/wire/message_fields.h"
 #include "tools/contact_json.h"
+#include "tools/fields_json.h"
+#include "tools/json_line.h"
 #include "tools/person/bracket_joiner.h"
 #include "tools/reported_contact.h"
 #include "tools/stream/contacts_line.h"
@@ -39,18 +42,12 @@ void writePose(const char* name, const Pose& pose, JsonWriter& out) {
 void writeSolidStep(const WatchedSolid& solid, JsonWriter& out) {
   writePose("shown_from", solid.from, out);
   writePose("shown_to", solid.to, out);
-  out.key("solid");
-  out.beginObject();
-  out.field("state", toString(solid.state));
-  out.field("limit", toString(solid.limit));
-  out.field("certified", solid.isCertified);
-  out.field("deviation", solid.deviation);
-  out.field("lift", solid.lift);
-  out.field("clearance", solid.clearance);
-  if (solid.snapInUs >= 0) {
-    out.field("snap_in", static_cast<double>(solid.snapInUs) * kSecondsPerUs);
-  }
-  out.endObject();
+  writeObject("solid", out, [&] {
+    writeFields(solid, out, wire::shownState<WatchedSolid>(), wire::shownLengths<WatchedSolid>());
+    if (solid.snapInUs >= 0) {
+      out.field("snap_in", static_cast<double>(solid.snapInUs) * kSecondsPerUs);
+    }
+  });
 }
 
 SharedText shared(std::string text) {

@@ -4,18 +4,12 @@
 #include <optional>
 
 #include "lss/index.h"
+#include "tools/json_line.h"
 #include "tools/replay/results_writer.h"
 #include "tools/world/world_results.h"
 
 namespace foretouch::tools {
 namespace {
-
-void writeInstantObject(const char* name, const WorldTime& time, JsonWriter& out) {
-  out.key(name);
-  out.beginObject();
-  writeInstant("time", time, out);
-  out.endObject();
-}
 
 bool isTold(EventKind kind) {
   return kind != EventKind::UnresolvedFrom && kind != EventKind::UnresolvedTo;
@@ -91,10 +85,7 @@ void write(const LoadedWorld& world, const WorldEvent& event, const char* cause,
 void writeTriggerSides(const LoadedWorld& world, TriggerId trigger, const NamedSide& who,
                        JsonWriter& out) {
   out.field("trigger", world.nameOf(world.triggers.body(trigger)));
-  out.key("who");
-  out.beginObject();
-  writeSide(world, who, out);
-  out.endObject();
+  writeObject("who", out, [&] { writeSide(world, who, out); });
 }
 
 void write(const LoadedWorld& world, const TriggerEvent& event, JsonWriter& out) {
@@ -117,11 +108,9 @@ void writeTrigger(const LoadedWorld& world, TriggerId trigger, JsonWriter& out) 
   }
   out.field("by_link", file.trigger->byLink);
   if (!file.trigger->watched.empty()) {
-    out.list("watches", file.trigger->watched, [&](const FileWatch& watch) {
-      out.beginObject();
+    writeObjects("watches", file.trigger->watched, out, [&](const FileWatch& watch) {
       out.field("body", watch.body);
       if (!watch.link.empty()) out.field("link", watch.link);
-      out.endObject();
     });
   }
   out.endObject();
@@ -141,12 +130,11 @@ void writeCourse(const Interval& of, bool startsInside, JsonWriter& out) {
 
 void writeEventCounts(const char* name, const std::int64_t (&counts)[kNumEventKinds],
                       JsonWriter& out) {
-  out.key(name);
-  out.beginObject();
-  for (std::size_t kind = 0; kind < kNumEventKinds; ++kind) {
-    out.field(toString(static_cast<EventKind>(kind)), counts[kind]);
-  }
-  out.endObject();
+  writeObject(name, out, [&] {
+    for (std::size_t kind = 0; kind < kNumEventKinds; ++kind) {
+      out.field(toString(static_cast<EventKind>(kind)), counts[kind]);
+    }
+  });
 }
 
 std::string eventLine(const LoadedWorld& world, const WorldEvent& event, const char* cause) {
@@ -203,12 +191,8 @@ void writeInterval(const LoadedWorld& world, const ContactInterval& interval, Js
   const bool isContact = part.kind == PartKind::Contact;
   out.field("kind", isContact ? "contact" : "unresolved");
   if (!isContact) out.field("reason", toString(part.reason));
-  for (const auto& [name, side] : {std::make_pair("a", &part.a), std::make_pair("b", &part.b)}) {
-    out.key(name);
-    out.beginObject();
-    writeWho(world, *side, part.object, out);
-    out.endObject();
-  }
+  writeObject("a", out, [&] { writeWho(world, part.a, part.object, out); });
+  writeObject("b", out, [&] { writeWho(world, part.b, part.object, out); });
   writeCourse(part, interval.startsInside, out);
 }
 
@@ -221,7 +205,7 @@ void writeStay(const LoadedWorld& world, const TriggerStay& stay, JsonWriter& ou
 std::string intervalLines(const LoadedWorld& world, const WorldIntervals& intervals) {
   std::string text;
   const auto line = [&](const char* name, const auto& writeFields) {
-    addObjectLine(name, text, writeFields);
+    text += objectLine(name, writeFields);
   };
   for (const ContactInterval& interval : intervals.contacts()) {
     line("interval", [&](JsonWriter& out) { writeInterval(world, interval, out); });

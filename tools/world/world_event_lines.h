@@ -23,19 +23,6 @@ namespace foretouch::tools {
 /// The last lines: one per interval, one per stay in a trigger, and the counts.
 [[nodiscard]] std::string intervalLines(const LoadedWorld& world, const WorldIntervals& intervals);
 
-/// {"name":{...}} and a line break.
-template <typename WriteFields>
-void addObjectLine(const char* name, std::string& text, const WriteFields& writeFields) {
-  JsonWriter out(text);
-  out.beginObject();
-  out.key(name);
-  out.beginObject();
-  writeFields(out);
-  out.endObject();
-  out.endObject();
-  text += "\n";
-}
-
 /// The fields of an interval or a stay into an open object: as in its line.
 void writeInterval(const LoadedWorld& world, const ContactInterval& interval, JsonWriter& out);
 void writeEventCounts(const char* name, const std::int64_t (&counts)[kNumEventKinds],

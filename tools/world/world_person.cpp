@@ -13,6 +13,7 @@
 #include "assets/json_writer.h"
 #include "lss/index.h"
 #include "middleware/bracket/bracket_query.h"
+#include "tools/json_line.h"
 
 namespace foretouch::tools {
 namespace {
@@ -316,19 +317,14 @@ std::string personLines(const LoadedWorld& world, const WorldPersons& persons) {
   for (const WorldPersonTouch& of : persons.touches) {
     text += personTouchLine(namesOf(world, of), of.touch);
   }
-  JsonWriter out(text);
-  out.beginObject();
-  out.key("persons");
-  out.beginObject();
-  out.field("bodies", persons.persons);
-  out.field("intervals", persons.counts.intervals);
-  out.field("excluded", persons.counts.excluded);
-  out.field("possible", persons.counts.possible);
-  out.field("certain", persons.counts.certain);
-  out.field("unclaimed", persons.counts.unclaimed);
-  out.endObject();
-  out.endObject();
-  return text + "\n";
+  return text + objectLine("persons", [&](JsonWriter& out) {
+           out.field("bodies", persons.persons);
+           out.field("intervals", persons.counts.intervals);
+           out.field("excluded", persons.counts.excluded);
+           out.field("possible", persons.counts.possible);
+           out.field("certain", persons.counts.certain);
+           out.field("unclaimed", persons.counts.unclaimed);
+         });
 }
 
 std::string personText(const LoadedWorld& world, const WorldPersons& persons) {

@@ -2,6 +2,7 @@
 
 #include "lss/index.h"
 #include "tools/contact_json.h"
+#include "tools/json_line.h"
 #include "tools/replay/results_writer.h"
 #include "tools/touches/touch_json.h"
 
@@ -30,12 +31,10 @@ void writeBody(const LoadedWorld& world, BodyId id, JsonWriter& out) {
 }
 
 void writeAsks(const LoadedWorld& world, JsonWriter& out) {
-  out.list("asks", world.file.asks, [&](const FileAsk& ask) {
-    out.beginObject();
+  writeObjects("asks", world.file.asks, out, [&](const FileAsk& ask) {
     out.field("group", ask.group);
     out.field("with", ask.with.empty() ? "scene" : ask.with.c_str());
     out.field("asked", ask.isAsked);
-    out.endObject();
   });
 }
 
@@ -53,6 +52,10 @@ void writeInstant(const char* name, const WorldTime& time, JsonWriter& out) {
   out.field(name, LoadedWorld::secondsOf(time));
   out.field("utime", time.us);
   out.field("fraction", time.fraction);
+}
+
+void writeInstantObject(const char* name, const WorldTime& time, JsonWriter& out) {
+  writeObject(name, out, [&] { writeInstant("time", time, out); });
 }
 
 void writeContactSide(const LoadedWorld& world, const ContactSide& side, bool isTold,
@@ -143,12 +146,10 @@ std::string windowLine(const LoadedWorld& world, const WorldStep& step) {
   out.list("contacts", step.answer.contacts,
            [&](const WorldContact& contact) { writeWorldContact(world, contact, out); });
   if (!step.answer.silent.empty()) {
-    out.list("silent", step.answer.silent, [&](const SilentBody& silent) {
-      out.beginObject();
+    writeObjects("silent", step.answer.silent, out, [&](const SilentBody& silent) {
       out.field("body", world.nameOf(silent.body));
       out.field("since", LoadedWorld::secondsOf(silent.sinceUs));
       out.field("taken_to", toString(silent.takenTo));
-      out.endObject();
     });
   }
   out.key("latency_us");
@@ -159,15 +160,11 @@ std::string windowLine(const LoadedWorld& world, const WorldStep& step) {
 
 void writeWorldTouch(const LoadedWorld& world, const TouchSides& sides, const WorldTouch& touch,
                      JsonWriter& out) {
-  out.key("a");
-  out.beginObject();
-  writeSide(world, {sides.a, sides.linkOfA}, out);
-  out.endObject();
-  out.key("b");
-  out.beginObject();
-  writeSide(world, {sides.b, sides.linkOfB}, out);
-  if (sides.b == kStillScene) out.field("object", touch.object);
-  out.endObject();
+  writeObject("a", out, [&] { writeSide(world, {sides.a, sides.linkOfA}, out); });
+  writeObject("b", out, [&] {
+    writeSide(world, {sides.b, sides.linkOfB}, out);
+    if (sides.b == kStillScene) out.field("object", touch.object);
+  });
   writeTouchCourse(touch, "windows", out);
   if (touch.strength) writeForce(*touch.strength, out);
 }
@@ -176,28 +173,18 @@ std::string touchLines(const LoadedWorld& world, const WorldTouches& touches,
                        std::int64_t windows) {
   std::string text;
   for (const WorldTouch& touch : touches.listed()) {
-    JsonWriter out(text);
-    out.beginObject();
-    out.key("touch");
-    out.beginObject();
-    writeWorldTouch(world, touches.sidesOf(touch), touch, out);
-    out.endObject();
-    out.endObject();
-    text += "\n";
+    text += objectLine("touch", [&](JsonWriter& out) {
+      writeWorldTouch(world, touches.sidesOf(touch), touch, out);
+    });
   }
   const WorldTouchCounts& counts = touches.counts();
-  JsonWriter out(text);
-  out.beginObject();
-  out.key("summary");
-  out.beginObject();
-  out.field("windows", windows);
-  out.field("touches_bodies", counts.bodies);
-  out.field("touches_scene", counts.scene);
-  out.field("touches_own", counts.own);
-  out.field("touches_missed", counts.missed);
-  out.endObject();
-  out.endObject();
-  return text + "\n";
+  return text + objectLine("summary", [&](JsonWriter& out) {
+           out.field("windows", windows);
+           out.field("touches_bodies", counts.bodies);
+           out.field("touches_scene", counts.scene);
+           out.field("touches_own", counts.own);
+           out.field("touches_missed", counts.missed);
+         });
 }
 
 }  // namespace foretouch::tools

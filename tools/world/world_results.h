@@ -25,6 +25,8 @@ void writeSide(const LoadedWorld& world, const NamedSide& side, JsonWriter& out)
 [[nodiscard]] const std::optional<Scene>& meshOf(const LoadedWorld& world, BodyId body);
 /// The instant in seconds under this name, for people, and exactly.
 void writeInstant(const char* name, const WorldTime& time, JsonWriter& out);
+/// The same of "time" in an object of its own.
+void writeInstantObject(const char* name, const WorldTime& time, JsonWriter& out);
 /// An object. `isTold`: with where on it the contact is.
 void writeContactSide(const LoadedWorld& world, const ContactSide& side, bool isTold,
                       JsonWriter& out);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "assets/json_writer.h"
+#include "tools/json_line.h"
 #include "tools/percentile.h"
 
 namespace foretouch::tools {
@@ -114,14 +115,13 @@ std::string WorldSummary::jsonLine(const std::string& output, const std::string&
   out.field("starts_in_contact", total_.startsInContact);
   out.field("undecided", total_.undecided);
   out.field("assumed", assumed_);
-  out.key("latency_us");
-  out.beginObject();
-  for (const auto& [name, share] :
-       {std::make_pair("p50", 0.5), std::make_pair("p99", 0.99), std::make_pair("max", 1.0)}) {
-    out.key(name);
-    out.fixed(latencyUs(share), 1);
-  }
-  out.endObject();
+  writeObject("latency_us", out, [&] {
+    for (const auto& [name, share] :
+         {std::make_pair("p50", 0.5), std::make_pair("p99", 0.99), std::make_pair("max", 1.0)}) {
+      out.key(name);
+      out.fixed(latencyUs(share), 1);
+    }
+  });
   out.field("output", output);
   if (!report.empty()) out.field("report", report);
   out.endObject();

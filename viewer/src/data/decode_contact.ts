@@ -1,13 +1,13 @@
-import type { ContactFields, Vector, Verdict } from "./document.js";
+import type { Vector, Verdict } from "./document.js";
 import { present, type Reader } from "./reader.js";
 
 const verdicts: readonly Verdict[] = ["contact", "starts_in_contact", "undecided"];
 
 /** The fields of a contact that do not say which step it belongs to. */
-export function decodeContact(item: Reader, links: number): ContactFields {
+export function decodeContact(item: Reader, links: number) {
   const verdict = item.field("verdict").oneOf(verdicts);
   const isDecided = verdict !== "undecided";
-  const contact: ContactFields = {
+  const contact = {
     link: item.field("link").index(links),
     verdict,
     reason: present(item, "reason")?.text() ?? null,
@@ -21,9 +21,11 @@ export function decodeContact(item: Reader, links: number): ContactFields {
     normal: vector(item, "normal"),
     triangle: present(item, "triangle")?.number() ?? null,
     object: present(item, "object")?.text() ?? null,
+    /** Of two bodies: the other one, an index into the document's avatars, and its link; else null. */
     otherAvatar: present(item, "other_avatar")?.count() ?? null,
     otherLink: present(item, "other")?.count() ?? null,
     missedByPoses: present(item, "missed_by_poses")?.flag() ?? null,
+    /** Of a solid avatar: how hard the tracked pose presses, metres; and how fast the link slips, m/s. */
     push: present(item, "push")?.number(0) ?? null,
     slip: present(item, "slip")?.number() ?? null,
   };
@@ -31,6 +33,9 @@ export function decodeContact(item: Reader, links: number): ContactFields {
   if (isDecided && contact.point === null) item.fail('has no "point"');
   return contact;
 }
+
+/** A contact as the results have it; null for fields its verdict does not have. */
+export type ContactFields = Readonly<ReturnType<typeof decodeContact>>;
 
 function vector(item: Reader, name: string): Vector | null {
   return present(item, name)?.vector() ?? null;

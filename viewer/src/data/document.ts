@@ -1,6 +1,17 @@
 // The view document, decoded: format "foretouch-view" version 1. Metres, seconds, right-handed
 // world with +Y up, quaternions w, x, y, z. Everything here has been checked by decode.ts, so that
-// nothing behind it has to: indices are in range, numbers finite, quaternions unit.
+// nothing behind it has to: indices are in range, numbers finite, quaternions unit. What happened
+// (contacts, touches, feet, persons, stays) has the types that its decoders give it.
+
+import type { ContactFields } from "./decode_contact.js";
+import type { RecordedFoot } from "./decode_feet.js";
+import type { RecordedPerson } from "./decode_person.js";
+import type { Check, RecordedStay, RecordedTouch } from "./decode_touch.js";
+
+export type { ContactFields } from "./decode_contact.js";
+export type { FootStance, RecordedFoot } from "./decode_feet.js";
+export type { PersonTouch, RecordedPerson } from "./decode_person.js";
+export type { Check, RecordedStay, RecordedTouch, Strength } from "./decode_touch.js";
 
 export type Vector = readonly [number, number, number];
 export type Kind = "replay" | "world" | "log" | "inspection" | "live";
@@ -161,150 +172,8 @@ export interface TouchingAtPoses {
   readonly links: Uint16Array;
 }
 
-/** A contact as the results have it; null for fields its verdict does not have. */
-export interface ContactFields {
-  readonly link: number;
-  readonly verdict: Verdict;
-  readonly reason: string | null;
-  readonly toi: number | null;
-  readonly time: number | null;
-  readonly freeUntil: number | null;
-  readonly separation: number | null;
-  readonly penetration: number | null;
-  readonly point: Vector | null;
-  readonly onLink: Vector | null;
-  readonly normal: Vector | null;
-  readonly triangle: number | null;
-  readonly object: string | null;
-  /** Of two bodies: the other one, an index into the document's avatars, and its link; else null. */
-  readonly otherAvatar: number | null;
-  readonly otherLink: number | null;
-  readonly missedByPoses: boolean | null;
-  /** Of a solid avatar: how hard the tracked pose presses, metres; and how fast the link slips, m/s. */
-  readonly push: number | null;
-  readonly slip: number | null;
-}
-
 export interface RecordedContact extends ContactFields {
   readonly step: number;
-}
-
-/** How hard two meet: metres a second along the normal, kilograms, newton seconds; null where it is not known. */
-export interface Strength {
-  /** Above zero while they approach; if they touch, it is proven to be between the next two. */
-  readonly speed: number | null;
-  readonly lower: number | null;
-  readonly upper: number | null;
-  /** That meets the other along the normal; null where nothing of the two has a mass. */
-  readonly effectiveMass: number | null;
-  /** That would take the approach away. */
-  readonly impulse: number | null;
-}
-
-/** A link and an object (or another link, of the same avatar or of another one) from first contact to where it ends. */
-export interface RecordedTouch {
-  readonly avatar: number;
-  readonly link: number;
-  /** Of own links: the other one's name. */
-  readonly object: string;
-  /** The other link; null where it touches the scene. */
-  readonly other: number | null;
-  /** Whose that is: an index into the document's avatars; null where it is the avatar's own. */
-  readonly otherAvatar: number | null;
-  readonly begin: number;
-  readonly end: number;
-  /** "inside": it touched already when somebody first looked. */
-  readonly begins: "contact" | "inside";
-  /** "open": it still touches when nobody looks any more. */
-  readonly ends: "left" | "open";
-  readonly isGround: boolean;
-  /** No pose that was asked for lies in it. */
-  readonly isMissed: boolean;
-  /** Indices into the avatar's contacts. */
-  readonly rows: readonly number[];
-  /** The deepest that any of its poses is in it, metres; null where none is. */
-  readonly depth: number | null;
-  /** Where it begins; null where nobody looked. */
-  readonly strength: Strength | null;
-  /** Why nothing is claimed of the two in this time, which is then no touch; null of touches. */
-  readonly unresolved: string | null;
-}
-
-export interface RecordedFoot {
-  /** The ankle, of the first avatar. */
-  readonly link: number;
-  readonly stances: readonly FootStance[];
-}
-
-/** A touch of a whole foot, or that it hovers. Metres and seconds. */
-export interface FootStance {
-  readonly kind: "touches" | "under" | "hovers";
-  readonly begin: number;
-  readonly end: number;
-  /** The clip begins, or ends, in it. */
-  readonly beganBefore: boolean;
-  readonly goesOn: boolean;
-  readonly slide: number;
-  /** The part that slides most, and the deepest: "heel"; "" of what hovers. */
-  readonly slides: string;
-  readonly depth: number;
-  readonly deepest: string;
-  readonly depthAt: number;
-  readonly hover: number;
-  /** On the ground; empty where it does not slide. */
-  readonly trace: readonly Vector[];
-}
-
-export interface RecordedPerson {
-  /** The file of the bounds, and the motion between two poses that they are about. */
-  readonly bounds: string;
-  readonly between: string;
-  /** Of the poses that were asked; null where each person has a rate of their own. */
-  readonly rateHz: number | null;
-  readonly touches: readonly PersonTouch[];
-}
-
-/** What the person touched, whatever they did within the bounds. Seconds. */
-export interface PersonTouch {
-  /** Whose; indices into the document's avatars, and into their links. */
-  readonly avatar: number;
-  readonly link: number;
-  /** Of the scene, or of another body; the other one's name where it is an own link; "" where it is not known. */
-  readonly object: string;
-  readonly isOwn: boolean;
-  /** Nothing is touched before, and nothing after. */
-  readonly begin: number;
-  readonly end: number;
-  /** By when it had begun, and until when it had not ended; null of what is only possible. */
-  readonly certain: { readonly from: number; readonly to: number } | null;
-  /** The clip begins, or ends, in it. */
-  readonly beganBefore: boolean;
-  readonly goesOn: boolean;
-  /** The farthest that person and model may be apart in it, metres; null where it is not known. */
-  readonly growth: number | null;
-}
-
-/** Somebody is in a trigger, or nothing is known of that. */
-export interface RecordedStay {
-  /** Indices into the document's avatars. */
-  readonly trigger: number;
-  readonly avatar: number;
-  /** Whose entering it begins with. */
-  readonly link: number;
-  readonly begin: number;
-  readonly end: number;
-  readonly begins: "enter" | "inside";
-  readonly ends: "left" | "open";
-  readonly isUnresolved: boolean;
-}
-
-/** One verdict of an inspection, and what to try where it is no good one. */
-export interface Check {
-  readonly name: string;
-  readonly state: "good" | "doubt" | "bad";
-  readonly text: string;
-  /** An option to copy; "" for none. */
-  readonly remedy: string;
 }
 
 /** Contains every point that the link's LSS reach during the step, at most `error` metres off. */
