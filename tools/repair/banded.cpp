@@ -12,6 +12,21 @@ BandedSystem::BandedSystem(std::size_t blocks, Eigen::Index size) : size_(size),
   for (auto& row : blocks_) row.fill(MatrixXd::Zero(size, size));
 }
 
+Eigen::VectorXd BandedSystem::times(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(x.size());
+  const auto begin = [&](std::size_t at) { return static_cast<Eigen::Index>(at) * size_; };
+  for (std::size_t at = 0; at < blocks_.size(); ++at) {
+    product.segment(begin(at), size_).noalias() += blocks_[at][0] * x.segment(begin(at), size_);
+    for (std::size_t back = 1; back <= std::min(kBand, at); ++back) {
+      const MatrixXd& block = blocks_[at][back];
+      product.segment(begin(at), size_).noalias() += block * x.segment(begin(at - back), size_);
+      product.segment(begin(at - back), size_).noalias() +=
+          block.transpose() * x.segment(begin(at), size_);
+    }
+  }
+  return product;
+}
+
 bool BandedSystem::factorize() {
   for (std::size_t at = 0; at < blocks_.size(); ++at) {
     for (std::size_t back = std::min(kBand, at); back > 0; --back) {

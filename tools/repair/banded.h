@@ -22,6 +22,8 @@ class BandedSystem {
   [[nodiscard]] Eigen::MatrixXd& block(std::size_t at, std::size_t back) {
     return blocks_[at][back];
   }
+  /// Precondition: it was not factorized.
+  [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& x) const;
   /// Replaces the system by its factor. False: it is not positive.
   [[nodiscard]] bool factorize();
   /// Precondition: factorize() was true. `x`: the right side, then the answer.

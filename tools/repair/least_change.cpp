@@ -17,10 +17,14 @@ namespace {
 constexpr double kFirstStiffness = 1e5, kGrowth = 10.0, kMostStiffness = 1e6;
 /// The same of wishes: a millimetre costs as much as the body's way over some poses.
 constexpr double kWish = 1e3;
-/// Rounds of multipliers, and of the choice of rows that push in each.
-constexpr int kMultiplierRounds = 5, kChoices = 5;
+/// Rounds of multipliers, and at most so many choices of the rows that push in each.
+constexpr int kMultiplierRounds = 8, kChoices = 20;
 /// A row is met within this (m, or the knob's unit).
 constexpr double kMet = 1e-6;
+/// Numbers that change by less do not change (m, rad).
+constexpr double kNoWay = 1e-9;
+/// More than this of a way is all of it.
+constexpr double kWhole = 1.0 - 1e-6;
 /// Smoothing over more poses than this is no smoother to the eye, and doubles cannot tell.
 constexpr double kMostReach = 14.0;
 
@@ -50,6 +54,7 @@ class Solver {
   void findPlaces();
   void addCost(BandedSystem& system) const;
   [[nodiscard]] std::vector<Pull> pullsAt(const Eigen::VectorXd& x) const;
+  [[nodiscard]] double shareTo(const Eigen::VectorXd& aim, const Eigen::VectorXd& x) const;
   [[nodiscard]] bool solveFor(const std::vector<Pull>& pulls, Eigen::VectorXd& x);
   [[nodiscard]] double valueOf(const Row& row, const Eigen::VectorXd& x) const;
   /// Among the poses that change, -1: it does not.
@@ -186,6 +191,39 @@ bool Solver::solveFor(const std::vector<Pull>& pulls, Eigen::VectorXd& x) {
   return x.allFinite();
 }
 
+/// How far of the way from x to `aim` the cost falls: between the places at which a row begins to
+/// pull, or ends to, it is a parabola. Whole ways, without this, go round in circles.
+double Solver::shareTo(const Eigen::VectorXd& aim, const Eigen::VectorXd& x) const {
+  const Eigen::VectorXd way = aim - x;
+  // The slope and how it grows: of the change itself,
+  const Eigen::VectorXd costs = cost_->times(way);
+  double slope = x.dot(costs), grows = way.dot(costs);
+  // and of each row, from where it begins to pull, or until it ends to.
+  std::vector<std::pair<double, double>> bends;  // share of the way, growth
+  for (const Row& row : rows_) {
+    const double stiffness = row.isWish ? kWish : stiffness_;
+    const double from = valueOf(row, x) - (row.isWish ? 0.0 : row.push / stiffness_);
+    const double by = valueOf(row, way), growth = stiffness * by * by;
+    if (by == 0.0) continue;
+    const double lower = (row.lower - from) / by, upper = (row.upper - from) / by;
+    const double missed = from < row.lower ? from - row.lower : std::max(0.0, from - row.upper);
+    slope += stiffness * missed * by;
+    if (missed != 0.0) grows += growth;
+    const double ends = std::min(lower, upper), begins = std::max(lower, upper);
+    if (ends > 0.0) bends.emplace_back(ends, -growth);
+    if (begins > 0.0) bends.emplace_back(begins, growth);
+  }
+  std::sort(bends.begin(), bends.end());
+  double at = 0.0;
+  for (const auto& [bend, growth] : bends) {
+    if (bend >= 1.0 || slope + grows * (bend - at) >= 0.0) break;
+    slope += grows * (bend - at);
+    at = bend;
+    grows += growth;
+  }
+  return grows > 0.0 ? std::clamp(at - slope / grows, 0.0, 1.0) : 1.0;
+}
+
 LeastChange Solver::solve() {
   LeastChange answer;
   answer.changes = Changes::Zero(metric_.rows(), poses_);
@@ -201,13 +239,17 @@ LeastChange Solver::solve() {
     stiffness_ = std::min(kMostStiffness, kFirstStiffness * std::pow(kGrowth, round));
     std::vector<Pull> pulls = pullsAt(x);
     for (int choice = 0; choice < kChoices && answer.isSolved; ++choice) {
-      answer.isSolved = solveFor(pulls, x);
+      Eigen::VectorXd aim = x;
+      answer.isSolved = solveFor(pulls, aim);
+      const double share = shareTo(aim, x);
+      const double moved = share * (aim - x).lpNorm<Eigen::Infinity>();
+      x += share * (aim - x);
       std::vector<Pull> next = pullsAt(x);
       const bool isSame = std::equal(pulls.begin(), pulls.end(), next.begin(), [](Pull a, Pull b) {
         return a.isOn == b.isOn && (!a.isOn || a.bound == b.bound);
       });
       pulls = std::move(next);
-      if (isSame) break;
+      if ((isSame && share > kWhole) || moved < kNoWay) break;
     }
     answer.worst = 0.0;
     for (std::size_t r = 0; r < rows_.size(); ++r) {

@@ -37,10 +37,13 @@ std::vector<std::vector<Vector3d>> placesOf(const Skeleton& skeleton,
   return places;
 }
 
-double jerkOf(const std::vector<std::vector<Vector3d>>& places, double stepS) {
+/// About the poses that count: where any of the four does that a jerk is made of.
+double jerkOf(const std::vector<std::vector<Vector3d>>& places, double stepS,
+              const std::vector<std::uint8_t>& counts) {
   double sum = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 3; i < places.size(); ++i) {
+    if ((counts[i] | counts[i - 1] | counts[i - 2] | counts[i - 3]) == 0) continue;
     for (std::size_t j = 0; j < places[i].size(); ++j, ++count) {
       const Vector3d third =
           places[i][j] - 3.0 * places[i - 1][j] + 3.0 * places[i - 2][j] - places[i - 3][j];
@@ -58,6 +61,7 @@ Measures measuresOf(const RepairStage& stage, const std::vector<Pose>& before) {
   const auto from = placesOf(skeleton, before), to = placesOf(skeleton, after);
   const std::size_t joints = countOf(skeleton.numJoints());
   Measures measures;
+  std::vector<std::uint8_t> changed(after.size(), 0);
   std::vector<double> moves, turns, changedMoves, changedTurns;
   std::vector<std::vector<double>> ofJoint(joints), turnsOfJoint(joints);
   for (std::size_t i = 0; i < after.size(); ++i) {
@@ -68,7 +72,8 @@ Measures measuresOf(const RepairStage& stage, const std::vector<Pose>& before) {
                                     .angularDistance(Eigen::Quaterniond(after[i].rotations[j])));
       isChanged = isChanged || ofJoint[j].back() > kStill || turnsOfJoint[j].back() > kStill;
     }
-    measures.changedPoses += isChanged ? 1 : 0;
+    changed[i] = isChanged ? 1 : 0;
+    measures.changedPoses += changed[i];
     for (std::size_t j = 0; j < joints; ++j) {
       moves.push_back(ofJoint[j].back());
       turns.push_back(turnsOfJoint[j].back());
@@ -91,8 +96,12 @@ Measures measuresOf(const RepairStage& stage, const std::vector<Pose>& before) {
   measures.turn = spreadOf(std::move(turns));
   measures.moveChanged = spreadOf(std::move(changedMoves));
   measures.turnChanged = spreadOf(std::move(changedTurns));
-  measures.jerkBefore = jerkOf(from, stage.feet().stepS());
-  measures.jerkAfter = jerkOf(to, stage.feet().stepS());
+  const auto jerks = [&](const std::vector<std::uint8_t>& counts) {
+    return Jerk{jerkOf(from, stage.feet().stepS(), counts),
+                jerkOf(to, stage.feet().stepS(), counts)};
+  };
+  measures.jerk = jerks(std::vector<std::uint8_t>(after.size(), 1));
+  measures.jerkChanged = jerks(changed);
   return measures;
 }
 

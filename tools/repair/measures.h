@@ -15,6 +15,13 @@ struct Spread {
   double mean = 0.0, p99 = 0.0, most = 0.0;
 };
 
+/// Mean over joints and poses, m/s^3.
+struct Jerk {
+  double before = 0.0, after = 0.0;
+
+  [[nodiscard]] double added() const { return before > 0.0 ? after / before - 1.0 : 0.0; }
+};
+
 struct JointMoved {
   JointId joint = 0;           ///< Of the body.
   Spread move;                 ///< How far its origin moved in W.
@@ -24,14 +31,11 @@ struct JointMoved {
 
 struct Measures {
   std::int32_t changedPoses = 0;
-  Spread move, turn;                         ///< Of all joints at all poses.
-  Spread moveChanged, turnChanged;           ///< Of all joints at the poses that changed.
-  std::vector<JointMoved> joints;            ///< Those that changed, the farthest moved first.
-  double jerkBefore = 0.0, jerkAfter = 0.0;  ///< Mean over joints and poses, m/s^3.
-
-  [[nodiscard]] double addedJerk() const {
-    return jerkBefore > 0.0 ? jerkAfter / jerkBefore - 1.0 : 0.0;
-  }
+  Spread move, turn;                ///< Of all joints at all poses.
+  Spread moveChanged, turnChanged;  ///< Of all joints at the poses that changed.
+  std::vector<JointMoved> joints;   ///< Those that changed, the farthest moved first.
+  Jerk jerk;                        ///< Of all poses.
+  Jerk jerkChanged;                 ///< About the poses that changed.
 };
 
 /// `before`: as many poses of the stage's body as it has now.

@@ -1,6 +1,7 @@
 #include "tools/repair/repair.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -16,16 +17,25 @@ namespace {
 constexpr std::int32_t kGiveUpAfter = 14;
 /// No joint turns by more in one round (rad): rows are linear.
 constexpr double kMostTurnPerRound = 0.2;
-/// Seconds over which a change fades, and after which it is over.
-constexpr double kReachS = 0.06, kMarginS = 0.6;
+/// Seconds over which a change fades: the shortest that adds no more than kMostJerk, as a longer
+/// one moves more.
+constexpr std::array<double, kMostTries> kReachesS{0.02, 0.035, 0.06};
+/// Of the jerk at the poses that change, as a share of what was there.
+constexpr double kMostJerk = 0.04;
+/// Seconds after which a change is over.
+constexpr double kMarginS = 0.6;
 
-LeastChangeOptions optionsOf(const RepairStage& stage) {
+LeastChangeOptions optionsOf(const RepairStage& stage, double reachS) {
   LeastChangeOptions options;
-  options.reach = std::max(1.0, kReachS / stage.feet().stepS());
+  options.reach = std::max(1.0, reachS / stage.feet().stepS());
   options.margin = static_cast<std::int32_t>(std::ceil(kMarginS / stage.feet().stepS()));
   options.isFreeBefore = !stage.isCutBefore();
   options.isFreeAfter = !stage.isCutAfter();
   return options;
+}
+
+bool isRough(const Measures& measures) {
+  return measures.jerkChanged.added() > kMostJerk;
 }
 
 /// From one change towards another one, as far as rows are to be trusted: less about poses that
@@ -49,17 +59,26 @@ Changes stepped(const Changes& from, const Changes& to, std::int32_t reach) {
   return stepped;
 }
 
-/// The rounds, and the best of them.
+/// The rounds with changes of one reach, and the best of them.
 class Rounds {
  public:
-  explicit Rounds(RepairStage& stage) : stage_(stage), demands_(stage), levers_(stage) {}
+  Rounds(RepairStage& stage, double reachS)
+      : stage_(stage),
+        before_(stage.poses()),
+        options_(optionsOf(stage, reachS)),
+        demands_(stage),
+        levers_(stage) {}
 
-  Result<Done> run(const std::function<bool(std::int32_t)>& progress, Repair& repair);
+  /// False, and `repair` is of no use: progress() stopped it, or its first round is too rough.
+  Result<bool> run(const std::function<bool(std::int32_t)>& progress, bool mayBeRough,
+                   Repair& repair);
 
  private:
   Result<bool> next(Faults& faults);
 
   RepairStage& stage_;
+  const std::vector<Pose> before_;
+  LeastChangeOptions options_;
   Demands demands_;
   Levers levers_;
   Rows rows_;
@@ -73,22 +92,23 @@ Result<bool> Rounds::next(Faults& faults) {
   Rows rows = rowsOf(stage_, levers_, demands_, changes);
   if (rows.rows.empty()) return false;
   if (metric_.size() == 0) metric_ = levers_.metric();
-  const LeastChange least = leastChange(metric_, stage_.numPoses(), rows.rows, optionsOf(stage_));
+  const LeastChange least = leastChange(metric_, stage_.numPoses(), rows.rows, options_);
   if (!least.isSolved) return false;
   rows_ = std::move(rows);
-  const auto reach = static_cast<std::int32_t>(std::ceil(optionsOf(stage_).reach));
+  const auto reach = static_cast<std::int32_t>(std::ceil(options_.reach));
   FORETOUCH_CHECK(stage_.change(stepped(changes, least.changes, reach)));
   FORETOUCH_TRY(faults, faultsOf(stage_));
   return true;
 }
 
-Result<Done> Rounds::run(const std::function<bool(std::int32_t)>& progress, Repair& repair) {
+Result<bool> Rounds::run(const std::function<bool(std::int32_t)>& progress, bool mayBeRough,
+                         Repair& repair) {
   Faults faults = repair.before;
   Changes best = stage_.changes();
   std::int64_t fewest = faults.faulty;
   Rows pushing;
   for (std::int32_t round = 0; round < kMostRounds; ++round) {
-    if (!progress(round)) return Done{};
+    if (!progress(round)) return false;
     const bool asksMore = demands_.take(faults);
     if (faults.faulty == 0 && (round == 0 || !asksMore)) break;
     if (round == kGiveUpAfter) {
@@ -97,6 +117,8 @@ Result<Done> Rounds::run(const std::function<bool(std::int32_t)>& progress, Repa
     }
     FORETOUCH_TRY(const bool goesOn, next(faults));
     if (!goesOn) break;
+    // Later rounds add to the jerk.
+    if (round == 0 && !mayBeRough && isRough(measuresOf(stage_, before_))) return false;
     repair.rounds = round + 1;
     if (faults.faulty > fewest) continue;
     fewest = faults.faulty;
@@ -109,21 +131,49 @@ Result<Done> Rounds::run(const std::function<bool(std::int32_t)>& progress, Repa
   FORETOUCH_TRY(repair.after, faultsOf(stage_));
   repair.unmended =
       unmendedOf(stage_, repair.after, demands_, pushing.rows.empty() ? rows_ : pushing);
-  return Done{};
+  repair.measures = measuresOf(stage_, before_);
+  return true;
+}
+
+/// The less, the better: what stays at fault, then what is rough.
+std::pair<std::int64_t, double> worthOf(const Repair& repair) {
+  const double added = repair.measures.jerkChanged.added();
+  return {repair.after.faulty, isRough(repair.measures) ? added : 0.0};
 }
 
 }  // namespace
 
 Result<Repair> repaired(RepairStage& stage, const std::function<bool(std::int32_t)>& progress) {
-  Repair repair;
-  FORETOUCH_TRY(repair.before, faultsOf(stage));
-  const std::vector<Pose> before = stage.poses();
-  FORETOUCH_CHECK(Rounds(stage).run(progress, repair));
-  repair.measures = measuresOf(stage, before);
-  for (const BearingStance& stance : repair.before.bearing) {
-    if (stance.isMeant(stage.request().mostSlide)) repair.meant.push_back(stance);
+  Repair best;
+  FORETOUCH_TRY(const Faults before, faultsOf(stage));
+  const Changes none = stage.changes();
+  std::int32_t asked = 0;
+  for (std::size_t i = 0; i < kReachesS.size(); ++i) {
+    const bool isLast = i + 1 == kReachesS.size();
+    // Of few poses a second the shorter ones are the same.
+    if (!isLast && kReachesS[i + 1] <= stage.feet().stepS()) continue;
+    Repair repair;
+    repair.before = before;
+    bool isStopped = false;
+    const auto asks = [&](std::int32_t round) {
+      isStopped = !progress(asked + round);
+      return !isStopped;
+    };
+    FORETOUCH_CHECK(stage.change(none));
+    FORETOUCH_TRY(const bool isOfUse, Rounds(stage, kReachesS[i]).run(asks, isLast, repair));
+    if (isStopped) return repair;
+    if (!isOfUse) continue;
+    asked += repair.rounds;
+    const bool isDone = repair.after.faulty == 0 && !isRough(repair.measures);
+    if (best.bytes.empty() || worthOf(repair) < worthOf(best)) best = std::move(repair);
+    if (isDone) break;
   }
-  return repair;
+  FORETOUCH_TRY(auto clip, stage.file().reread(best.bytes));
+  FORETOUCH_CHECK(stage.replaceBy(std::move(clip)));
+  for (const BearingStance& stance : best.before.bearing) {
+    if (stance.isMeant(stage.request().mostSlide)) best.meant.push_back(stance);
+  }
+  return best;
 }
 
 }  // namespace foretouch::tools

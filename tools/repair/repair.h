@@ -26,8 +26,11 @@ struct Repair {
   std::string bytes;  ///< The file.
 };
 
-/// `progress(round)` before each round; false stops, and the answer is then of no use. The stage is
-/// posed as the file reads back. Errors: as faultsOf(), and those of the file's format.
+/// Tries of changes that fade faster or more slowly, each of up to kMostRounds.
+inline constexpr std::int32_t kMostTries = 3;
+
+/// `progress(rounds so far)` before each round; false stops, and the answer is then of no use. The
+/// stage is posed as the file reads back. Errors: as faultsOf(), and those of the file's format.
 [[nodiscard]] Result<Repair> repaired(RepairStage& stage,
                                       const std::function<bool(std::int32_t)>& progress);
 

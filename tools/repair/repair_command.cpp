@@ -37,7 +37,7 @@ Result<ExitCode> runRepair(const RepairJob& job) {
   bool isWhole = false;
   {
     const InterruptGuard guard;  // built first, destroyed last: removes the file before the signal
-    ProgressBar progress("repair", kMostRounds);
+    ProgressBar progress("repair", kMostTries * kMostRounds);
     FORETOUCH_TRY(const auto repair, repaired(stage, [&](std::int32_t round) {
                     progress.advanceTo(round);
                     return !guard.requested();

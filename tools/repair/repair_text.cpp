@@ -39,17 +39,22 @@ std::string spreadText(const Spread& spread, double unit) {
                      unit * spread.most);
 }
 
+std::string jerkText(const Jerk& jerk) {
+  return fmt::format("{:.2f} before, {:.2f} after ({:+.1f} %)", jerk.before, jerk.after,
+                     100.0 * jerk.added());
+}
+
 std::string movedText(const RepairStage& stage, const Measures& measures) {
   if (measures.joints.empty()) return "nothing was changed\n";
   std::string text = fmt::format(
       "changed: {} of {} poses\n"
       "  joints moved, mm:          {}; at the poses that changed: {}\n"
       "  joints turned, degrees:    {}; at the poses that changed: {}\n"
-      "  mean jerk, m/s^3:          {:.2f} before, {:.2f} after ({:+.1f} %)\n",
+      "  mean jerk, m/s^3:          {}; at the poses that changed: {}\n",
       measures.changedPoses, stage.numPoses(), spreadText(measures.move, kMm),
       spreadText(measures.moveChanged, kMm), spreadText(measures.turn, kDegrees),
-      spreadText(measures.turnChanged, kDegrees), measures.jerkBefore, measures.jerkAfter,
-      100.0 * measures.addedJerk());
+      spreadText(measures.turnChanged, kDegrees), jerkText(measures.jerk),
+      jerkText(measures.jerkChanged));
   text += fmt::format("{:<22} {:>32} {:>32} {:>7}\n", "what moved most", "mm: mean   p99  most",
                       "degrees: mean   p99  most", "frame");
   for (std::size_t i = 0; i < std::min(kMostJoints, measures.joints.size()); ++i) {
@@ -131,6 +136,13 @@ void writeSpread(const char* name, const Spread& spread, double unit, JsonWriter
   out.endObject();
 }
 
+void writeJerk(const std::string& where, const Jerk& jerk, JsonWriter& out) {
+  out.key("jerk_before" + where);
+  out.fixed(jerk.before, 4);
+  out.key("jerk_after" + where);
+  out.fixed(jerk.after, 4);
+}
+
 void writeMeasures(const RepairStage& stage, const Measures& measures, JsonWriter& out) {
   out.field("poses", stage.numPoses());
   out.field("changed_poses", measures.changedPoses);
@@ -138,10 +150,8 @@ void writeMeasures(const RepairStage& stage, const Measures& measures, JsonWrite
   writeSpread("turned_deg", measures.turn, kDegrees, out);
   writeSpread("moved_mm_where_changed", measures.moveChanged, kMm, out);
   writeSpread("turned_deg_where_changed", measures.turnChanged, kDegrees, out);
-  out.key("jerk_before");
-  out.fixed(measures.jerkBefore, 4);
-  out.key("jerk_after");
-  out.fixed(measures.jerkAfter, 4);
+  writeJerk("", measures.jerk, out);
+  writeJerk("_where_changed", measures.jerkChanged, out);
   out.list("joints", measures.joints, [&](const JointMoved& of) {
     out.beginObject();
     out.field("joint", stage.body().skeleton().name(of.joint));

@@ -137,6 +137,15 @@ Vec3d OracleClip::pointAt(const std::string& joint, const Vec3d& p_L, double at)
   return p;
 }
 
+double OracleClip::turnFrom(const OracleClip& other, const std::string& joint,
+                            std::size_t frame) const {
+  const Joint& of = joints_[static_cast<std::size_t>(number_.at(joint))];
+  const Turn a = turnAt(of, frame), b = other.turnAt(of, frame);
+  const Turn way = product(Turn{a.w, -a.x, -a.y, -a.z}, b);
+  const double sine = std::sqrt(way.x * way.x + way.y * way.y + way.z * way.z);
+  return 2.0 * std::atan2(sine, std::abs(way.w)) / kRadians;
+}
+
 double leastHeight(const OracleClip& clip, const OracleCapsule& capsule) {
   double least = 1e9;
   overLooks(clip, [&](double at) {
@@ -186,14 +195,15 @@ double OracleChange::mean() const {
   return moves.empty() ? 0.0 : sum / static_cast<double>(moves.size());
 }
 
-OracleChange changeBetween(const OracleClip& before, const OracleClip& after) {
+OracleChange changeBetween(const OracleClip& before, const OracleClip& after, double unit) {
   OracleChange change;
   for (const std::string& joint : before.joints()) {
     std::array<std::vector<Vec3d>, 2> ways;
     for (std::size_t frame = 0; frame < before.frames(); ++frame) {
       ways[0].push_back(before.pointAt(joint, {}, static_cast<double>(frame)));
       ways[1].push_back(after.pointAt(joint, {}, static_cast<double>(frame)));
-      change.moves.push_back(oracle::norm(ways[1].back() - ways[0].back()));
+      change.moves.push_back(unit * oracle::norm(ways[1].back() - ways[0].back()));
+      change.turns.push_back(before.turnFrom(after, joint, frame));
     }
     for (std::size_t i = 3; i < before.frames(); ++i) {
       const auto third = [i](const std::vector<Vec3d>& way) {
@@ -204,6 +214,7 @@ OracleChange changeBetween(const OracleClip& before, const OracleClip& after) {
     }
   }
   std::sort(change.moves.begin(), change.moves.end());
+  std::sort(change.turns.begin(), change.turns.end());
   return change;
 }
 

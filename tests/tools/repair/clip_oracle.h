@@ -23,6 +23,10 @@ class OracleClip {
   [[nodiscard]] double frameTimeS() const { return frameTimeS_; }
   /// Per joint, the place of `p_L` of it; `at`: frames, with a fraction.
   [[nodiscard]] Vec3d pointAt(const std::string& joint, const Vec3d& p_L, double at) const;
+  /// How far the joint's own rotation is from that of another clip of the same joints, at a frame
+  /// (degrees).
+  [[nodiscard]] double turnFrom(const OracleClip& other, const std::string& joint,
+                                std::size_t frame) const;
   /// The numbers of a frame.
   [[nodiscard]] const std::vector<double>& row(std::size_t frame) const { return rows_[frame]; }
   [[nodiscard]] const std::vector<std::string>& joints() const { return names_; }
@@ -69,13 +73,15 @@ inline constexpr int kOracleLooks = 16;
 [[nodiscard]] double farthestSlide(const OracleClip& clip, const OracleCapsule& capsule,
                                    double beginS, double endS);
 
-/// Of two clips, pose by pose and joint by joint: how far joints moved (m), sorted; and the mean of
-/// their third differences, of each.
+/// Of two clips, pose by pose and joint by joint: how far joints moved (m) and turned (degrees),
+/// sorted; and the sum of their third differences, of each.
 struct OracleChange {
-  std::vector<double> moves;
+  std::vector<double> moves, turns;
   double jerkBefore = 0.0, jerkAfter = 0.0;
   [[nodiscard]] double mean() const;
 };
-[[nodiscard]] OracleChange changeBetween(const OracleClip& before, const OracleClip& after);
+/// `unit`: metres of the clip's numbers.
+[[nodiscard]] OracleChange changeBetween(const OracleClip& before, const OracleClip& after,
+                                         double unit = 1.0);
 
 }  // namespace foretouch::test

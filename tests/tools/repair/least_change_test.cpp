@@ -89,6 +89,56 @@ TEST(LeastChange, IsLeastAmongItsNeighbours) {
   }
 }
 
+/// Hundreds of rows that say much the same, as those of a foot's contacts do: where no row pushes
+/// the cost's slope is zero, and elsewhere it is what the rows push, each on the side where it is
+/// met. Nothing but the least change has that.
+TEST(LeastChange, SettlesAmongManyRowsThatSayMuchTheSame) {
+  for (std::uint32_t seed = 0; seed < 5; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const MatrixXd knobs = coupled();
+    constexpr int kPoses = 60;
+    std::vector<Row> rows;
+    for (int i = 0; i < 600; ++i) {
+      Row row;
+      const int pose = 10 + i % 40;
+      row.terms = {{pose, 0, 1.0 + 0.01 * unit(random)}, {pose + 1, 1, 0.3 + 0.01 * unit(random)}};
+      row.lower = 0.005 + 0.004 * unit(random);
+      if (i % 7 == 0) row.upper = row.lower + 0.02;
+      rows.push_back(row);
+    }
+    const LeastChangeOptions options = heldAtEnds();
+    const LeastChange least = leastChange(knobs, kPoses, rows, options);
+    ASSERT_TRUE(least.isSolved);
+    EXPECT_LT(least.worst, 1e-5);
+    Changes pushes = Changes::Zero(2, kPoses);
+    double most = 0.0;
+    for (const Row& row : rows) {
+      for (const RowTerm& term : row.terms) pushes(term.knob, term.pose) += term.by * row.push;
+      const double value = valueOf(row, least.changes);
+      if (value > row.lower + 1e-5) {
+        EXPECT_LE(row.push, 1e-9);
+      }
+      if (value < row.upper - 1e-5) {
+        EXPECT_GE(row.push, -1e-9);
+      }
+      most = std::max(most, std::abs(row.push));
+    }
+    ASSERT_GT(most, 0.0);
+    for (int pose = 0; pose < kPoses; ++pose) {
+      for (int knob = 0; knob < 2; ++knob) {
+        // Half the slope of the cost, which is a square: by differences that are exact.
+        Changes more = least.changes, less = least.changes;
+        more(knob, pose) += 1e-3;
+        less(knob, pose) -= 1e-3;
+        const double slope =
+            (costOf(knobs, more, options.reach) - costOf(knobs, less, options.reach)) / 4e-3;
+        EXPECT_NEAR(slope, pushes(knob, pose), 1e-3 * most);
+      }
+    }
+  }
+}
+
 /// A change fades without swinging past zero.
 TEST(LeastChange, FadesWithoutOvershoot) {
   const MatrixXd knobs = MatrixXd::Identity(1, 1);
