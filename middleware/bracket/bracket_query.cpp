@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "articulated/link_places.h"
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
@@ -91,10 +92,9 @@ class PoseBends {
   }
 
  private:
-  void place(const Pose* pose, const Skeleton& skeleton, std::vector<LinkState>& states) {
+  static void place(const Pose* pose, const Skeleton& skeleton, std::vector<LinkState>& states) {
     if (pose == nullptr) return;
-    memory_.standing.assign(skeleton, *pose, *pose);
-    memory_.standing.statesAt(0.0, states);
+    placesAt(skeleton, *pose, states);
   }
   [[nodiscard]] double ofPoint(LinkId link, const Vector3d& p_L) const {
     const auto placed = [&](const std::vector<LinkState>& states) {
@@ -189,41 +189,6 @@ class GrowthsAhead final : public internal::PieceGrowths {
   double horizon_;
 };
 
-/// Links may stray from the base level's pieces by what the person may, or by this (m).
-constexpr double kBaseStray = 2e-3;
-
-/// How many times farther a link strays than it may; infinite: that cannot be said.
-double excessOf(const BodyPlan& plan, const BodyBrackets& memory, ModelPieces& pieces) {
-  double most = 0.0;
-  for (int k = 0; k < pieces.count(); ++k) {
-    for (LinkId link = 0; link < plan.avatar.numLinks(); ++link) {
-      const auto i = slotOf(link);
-      if (!memory.growths[i]) continue;
-      const double stray = pieces.piece(k).strays[i].at(plan.rho[i]);
-      most = std::max(most, stray / std::max(memory.growths[i]->most, kBaseStray));
-    }
-  }
-  return most;
-}
-
-/// The coarsest level from `base` on of which no link strays too far; nothing: none says anything.
-std::optional<int> cutBase(const BodyPlan& plan, BodyBrackets& memory, int base) {
-  constexpr int kLast = BodyBrackets::kLevels - 1;
-  for (;;) {
-    ModelPieces& pieces = memory.levels[slotOf(base)];
-    const bool isKnown = pieces.cut(plan.avatar.skeleton(), memory.part, memory.model, 1 << base);
-    const double excess = isKnown ? excessOf(plan, memory, pieces) : 4.0;
-    if (isKnown && (excess <= 1.0 || base == kLast)) {
-      memory.isCut[slotOf(base)] = 1;
-      return base;
-    }
-    if (base == kLast) return std::nullopt;
-    // Halving a piece quarters what it strays.
-    const int more = static_cast<int>(std::ceil(0.5 * std::log2(std::max(2.0, excess))));
-    base = std::min(base + more, kLast);
-  }
-}
-
 /// The model and what follows from the bounds.
 void prepare(const BodyPlan& plan, const PersonStep& person, BodyBrackets& memory) {
   memory.part = {person.step, person.begin, person.end};
@@ -243,29 +208,14 @@ void prepare(const BodyPlan& plan, const PersonStep& person, BodyBrackets& memor
   }
 }
 
-/// Every body's pieces at one level; false: of some body none says anything.
-bool cutBases(const BracketPlan& plan, BracketMemory& memory) {
-  for (std::size_t body = 0; body < plan.bodies.size(); ++body) {
-    const auto base = cutBase(plan.bodies[body], memory.bodies[body], memory.base);
-    if (!base) return false;
-    memory.base = *base;
-  }
-  BodyBrackets& first = memory.bodies[0];
-  if (first.isCut[slotOf(memory.base)] != 0) return true;
-  first.isCut[slotOf(memory.base)] = 1;
-  return first.levels[slotOf(memory.base)].cut(plan.bodies[0].avatar.skeleton(), first.part,
-                                               first.model, 1 << memory.base);
-}
-
 /// Once every body is prepared.
 void answerStep(const BracketPlan& plan, BracketMemory& memory, StepBrackets& brackets) {
-  if (!cutBases(plan, memory)) beginBodies(plan, memory);  // so nothing is claimed
   const GrowthsOfStep growths(plan, memory);
   bool isRefined = false;
   for (std::size_t body = 0; body < plan.bodies.size(); ++body) {
     isRefined = isRefined || !memory.bodies[body].model.isConstantRate();
   }
-  internal::bracketLinks(plan, {growths, isRefined, true, false}, memory, brackets);
+  internal::bracketLinks(plan, {growths, false, isRefined, true, false}, memory, brackets);
 }
 
 }  // namespace
@@ -315,7 +265,7 @@ Result<Done> BracketQuery::answerGap(const PosedStep& step, const std::vector<Li
   }
   body.levels[0].stand(avatar().skeleton(), step);
   const GrowthsOfGap growths(bounds, step.seconds);
-  internal::bracketLinks(*plan_, {growths, false, false, false}, memory, brackets);
+  internal::bracketLinks(*plan_, {growths, true, false, false, false}, memory, brackets);
   return Done{};
 }
 
@@ -338,7 +288,7 @@ Result<Done> BracketQuery::lookAhead(const PosedStep& step, double horizon,
         bound.error + horizon * (bound.aheadSpeed + 0.5 * horizon * bound.aheadAcceleration);
   }
   const GrowthsAhead growths(bounds, horizon);
-  internal::bracketLinks(*plan_, {growths, false, true, true}, memory, brackets);
+  internal::bracketLinks(*plan_, {growths, true, false, true, true}, memory, brackets);
   return Done{};
 }
 

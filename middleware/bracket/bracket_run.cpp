@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "lss/rounding.h"
-#include "middleware/scene/scene_parts.h"
+#include "middleware/bracket/model_levels.h"
+#include "middleware/bracket/step_sweep.h"
 #include "tessellation/swept_lss.h"
 
 namespace foretouch::internal {
@@ -15,116 +16,29 @@ using Eigen::Vector3d;
 using Body = BracketSearch::Body;
 using Way = BracketSearch::Way;
 
-/// Pieces stray from the model by about this share of what the person may, or by so many
-/// resolutions: more of them cost more than they bring.
-constexpr double kStrayShare = 1.0 / 3.0, kStrayResolutions = 2.0;
-
-/// Up to here (m) all that is near in a step is collected once.
-constexpr double kSmallGrowth = 5e-3;
-
 /// A passage is looked for in so many parts of a step, or more: it is known to such a part.
 constexpr int kWayParts = 16;
 
-/// Who is asked: a link of the first body and the scene, or a link of either body.
-struct Asked {
-  LinkId link, other = kNoParent;
-  std::size_t otherBody = 0;
-};
-
 /// One question.
-class BracketRun {
+class BracketRun : private StepSweep {
  public:
   BracketRun(const BracketPlan& plan, const BracketAsk& ask, BracketMemory& memory,
              StepBrackets& brackets)
-      : plan_(plan), ask_(ask), memory_(memory), brackets_(brackets) {}
+      : StepSweep(plan, ask, memory), brackets_(brackets) {}
 
   void run() {
-    for (std::size_t body = 0; body < plan_.bodies.size(); ++body) sweep(body);
+    begin();
     brackets_.pieces = base(0).count();
     if (plan_.scene) {
-      findNear();
       for (LinkId link = 0; link < numLinks(0); ++link) {
         if (isClaimed(0, link)) bracketLink(link);
       }
     }
-    for (const foretouch::LinkPair& pair : plan_.pairs) bracketPair({pair.a, pair.b, 0});
-    if (plan_.bodies.size() > 1) {
-      for (LinkId link = 0; link < numLinks(0); ++link) {
-        for (LinkId other = 0; other < numLinks(1); ++other) bracketPair({link, other, 1});
-      }
-    }
+    forEachPair([this](const Asked& asked) { bracketPair(asked); });
     brackets_.looks = memory_.sides.looks;
   }
 
  private:
-  [[nodiscard]] ModelPieces& piecesOf(std::size_t body, int level) {
-    return memory_.bodies[body].levels[slotOf(level)];
-  }
-  [[nodiscard]] ModelPieces& base(std::size_t body) { return piecesOf(body, memory_.base); }
-  [[nodiscard]] LinkId numLinks(std::size_t body) const {
-    return plan_.bodies[body].avatar.numLinks();
-  }
-  [[nodiscard]] const std::vector<Lss>& lssOf(std::size_t body, LinkId link) const {
-    return plan_.bodies[body].avatar.lss(link);
-  }
-  [[nodiscard]] bool isClaimed(std::size_t body, LinkId link) const {
-    return memory_.bodies[body].growths[slotOf(link)].has_value();
-  }
-
-  /// The box of what each link may sweep.
-  void sweep(std::size_t body) {
-    BodyBrackets& own = memory_.bodies[body];
-    own.boxes.assign(countOf(numLinks(body)), Aabb{});
-    const auto isKnown = [](const std::optional<StepGrowth>& growth) { return growth.has_value(); };
-    if (std::none_of(own.growths.begin(), own.growths.end(), isKnown)) return;
-    for (int k = 0; k < base(body).count(); ++k) {
-      ModelPiece& piece = base(body).piece(k);
-      // A piece begins where the one before it ends.
-      if (k == 0 || !ask_.isContinuous) piece.evaluator.statesAt(0.0, own.first);
-      piece.evaluator.statesAt(1.0, own.last);
-      for (LinkId link = 0; link < numLinks(body); ++link) {
-        if (isClaimed(body, link)) sweepLink(piece, body, link);
-      }
-      std::swap(own.first, own.last);
-    }
-  }
-
-  void sweepLink(const ModelPiece& piece, std::size_t body, LinkId link) {
-    BodyBrackets& own = memory_.bodies[body];
-    const auto i = slotOf(link);
-    const MotionBounds bounds = piece.motion.bounds(link);
-    const double margin = ask_.growths.of(piece, body, link).most() * kInflation + plan_.resolution;
-    // What would bound nothing at these coordinates.
-    if (!(margin <= kMaxCoordinate)) return own.growths[i].reset();
-    for (const Lss& lss : lssOf(body, link)) {
-      own.boxes[i].add(sweptBox(lss, axisBounds(lss, bounds), axisEnds(lss, own.first[i]),
-                                axisEnds(lss, own.last[i]), 1.0, margin));
-    }
-  }
-
-  /// One walk of the scene's tree for all links.
-  void findNear() {
-    const auto count = countOf(numLinks(0));
-    const SceneParts& scene = plan_.scene->parts();
-    memory_.isNear.assign(count, 0);
-    memory_.lanes.resize(numLinks(0));
-    BoxLanes lanes;
-    lanes.count = numLinks(0);
-    for (int axis = 0; axis < 3; ++axis) {
-      for (std::size_t link = 0; link < count; ++link) {
-        const Aabb& box = memory_.bodies[0].boxes[link];
-        memory_.lanes.lower[axis][link] = floatBelow(box.min[axis] - scene.origin[axis]);
-        memory_.lanes.upper[axis][link] = floatAbove(box.max[axis] - scene.origin[axis]);
-      }
-      lanes.lower[axis] = memory_.lanes.lower[axis];
-      lanes.upper[axis] = memory_.lanes.upper[axis];
-    }
-    memory_.hits.clear();
-    std::uint64_t nodes = 0, leaves = 0;
-    scene.bvh.collectLeaves(lanes, memory_.hits, nodes, leaves);
-    for (const LeafHit& hit : memory_.hits) memory_.isNear[hit.box] = 1;
-  }
-
   void bracketLink(LinkId link) {
     LinkBracket& bracket = brackets_.links[slotOf(link)];
     bracket.verdict = BracketVerdict::Excluded;
@@ -141,7 +55,7 @@ class BracketRun {
     bracket.link = asked.link;
     bracket.other = asked.other;
     if (isClaimed(0, asked.link) && isClaimed(asked.otherBody, asked.other)) {
-      if (!one.boxes[slotOf(asked.link)].overlaps(other.boxes[slotOf(asked.other)])) return;
+      if (!mayMeet(asked)) return;
       bracket.verdict = BracketVerdict::Excluded;
       bracket.growth = one.most[slotOf(asked.link)] + other.most[slotOf(asked.other)];
       bracketSides(asked, bracket);
@@ -152,7 +66,7 @@ class BracketRun {
   /// By the base level first, which excludes most, and closes on what is touched throughout; what
   /// it leaves open, by the level that is fine enough.
   void bracketSides(const Asked& asked, LinkBracket& bracket) {
-    limitIfSmall(bracket.growth, asked);
+    limit(bracket.growth, asked);
     bracketOn(memory_.base, asked, bracket);
     const bool isClosed = bracket.verdict == BracketVerdict::Excluded ||
                           (bracket.verdict == BracketVerdict::Certain &&
@@ -160,49 +74,39 @@ class BracketRun {
                            bracket.certainUntil >= bracket.possibleUntil);
     const int level = ask_.isRefined && !isClosed ? levelFor(asked) : memory_.base;
     if (level > memory_.base) {
-      for (const std::size_t body : {std::size_t{0}, asked.otherBody}) cutLevel(body, level);
+      for (const std::size_t body : {std::size_t{0}, asked.otherBody}) {
+        cutLevel(plan_, body, level, memory_);
+      }
+      brackets_.pieces = std::max(brackets_.pieces, 1 << level);
       bracketOn(level, asked, bracket);
     }
     if (asked.other == kNoParent) findPassage(std::max(level, memory_.base), bracket);
   }
 
-  void limitIfSmall(double growth, const Asked& asked) {
-    memory_.isLimited = growth <= kSmallGrowth;
-    if (!memory_.isLimited) return;
-    const int count = base(0).count();
-    memory_.near.resize(std::max(memory_.near.size(), countOf(count)));
-    for (int k = 0; k < count; ++k) {
-      memory_.sides.grow(setSides(memory_.base, k, asked), 1.0);
-      memory_.sides.collect(0.0, 1.0, plan_.resolution, memory_.near[slotOf(k)]);
-    }
+  /// Its triangles are listed by leaves, piece by piece.
+  [[nodiscard]] bool isListed(const Asked& asked) const {
+    return asked.other == kNoParent && areLssSurface();
   }
 
-  void cutLevel(std::size_t body, int level) {
-    BodyBrackets& own = memory_.bodies[body];
-    if (own.isCut[slotOf(level)] != 0) return;
-    piecesOf(body, level)
-        .cut(plan_.bodies[body].avatar.skeleton(), own.part, own.model, 1 << level);
-    own.isCut[slotOf(level)] = 1;
-    brackets_.pieces = std::max(brackets_.pieces, 1 << level);
+  void limit(double growth, const Asked& asked) {
+    const auto count = countOf(base(0).count());
+    memory_.near.resize(std::max(memory_.near.size(), count));
+    memory_.leaves.resize(memory_.near.size());
+    memory_.areLeavesKnown.assign(count, 0);
+    memory_.arePairsKnown.assign(count, 0);
+    if (isListed(asked) && isCrowded(asked.link)) walkPieces(asked.link);
+    memory_.isLimited = !isListed(asked) && growth <= kSmallGrowth;
+    if (!memory_.isLimited) return;
+    for (std::size_t k = 0; k < count; ++k) {
+      memory_.sides.grow(setSides(memory_.base, static_cast<int>(k), asked), 1.0);
+      memory_.sides.collect(0.0, 1.0, plan_.resolution, memory_.near[k]);
+    }
   }
 
   [[nodiscard]] int levelFor(const Asked& asked) {
-    const int level = levelFor(0, asked.link);
-    return asked.other == kNoParent ? level
-                                    : std::max(level, levelFor(asked.otherBody, asked.other));
-  }
-  /// Halving a piece quarters what it strays.
-  [[nodiscard]] int levelFor(std::size_t body, LinkId link) {
-    const auto i = slotOf(link);
-    double stray = 0.0;
-    for (int k = 0; k < base(body).count(); ++k) {
-      stray = std::max(stray, base(body).piece(k).strays[i].at(plan_.bodies[body].rho[i]));
-    }
-    const double allowed = std::max(kStrayShare * memory_.bodies[body].growths[i]->most,
-                                    kStrayResolutions * plan_.resolution);
-    int level = memory_.base;
-    for (; stray > allowed && level + 1 < BodyBrackets::kLevels; ++level) stray *= 0.25;
-    return level;
+    const int level = internal::levelFor(plan_, 0, asked.link, memory_);
+    if (asked.other == kNoParent) return level;
+    return std::max(level, internal::levelFor(plan_, asked.otherBody, asked.other, memory_));
   }
 
   /// The sides in a piece, and by how much they grow in it.
@@ -349,21 +253,57 @@ class BracketRun {
     for (int k = pieces.at(from); k * step <= pieces.at(to) * step; k += step) {
       const ModelPiece& piece = piecesOf(0, level).piece(k);
       const double span = piece.end - piece.begin;
-      const Growth growth = setSides(level, k, asked);
-      if (memory_.isLimited) {
-        memory_.sides.limitTo(memory_.near[slotOf(k * base(0).count() / pieces.count())]);
-      }
       const double at = std::clamp((from - piece.begin) / span, 0.0, 1.0);
-      const auto t =
-          memory_.bracketer.find(memory_.sides, growth, plan_.resolution, search, at, witness);
+      const auto t = isListed(asked) ? findListed(level, k, asked, search, at, witness)
+                                     : findIn(level, k, asked, search, at, witness);
       if (t) return std::clamp(piece.begin + *t * span, 0.0, 1.0);
     }
     return std::nullopt;
   }
 
-  const BracketPlan& plan_;
-  const BracketAsk& ask_;
-  BracketMemory& memory_;
+  [[nodiscard]] int basePieceOf(int level, int k) {
+    return k * base(0).count() / piecesOf(0, level).count();
+  }
+
+  /// From `from` of a piece to its end.
+  [[nodiscard]] std::optional<double> findIn(int level, int k, const Asked& asked,
+                                             const BracketSearch& search, double from,
+                                             SidesPair& witness) {
+    const Growth growth = setSides(level, k, asked);
+    if (memory_.isLimited) memory_.sides.limitTo(memory_.near[slotOf(basePieceOf(level, k))]);
+    return memory_.bracketer.find(memory_.sides, growth, plan_.resolution, search, from,
+                                  search.way == Way::Forward ? 1.0 : 0.0, witness);
+  }
+
+  [[nodiscard]] std::optional<double> findListed(int level, int k, const Asked& asked,
+                                                 const BracketSearch& search, double from,
+                                                 SidesPair& witness) {
+    const int basePiece = basePieceOf(level, k);
+    const NearLeaves& leaves = leavesIn(basePiece, asked.link);
+    if (leaves.empty()) return std::nullopt;
+    const bool areFew = leaves.size() <= LeafSearch::kFewLeaves;
+    const NearPairs* const pairs = areFew ? &pairsIn(basePiece, asked.link) : nullptr;
+    if (areFew && pairs->empty()) return std::nullopt;
+    const int firstPiece = search.way == Way::Forward ? 0 : piecesOf(0, level).count() - 1;
+    if (!areFew && witness.isNone() && k == firstPiece) {
+      witness = nearestAt(basePiece, search.way, asked.link);
+    }
+    const Growth growth = setSides(level, k, asked);
+    if (areFew) {
+      memory_.sides.limitTo(*pairs, level == memory_.base);
+      return memory_.bracketer.find(memory_.sides, growth, plan_.resolution, search, from,
+                                    search.way == Way::Forward ? 1.0 : 0.0, witness);
+    }
+    if (!witness.isNone() &&
+        SideBracketer::isFound(memory_.sides, growth, plan_.resolution, search, from, witness)) {
+      return from;
+    }
+    const LinkInPiece piece{
+        *plan_.scene, lssOf(0, asked.link), asked.link,   piecesOf(0, level).piece(k).evaluator,
+        growth,       plan_.resolution,     memory_.sides};
+    return memory_.search.find(piece, search, from, leaves, witness);
+  }
+
   StepBrackets& brackets_;
 };
 
@@ -372,7 +312,8 @@ class BracketRun {
 void BodyBrackets::begin(std::size_t numLinks) {
   growths.assign(numLinks, std::nullopt);
   most.assign(numLinks, 0.0);
-  isCut = {};
+  isOpen.assign(numLinks, 1);
+  cuts = {};
 }
 
 BodyPlan BodyPlan::of(const Avatar& avatar, const std::optional<AvatarSurface>& surface) {

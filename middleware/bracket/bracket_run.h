@@ -5,24 +5,28 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "articulated/motion.h"
 #include "lss/index.h"
 #include "middleware/bracket/bracket.h"
+#include "middleware/bracket/leaf_search.h"
 #include "middleware/bracket/model_pieces.h"
+#include "middleware/bracket/near_triangles.h"
 #include "middleware/bracket/person_growth.h"
 #include "middleware/bracket/side_bracket.h"
 #include "middleware/bracket/surface_passage.h"
 #include "middleware/pair/ignored_objects.h"
 #include "middleware/pair/pairs_asked.h"
-#include "middleware/scene/flat_bvh_lanes.h"
 #include "middleware/surface/link_surface.h"
 #include "tessellation/aabb.h"
 #include "tessellation/lss_table.h"
-#include "tessellation/swept_boxes.h"
 
 namespace foretouch::internal {
+
+/// Of a level in the step at hand: not cut; nothing is said of some link; something of all.
+enum class LevelCut : std::uint8_t { None, Unknown, Known };
 
 /// What questions about brackets keep of one body.
 struct BodyBrackets {
@@ -31,13 +35,12 @@ struct BodyBrackets {
   AskedPart part;
   ModelMotion model;
   std::array<ModelPieces, kLevels> levels;
-  std::array<std::uint8_t, kLevels> isCut{};  ///< Of the step at hand.
-  ChainMotion standing;
+  std::array<LevelCut, kLevels> cuts{};
   std::vector<LinkState> before, from, to, after;
   std::vector<std::optional<StepGrowth>> growths;  ///< Per link, of the step.
   std::vector<double> most;                        ///< Per link: the largest, as told.
   std::vector<Aabb> boxes;                         ///< Per link: what it may sweep in the step.
-  std::vector<LinkState> first, last;
+  std::vector<std::uint8_t> isOpen;                ///< Per link: it may touch what is asked.
 
   void begin(std::size_t numLinks);
 };
@@ -47,13 +50,19 @@ struct BracketMemory : ScratchPart {
   static constexpr ScratchKind kKind = ScratchKind::Bracket;
 
   std::array<BodyBrackets, 2> bodies;
-  int base = 0;  ///< The coarsest level that says something of every body.
-  SweptBoxes lanes;
-  std::vector<LeafHit> hits;
-  std::vector<std::uint8_t> isNear;
-  /// Of who is asked, where growths are small: the pairs that may be near in each piece of the base
-  /// level. Nothing else can touch the person, whatever finer pieces do (bracket.md 3).
-  std::vector<std::vector<SidesPair>> near;
+  int base = 0;  ///< The coarsest level that says something of every open link.
+  NearTriangles triangles, ofPieces;  ///< Of all links in the step; of one in its pieces.
+  std::vector<Aabb> pieceBoxes;
+  std::vector<std::uint8_t> isNear;  ///< Per link of who is asked: something of the scene is near.
+  std::vector<NearLeaves> ofStep;    ///< Per link of who is asked: what may be near in the step.
+  /// Of who is asked, in each piece of the base level: the leaves and the pairs that may be near.
+  /// Nothing else can touch the person, whatever finer pieces do (bracket.md 3).
+  std::vector<NearLeaves> leaves;
+  std::vector<NearPairs> near;
+  std::vector<std::uint8_t> areLeavesKnown, arePairsKnown;  ///< Per piece.
+  LeafSearch search;
+  LinkTubes tubes;
+  std::pair<LinkId, int> tubesOf{kNoParent, -1};  ///< The link, and the piece of the base level.
   bool isLimited = false;
   MovingSides sides;
   SideBracketer bracketer;
@@ -98,13 +107,14 @@ class PieceGrowths {
 /// What a run is to find.
 struct BracketAsk {
   const PieceGrowths& growths;
+  bool isCut = false;        ///< The pieces are there, and are all there is.
   bool isRefined = false;    ///< There are finer levels of the models.
   bool isContinuous = true;  ///< Each piece begins where the one before it ends.
   bool isAhead = false;      ///< Only from when a touch is possible.
 };
 
 /// Brackets every link, and every asked pair of own links or of two bodies, of which growths are
-/// known. The base level is cut.
+/// known.
 void bracketLinks(const BracketPlan& plan, const BracketAsk& ask, BracketMemory& memory,
                   StepBrackets& brackets);
 

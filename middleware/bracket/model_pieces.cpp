@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "articulated/link_places.h"
 
 namespace foretouch::internal {
 namespace {
@@ -30,23 +31,35 @@ bool addStrays(const Skeleton& skeleton, const ModelMotion& model, ModelPiece& p
 
 void ModelPieces::resize(int count) {
   // Room for all at once: evaluators refer to motions.
-  if (pieces_.empty()) pieces_.resize(countOf(kMost));
+  if (pieces_.empty()) {
+    pieces_.resize(countOf(kMost));
+    at_.resize(countOf(kMost) + 1);
+  }
   count_ = count;
+  isContinuous_ = true;
   for (int k = 0; k < count; ++k) {
     piece(k).begin = static_cast<double>(k) / count;
     piece(k).end = static_cast<double>(k + 1) / count;
   }
+  for (Placed& placed : at_) placed.isKnown = false;
 }
 
 int ModelPieces::at(double t) const {
   return std::clamp(static_cast<int>(t * count_), 0, count_ - 1);
 }
 
-void ModelPieces::setPiece(int k, const Skeleton& skeleton, const Pose& from, const Pose& to) {
+void ModelPieces::setPiece(int k, const Skeleton& skeleton) {
   ModelPiece& now = piece(k);
-  now.motion.assign(skeleton, from, to);
+  now.motion.assign(skeleton, at_[slotOf(k)].pose, at_[slotOf(isContinuous_ ? k + 1 : k)].pose);
   now.evaluator.reset(now.motion);
   now.strays.assign(countOf(skeleton.numJoints()), {});
+}
+
+const std::vector<LinkState>& ModelPieces::places(const Skeleton& skeleton, int k) {
+  Placed& placed = at_[slotOf(k)];
+  if (!placed.isKnown) placesAt(skeleton, placed.pose, placed.places);
+  placed.isKnown = true;
+  return placed.places;
 }
 
 void ModelPieces::poseAt(double t, const ModelMotion& model, Pose& pose) const {
@@ -62,32 +75,35 @@ bool ModelPieces::cut(const Skeleton& skeleton, const AskedPart& part, const Mod
   const bool strays = !model.isConstantRate() || !isWhole || count > 1;
   if (model.isConstantRate() && strays) whole_.assign(skeleton, *part.step.from, *part.step.to);
   bool isFinite = true;
-  poseAt(part.begin, model, from_);
+  poseAt(part.begin, model, at_[0].pose);
   for (int k = 0; k < count; ++k) {
     ModelPiece& now = piece(k);
     now.stepBegin = part.at(now.begin);
     now.stepEnd = part.at(now.end);
-    poseAt(now.stepEnd, model, to_);
-    setPiece(k, skeleton, from_, to_);
+    poseAt(now.stepEnd, model, at_[slotOf(k) + 1].pose);
+    setPiece(k, skeleton);
     if (strays) isFinite = addStrays(skeleton, model, now) && isFinite;
-    std::swap(from_, to_);
   }
   return isFinite;
 }
 
 void ModelPieces::stand(const Skeleton& skeleton, const PosedStep& step) {
   resize(2);
-  setPiece(0, skeleton, *step.from, *step.from);
-  setPiece(1, skeleton, *step.to, *step.to);
+  isContinuous_ = false;
+  at_[0].pose = *step.from;
+  at_[1].pose = *step.to;
+  for (int k = 0; k < 2; ++k) setPiece(k, skeleton);
 }
 
 bool ModelPieces::goOn(const Skeleton& skeleton, const PosedStep& step, double horizon) {
   if (!ModelMotion::goOn(step, horizon, countOf(kMost), endsS_, ends_)) return false;
   resize(static_cast<int>(ends_.size()));
+  at_[0].pose = *step.to;
   for (int k = 0; k < count_; ++k) {
     piece(k).begin = k == 0 ? 0.0 : endsS_[slotOf(k - 1)] / horizon;
     piece(k).end = k + 1 == count_ ? 1.0 : endsS_[slotOf(k)] / horizon;
-    setPiece(k, skeleton, k == 0 ? *step.to : ends_[slotOf(k - 1)], ends_[slotOf(k)]);
+    at_[slotOf(k) + 1].pose = ends_[slotOf(k)];
+    setPiece(k, skeleton);
   }
   return true;
 }

@@ -52,18 +52,32 @@ class ModelPieces {
 
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] ModelPiece& piece(int k) { return pieces_[slotOf(k)]; }
+  /// Where the links are at a piece's begin and at its end.
+  [[nodiscard]] const std::vector<LinkState>& placesAtBegin(const Skeleton& skeleton, int k) {
+    return places(skeleton, k);
+  }
+  [[nodiscard]] const std::vector<LinkState>& placesAtEnd(const Skeleton& skeleton, int k) {
+    return places(skeleton, isContinuous_ ? k + 1 : k);
+  }
   /// The piece that holds an instant of the step.
   [[nodiscard]] int at(double t) const;
 
  private:
   void resize(int count);
   void poseAt(double t, const ModelMotion& model, Pose& pose) const;
-  void setPiece(int k, const Skeleton& skeleton, const Pose& from, const Pose& to);
+  void setPiece(int k, const Skeleton& skeleton);
+  const std::vector<LinkState>& places(const Skeleton& skeleton, int k);
 
   std::vector<ModelPiece> pieces_;
   int count_ = 0;
-  ChainMotion whole_;  // of a constant rate of which a part is asked
-  Pose from_, to_;
+  bool isContinuous_ = true;  // each piece begins where the one before it ends
+  ChainMotion whole_;         // of a constant rate of which a part is asked
+  struct Placed {
+    Pose pose;
+    std::vector<LinkState> places;
+    bool isKnown = false;
+  };
+  std::vector<Placed> at_;  // where pieces begin and end
   std::vector<Pose> ends_;
   std::vector<double> endsS_;
 };

@@ -8,46 +8,61 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of sides that are limited to few pairs: a limb inside something meets most of them, and so many
-/// looks find that out. Of others, where growths are small at the begin and not later: there a
-/// touch is found among fewer pairs in the first part.
-constexpr std::size_t kFirstLooks = 16;
+/// Where growths are small at the begin and not later: a touch is found among fewer pairs in the
+/// first part.
 constexpr double kFirstSpan = 0.25;
-/// Of a growth: what a bracket is wide anyway need not be told to its last digit.
-constexpr double kResolutionShare = 1.0 / 1024.0;
+/// What the search stops at and what it proves before (bracket.md 1).
+struct Levels {
+  double resolution, enter, floor;
+};
+Levels levelsOf(const Growth& growth, double resolution, bool isGrown) {
+  // The shrunk body steps through its surface by the resolution at most, so that it is inside then.
+  resolution = std::max(resolution, kResolutionShare * growth.most());
+  return {resolution, isGrown ? resolution : 0.0, isGrown ? kFloorShare * resolution : -resolution};
+}
 
+bool isWithin(MovingSides& sides, const SidesPair& pair, double t, double enter) {
+  return sides.at(pair, t).gapUpper <= enter;
+}
+
+/// Of pairs that are listed the first is the nearest, or nearly so.
 bool isSoonFound(MovingSides& sides, double t, double enter, SidesPair& witness) {
-  const auto isWithin = [&](const SidesPair& pair) { return sides.at(pair, t).gapUpper <= enter; };
-  if (!witness.isNone() && isWithin(witness)) return true;
-  if (sides.limit() == nullptr) return false;
-  const std::vector<SidesPair>& near = *sides.limit();
-  const std::size_t stride = near.size() / kFirstLooks + 1;
-  for (std::size_t i = 0; i < near.size(); i += stride) {
-    if (!isWithin(near[i])) continue;
-    witness = near[i];
-    return true;
-  }
-  return false;
+  if (!witness.isNone() && isWithin(sides, witness, t, enter)) return true;
+  if (sides.limit() == nullptr || sides.limit()->empty()) return false;
+  const SidesPair& nearest = sides.limit()->front();
+  if (nearest == witness || !isWithin(sides, nearest, t, enter)) return false;
+  witness = nearest;
+  return true;
+}
+
+void set(MovingSides& sides, const Growth& growth, const BracketSearch& search) {
+  sides.grow(growth, search.body == BracketSearch::Body::Grown ? 1.0 : -1.0);
+  sides.turnBack(search.way == BracketSearch::Way::Backward);
 }
 
 }  // namespace
 
+bool SideBracketer::isFound(MovingSides& sides, const Growth& growth, double resolution,
+                            const BracketSearch& search, double at, const SidesPair& witness) {
+  set(sides, growth, search);
+  const Levels levels = levelsOf(growth, resolution, search.body == BracketSearch::Body::Grown);
+  const double t = search.way == BracketSearch::Way::Backward ? 1.0 - at : at;
+  return isWithin(sides, witness, t, levels.enter);
+}
+
 std::optional<double> SideBracketer::find(MovingSides& sides, const Growth& growth,
                                           double resolution, const BracketSearch& search,
-                                          double from, SidesPair& witness) {
+                                          double from, double to, SidesPair& witness) {
   const bool isGrown = search.body == BracketSearch::Body::Grown;
   const bool isBackward = search.way == BracketSearch::Way::Backward;
-  sides.grow(growth, isGrown ? 1.0 : -1.0);
-  sides.turnBack(isBackward);
-  // The shrunk body steps through its surface by the resolution at most, so that it is inside then.
-  resolution = std::max(resolution, kResolutionShare * growth.most());
-  const double enter = isGrown ? resolution : 0.0;
-  const double floor = isGrown ? kFloorShare * resolution : -resolution;
+  set(sides, growth, search);
+  const Levels levels = levelsOf(growth, resolution, isGrown);
   const double begin = isBackward ? 1.0 - from : from;
-  if (isSoonFound(sides, begin, enter, witness)) return from;
+  if (isSoonFound(sides, begin, levels.enter, witness)) return from;
   const IntervalTracer::Search found =
-      tracer_.search(sides, {enter, enter, enter, floor}, begin,
-                     growth.most() > kSmallGrowth ? kFirstSpan : 1.0, witness, counters_);
+      tracer_.search(sides, {levels.enter, levels.enter, levels.enter, levels.floor}, begin,
+                     isBackward ? 1.0 - to : to, growth.most() > kSmallGrowth ? kFirstSpan : 1.0,
+                     witness, counters_);
   using Found = IntervalTracer::Found;
   // What doubles cannot tell apart may touch, and does not surely.
   if (found.found == Found::Nothing || (found.found == Found::Unresolved && !isGrown)) {

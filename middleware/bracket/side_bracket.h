@@ -12,6 +12,12 @@
 
 namespace foretouch::internal {
 
+/// Up to here (m) what is near in a step is few.
+inline constexpr double kSmallGrowth = 5e-3;
+
+/// Of a growth: what a bracket is wide anyway need not be told to its last digit.
+inline constexpr double kResolutionShare = 1.0 / 1024.0;
+
 /// Which body, and from which end of the piece.
 struct BracketSearch {
   enum class Body : std::uint8_t { Grown, Shrunk };
@@ -23,13 +29,16 @@ struct BracketSearch {
 /// For one thread; keeps its memory.
 class SideBracketer {
  public:
-  /// From `from` on, or back from it (t of the piece, in [0,1]): the first instant at which the
-  /// grown body may touch, or the shrunk one surely does; nothing: there is none to the piece's
-  /// end. `near`: all pairs that may be near. `resolution`: metres. `witness`: the pair that
-  /// touches, or one to look at first.
+  /// The pair alone shows that `at` is such an instant.
+  [[nodiscard]] static bool isFound(MovingSides& sides, const Growth& growth, double resolution,
+                                    const BracketSearch& search, double at,
+                                    const SidesPair& witness);
+  /// From `from` to `to`, which is before it on the way back (t of the piece, in [0,1]): the first
+  /// instant at which the grown body may touch, or the shrunk one surely does; nothing: there is
+  /// none. `resolution`: metres. `witness`: the pair that touches, or one to look at first.
   [[nodiscard]] std::optional<double> find(MovingSides& sides, const Growth& growth,
                                            double resolution, const BracketSearch& search,
-                                           double from, SidesPair& witness);
+                                           double from, double to, SidesPair& witness);
 
  private:
   IntervalTracer tracer_;

@@ -9,6 +9,7 @@
 #include "lss/rounding.h"
 #include "lss/separation.h"
 #include "middleware/exact/side_of.h"
+#include "middleware/scene/culler.h"
 #include "middleware/scene/scene_parts.h"
 
 namespace foretouch::internal {
@@ -58,6 +59,7 @@ Meeting meeting(const Vector3d& p, const Vector3d& q, const Triangle& triangle) 
 std::optional<PassageSpan> SurfacePassage::find(const Scene& scene, const IgnoredObjects& ignored,
                                                 const std::vector<PassagePart>& way) {
   begin(way);
+  if (!mayCross(scene, ignored)) return std::nullopt;
   collect(scene, ignored);
   if (triangles_.size() > kMostTriangles) return std::nullopt;
   findCrossings();
@@ -90,6 +92,26 @@ void SurfacePassage::begin(const std::vector<PassagePart>& way) {
     boxes_.push_back(boxOf(part.from, part.to, part.radius));
     region_.add(boxes_.back());
   }
+}
+
+/// Most ways cross nothing, and that takes a look at what their chords are near.
+bool SurfacePassage::mayCross(const Scene& scene, const IgnoredObjects& ignored) {
+  Aabb chords;
+  for (const PassagePart& part : way_) chords.add(boxOf(part.from, part.to, 0.0));
+  ids_.clear();
+  std::uint64_t visited = 0;
+  scene.parts().bvh.collect(chords, ids_, visited);
+  return std::any_of(ids_.begin(), ids_.end(), [&](TriangleId id) {
+    return !ignored.has(scene, id) && meetsWay(scene.triangle(id));
+  });
+}
+
+bool SurfacePassage::meetsWay(const Triangle& triangle) const {
+  const Aabb of = boxOf(triangle);
+  return std::any_of(way_.begin(), way_.end(), [&](const PassagePart& part) {
+    return of.overlaps(boxOf(part.from, part.to, 0.0)) &&
+           meeting(part.from, part.to, triangle) != Meeting::Misses;
+  });
 }
 
 /// What stands twice is one.

@@ -49,6 +49,8 @@ class SurfacePassage {
     bool isClear;  // else the segment may pass along the triangle's border
   };
   void begin(const std::vector<PassagePart>& way);
+  [[nodiscard]] bool mayCross(const Scene& scene, const IgnoredObjects& ignored);
+  [[nodiscard]] bool meetsWay(const Triangle& triangle) const;
   void collect(const Scene& scene, const IgnoredObjects& ignored);
   void findCrossings();
   void joinAcrossEdges();

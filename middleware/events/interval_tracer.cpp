@@ -41,12 +41,12 @@ void IntervalTracer::trace(MovingSides& sides, const IntervalTolerance& toleranc
 
 IntervalTracer::Search IntervalTracer::search(MovingSides& sides,
                                               const IntervalTolerance& tolerance, double from,
-                                              double firstSpan, SidesPair& witness,
+                                              double to, double firstSpan, SidesPair& witness,
                                               EventCounters& counters) {
   sides_ = &sides;
   tolerance_ = tolerance;
   last_ = witness;
-  const Search found = searchContact(from, firstSpan, counters);
+  const Search found = searchContact(from, to, firstSpan, counters);
   witness = last_;
   return found;
 }
@@ -68,7 +68,7 @@ void IntervalTracer::traceParts(double from, TraceStart start, std::vector<StepP
   }
   for (;;) {
     if (!isContact) {
-      const Search search = searchContact(t, 1.0, counters);
+      const Search search = searchContact(t, 1.0, 1.0, counters);
       if (search.found == Found::Nothing) return;
       if (search.found == Found::Unresolved) {
         return leaveUnresolved(search.t, parts);
@@ -138,10 +138,10 @@ bool IntervalTracer::followContact(double& t, EventCounters& counters) {
   return true;
 }
 
-IntervalTracer::Search IntervalTracer::searchContact(double from, double firstSpan,
+IntervalTracer::Search IntervalTracer::searchContact(double from, double to, double firstSpan,
                                                      EventCounters& counters) {
-  double begin = from, end = std::min(1.0, from + firstSpan);
-  while (begin < 1.0) {
+  double begin = from, end = std::min(to, from + firstSpan);
+  while (begin < to) {
     if (sides_->isSpent()) return {Found::Unresolved, begin};
     sides_->collect(begin, end, tolerance_.enter, near_);
     end = cutPiece(begin, end);
@@ -149,7 +149,7 @@ IntervalTracer::Search IntervalTracer::searchContact(double from, double firstSp
     if (search.found != Found::Nothing) return search;
     const double span = end - begin;
     begin = end;
-    end = std::min(1.0, begin + 2.0 * span);
+    end = std::min(to, begin + 2.0 * span);
   }
   return {};
 }

@@ -53,11 +53,12 @@ class IntervalTracer {
     Found found = Found::Nothing;
     double t = 1.0;
   };
-  /// From `from` on: the first instant at which a pair is within `enter`. Before it, or to the end,
+  /// In [from, to]: the first instant at which a pair is within `enter`. Before it, or to the end,
   /// all are proven more than `floor` apart. `witness` becomes the pair. It looks at `firstSpan` of
   /// the motion first, and at ever more of it.
   [[nodiscard]] Search search(MovingSides& sides, const IntervalTolerance& tolerance, double from,
-                              double firstSpan, SidesPair& witness, EventCounters& counters);
+                              double to, double firstSpan, SidesPair& witness,
+                              EventCounters& counters);
 
  private:
   void leaveUnresolved(double from, std::vector<StepPart>& parts) const;
@@ -74,7 +75,8 @@ class IntervalTracer {
   [[nodiscard]] bool tryHold(const SidesPair& pair, double t, double within, Hold& best);
   /// From an instant of contact to where it ends; false: it cannot be told from there on.
   [[nodiscard]] bool followContact(double& t, EventCounters& counters);
-  [[nodiscard]] Search searchContact(double from, double firstSpan, EventCounters& counters);
+  [[nodiscard]] Search searchContact(double from, double to, double firstSpan,
+                                     EventCounters& counters);
   [[nodiscard]] double cutPiece(double begin, double end);
   [[nodiscard]] Search searchPiece(double from, double to, EventCounters& counters);
 

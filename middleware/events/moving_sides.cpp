@@ -143,6 +143,10 @@ void MovingSides::grow(MovingHull& one, double t) const {
 
 void MovingSides::collect(double from, double to, double reach, std::vector<SidesPair>& pairs) {
   FORETOUCH_ASSERT(from <= to);
+  if (limited_ != nullptr && areNear_) {
+    pairs = *limited_;
+    return;
+  }
   pairs.clear();
   const States end = statesAt(isBackward_ ? 1.0 - from : to);
   const States begin = statesAt(isBackward_ ? 1.0 - to : from);

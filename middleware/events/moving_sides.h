@@ -85,8 +85,12 @@ class MovingSides {
     growth_ = growth;
     growthSign_ = sign;
   }
-  /// collect() looks among these pairs alone, until begin().
-  void limitTo(const std::vector<SidesPair>& pairs) { limited_ = &pairs; }
+  /// collect() looks among these pairs alone, until begin(); `areNear`: it takes them all, whatever
+  /// it is asked.
+  void limitTo(const std::vector<SidesPair>& pairs, bool areNear = false) {
+    limited_ = &pairs;
+    areNear_ = areNear;
+  }
   [[nodiscard]] const std::vector<SidesPair>* limit() const { return limited_; }
   /// The motion backwards in time, or forwards again: t is then 1 at its begin. Until begin().
   void turnBack(bool isBackward) { isBackward_ = isBackward; }
@@ -150,7 +154,7 @@ class MovingSides {
   const IgnoredObjects* ignored_ = nullptr;
   Growth growth_;
   double growthSign_ = 0.0;
-  bool isBackward_ = false;
+  bool isBackward_ = false, areNear_ = false;
   const std::vector<SidesPair>* limited_ = nullptr;
   States states_;  // of the motion as it goes
   std::vector<TriangleId> found_;

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Core>
 
 #include "lss/closest_features.h"
 #include "lss/lss.h"
 #include "lss/rounding.h"
+#include "lss/separation.h"
+#include "tessellation/aabb.h"
 #include "tessellation/swept_lss.h"
 
 namespace foretouch::internal {
@@ -36,22 +39,52 @@ class SweptTube {
 
   /// False: no point of the triangle is in the tube, rounding included. By a ball around the
   /// triangle.
-  [[nodiscard]] bool mayMeet(const Triangle& triangle) const {
-    const auto& [u, v, w] = triangle.vertices;
-    const Eigen::Vector3d centre = (u + v + w) * (1.0 / 3.0);
-    const double squaredRadius = std::max(
-        {(u - centre).squaredNorm(), (v - centre).squaredNorm(), (w - centre).squaredNorm()});
-    const Eigen::Vector3d from = centre - a_;
+  [[nodiscard]] bool mayMeet(const Triangle& triangle) const { return mayMeet(ballOf(triangle)); }
+
+  struct Ball {
+    Eigen::Vector3d centre;
+    double radius;
+  };
+  [[nodiscard]] bool mayMeet(const Ball& ball) const {
+    const double most = (reach_ + ball.radius) * kInflation;
+    return distanceTo(ball) <= most + kTubeRounding * (extent_ + ball.centre.lpNorm<1>());
+  }
+  /// Of its centre from the tube's axis, as computed.
+  [[nodiscard]] double distanceTo(const Ball& ball) const {
+    const Eigen::Vector3d from = ball.centre - a_;
     const double s = clamp01(from.dot(axis_) * perSquare_);
-    const double distance = (from - s * axis_).norm();
-    const double most = (reach_ + std::sqrt(squaredRadius)) * kInflation;
-    return distance <= most + kTubeRounding * (extent_ + centre.lpNorm<1>());
+    return (from - s * axis_).norm();
+  }
+  /// Holds the tube; rounds outward.
+  [[nodiscard]] Aabb box() const {
+    Aabb box;
+    box.add(a_);
+    box.add(Eigen::Vector3d(a_ + axis_));
+    box.grow(reach_ * kInflation + kTubeRounding * extent_);
+    return box;
+  }
+  /// Nothing: no point of the triangle is in the tube. Else how far it is from the tube's axis, or
+  /// its ball's centre is: a triangle whose ball is thicker than the tube is looked at itself.
+  [[nodiscard]] std::optional<double> distanceTo(const Triangle& triangle) const {
+    const Ball ball = ballOf(triangle);
+    if (!mayMeet(ball)) return std::nullopt;
+    if (ball.radius <= reach_) return distanceTo(ball);
+    const Separation apart = separation(Hull::segment(a_, a_ + axis_), Hull::of(triangle));
+    if (apart.lower() > reach_ * kInflation + kTubeRounding * extent_) return std::nullopt;
+    return apart.distance;
   }
 
  private:
   /// Roundings of the points, of the closest place on the axis and of the norm, relative to the
   /// coordinates involved: fewer than 32 of them.
   static constexpr double kTubeRounding = 32.0 * kUnitRoundoff;
+
+  [[nodiscard]] static Ball ballOf(const Triangle& triangle) {
+    const auto& [u, v, w] = triangle.vertices;
+    const Eigen::Vector3d centre = (u + v + w) * (1.0 / 3.0);
+    return {centre, std::sqrt(std::max({(u - centre).squaredNorm(), (v - centre).squaredNorm(),
+                                        (w - centre).squaredNorm()}))};
+  }
 
   Eigen::Vector3d a_, axis_;
   double reach_ = 0.0, perSquare_ = 0.0, extent_ = 0.0;

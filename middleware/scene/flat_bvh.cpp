@@ -1,7 +1,7 @@
 #include "middleware/scene/flat_bvh.h"
 
 #include "lss/assert.h"
-#include "lss/rounding.h"
+#include "middleware/scene/eight_boxes.h"
 
 namespace foretouch::internal {
 namespace {
@@ -9,51 +9,8 @@ namespace {
 /// A walk of one box, depth first, keeps at most this many nodes.
 constexpr std::size_t kStackSize = kBvhWidth * (kMaxBvhDepth + 1);
 
-struct FloatBox {
-  float lower[3], upper[3];
-};
-
-FloatBox localBox(const Aabb& box, const Eigen::Vector3d& origin) {
-  FloatBox local;
-  for (int axis = 0; axis < 3; ++axis) {
-    local.lower[axis] = floatBelow(box.min[axis] - origin[axis]);
-    local.upper[axis] = floatAbove(box.max[axis] - origin[axis]);
-  }
-  return local;
-}
-
-/// One flag per box of eight, without branches, so that the compiler can vectorise.
-struct Eight {
-  std::uint8_t overlaps[kBvhWidth];
-};
-
-Eight eightOverlapping(const float (&lower)[3][kBvhWidth], const float (&upper)[3][kBvhWidth],
-                       const FloatBox& box) {
-  Eight eight;
-  for (int i = 0; i < kBvhWidth; ++i) {
-    const auto atMost = [](float x, float y) { return static_cast<unsigned>(x <= y); };
-    eight.overlaps[i] = static_cast<std::uint8_t>(
-        atMost(lower[0][i], box.upper[0]) & atMost(box.lower[0], upper[0][i]) &
-        atMost(lower[1][i], box.upper[1]) & atMost(box.lower[1], upper[1][i]) &
-        atMost(lower[2][i], box.upper[2]) & atMost(box.lower[2], upper[2][i]));
-  }
-  return eight;
-}
-
 void collectLeaf(const BvhLeaf& leaf, const FloatBox& box, std::vector<TriangleId>& ids) {
-  float lower[3][kBvhWidth], upper[3][kBvhWidth];
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < kBvhWidth; ++i) {
-      const float a = leaf.vertex[0][axis][i];
-      const float b = leaf.vertex[1][axis][i];
-      const float c = leaf.vertex[2][axis][i];
-      const float lessOfAb = a < b ? a : b;
-      const float moreOfAb = a > b ? a : b;
-      lower[axis][i] = lessOfAb < c ? lessOfAb : c;
-      upper[axis][i] = moreOfAb > c ? moreOfAb : c;
-    }
-  }
-  const Eight eight = eightOverlapping(lower, upper, box);
+  const Eight eight = trianglesOverlapping(leaf, box);
   for (int i = 0; i < kBvhWidth && leaf.id[i] >= 0; ++i) {
     if (eight.overlaps[i] != 0) ids.push_back(leaf.id[i]);
   }
