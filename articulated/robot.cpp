@@ -12,6 +12,7 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
+#include "lss/turn_between.h"
 
 namespace foretouch {
 namespace {
@@ -82,7 +83,7 @@ Quaternion turned(const Quaternion& rest, const Vector3d& axis, double angle) {
 }  // namespace
 
 std::pair<Vector3d, Vector3d> planeAcross(const Vector3d& axis) {
-  const Quaternion turn = Quaternion::FromTwoVectors(Vector3d::UnitZ(), axis);
+  const Quaternion turn = turnBetween(Vector3d::UnitZ(), axis);
   return {turn * Vector3d::UnitX(), turn * Vector3d::UnitY()};
 }
 

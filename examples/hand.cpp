@@ -9,6 +9,7 @@
 
 #include "examples/circle.h"
 #include "examples/track.h"
+#include "lss/turn_between.h"
 
 namespace foretouch::examples {
 namespace {
@@ -52,7 +53,7 @@ Vector3d elbowFor(const Vector3d& wrist) {
 
 /// The links lie along their +X.
 Quaterniond pointingAlong(const Vector3d& direction) {
-  return Quaterniond::FromTwoVectors(Vector3d::UnitX(), direction);
+  return turnBetween(Vector3d::UnitX(), direction);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "examples/dancer_body.h"
 #include "lss/index.h"
+#include "lss/turn_between.h"
 
 namespace foretouch::examples {
 namespace {
@@ -85,7 +86,7 @@ void reach(PoseInProgress& pose, JointId upper, const Quaterniond& R_WF, const V
   const Vector3d away = target - pose.place(upper);
   const double d = std::clamp(away.norm(), 1.05 * std::abs(l1 - l2) + 0.1, 0.998 * (l1 + l2));
   const Vector3d along = away.normalized();
-  const Quaterniond swing = Quaterniond::FromTwoVectors(R_WF * bone, along);
+  const Quaterniond swing = turnBetween(R_WF * bone, along);
   const Vector3d side = swing * (R_WF * bulge);
   const double cosine = (l1 * l1 + d * d - l2 * l2) / (2.0 * l1 * d);
   const Vector3d upperBone = cosine * along + std::sqrt(1.0 - cosine * cosine) * side;
@@ -107,7 +108,7 @@ void placeArm(PoseInProgress& pose, JointId shoulder, double side, const Posture
   // The collar bone gives way a little towards where the hand goes.
   const Vector3d goal = chest.conjugate() * (target - pose.place(shoulder));
   pose.local(shoulder,
-             Quaterniond::Identity().slerp(0.12, Quaterniond::FromTwoVectors(bone, goal)));
+             Quaterniond::Identity().slerp(0.12, turnBetween(bone, goal)));
   reach(pose, shoulder + 1, chest, bone, bulge, target);
   const Vector3d curl = -side * Vector3d::UnitZ();
   pose.local(shoulder + 3, turn(8.0 - 6.0 * hand.grip, curl));

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "bench/peers/rigid_sweep.h"
+#include "lss/turn_between.h"
 
 namespace foretouch::tools {
 
@@ -16,7 +17,7 @@ struct FclCapsule {
   explicit FclCapsule(const Lss& lss_L)
       : center_L(0.5 * (lss_L.a + lss_L.b)),
         rotation_LC(
-            Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), lss_L.b - lss_L.a)),
+            turnBetween(Eigen::Vector3d::UnitZ(), lss_L.b - lss_L.a)),
         shape(lss_L.radius, (lss_L.b - lss_L.a).norm()) {}
 
   [[nodiscard]] fcl::Transform3d poseOf(const RigidPose& pose_WL) const {

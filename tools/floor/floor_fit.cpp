@@ -8,6 +8,7 @@
 
 #include "articulated/try.h"
 #include "lss/index.h"
+#include "lss/turn_between.h"
 
 namespace foretouch::tools {
 namespace {
@@ -247,7 +248,7 @@ class RestFinder {
 }  // namespace
 
 Eigen::Isometry3d FloorFit::levelledTo(double target) const {
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(normal_W, Vector3d::UnitY());
+  const Eigen::Quaterniond turn = turnBetween(normal_W, Vector3d::UnitY());
   Eigen::Isometry3d level = Eigen::Isometry3d::Identity();
   level.linear() = turn.toRotationMatrix();
   level.translation() = Vector3d(center_W.x(), target, center_W.z()) - level.linear() * center_W;

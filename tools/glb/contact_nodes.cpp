@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "lss/turn_between.h"
 #include "tessellation/swept_surface.h"
 #include "tools/glb/contact_extras.h"
 #include "tools/glb/replay_scene.h"
@@ -29,7 +30,7 @@ json markerNode(const ShownTouch& shown, const Stage& stage, std::size_t mesh) {
   const LinkContact& contact = shown.first.contact;
   const Skeleton& skeleton = stage.inputs.avatar.skeleton();
   const Scene& scene = stage.inputs.scene;
-  const auto turn = Quaternion::FromTwoVectors(Vector3d::UnitY(), contact.nhat_SL_W).normalized();
+  const auto turn = turnBetween(Vector3d::UnitY(), contact.nhat_SL_W).normalized();
   return {{"name", contactTitle(shown, skeleton, scene)},
           {"mesh", mesh},
           {"translation", gltfVector(contact.p_WScene - stage.origin)},

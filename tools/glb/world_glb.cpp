@@ -9,6 +9,7 @@
 
 #include "articulated/try.h"
 #include "lss/index.h"
+#include "lss/turn_between.h"
 #include "tools/glb/replay_scene.h"
 #include "tools/world/outline.h"
 #include "tools/world/world_results.h"
@@ -257,7 +258,7 @@ class Markers {
     json extras = parsedContact(world_, contact);
     extras["window"] = touch.firstStep;
     extras["touch"] = parsedTouch(world_, sides, touch);
-    const auto turn = Quaternion::FromTwoVectors(Vector3d::UnitY(), contact.nhat_BA_W).normalized();
+    const auto turn = turnBetween(Vector3d::UnitY(), contact.nhat_BA_W).normalized();
     GltfDocument& document = content_.document();
     const std::size_t node =
         document.add("nodes", {{"name", titleOf(world_, contact, touch.beginS)},

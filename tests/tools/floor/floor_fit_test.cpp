@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "assets/avatar/avatar_file.h"
+#include "lss/turn_between.h"
 #include "tests/tools/feet/planted_walk.h"
 
 namespace foretouch::tools {
@@ -110,7 +111,7 @@ Result<FloorFit> fitOf(const Soles& soles, const TiltedFloor& floor, double heel
   const RestingBody body = restingBodyOf(avatar).value();
   const Eigen::Vector3d normal = Eigen::Vector3d(-floor.slopeX, 1.0, -floor.slopeZ).normalized();
   const Eigen::Quaterniond turn =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), normal) *
+      turnBetween(Eigen::Vector3d::UnitY(), normal) *
       Eigen::AngleAxisd(heelUpDeg * 0.0174532925, Eigen::Vector3d::UnitX());
   // As the avatar's text has them: where its LSS end in the ankle's frame, and their radius.
   double below = 0.0;
