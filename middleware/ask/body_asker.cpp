@@ -177,7 +177,7 @@ void BodyAsker::askSolids(const LinkSurface& surface, const ContactSide& side,
 void BodyAsker::addSolid(const ContactSide& side, ObjectId object) {
   if (hits_.limit() < 0.0 || !filter_.takes(side.body, side.link, object)) return;
   WorldHit hit;
-  hit.what = side;
+  takeOwner(side, hit);
   hit.what.p_W = shape_.lss.a;
   hit.object = object;
   hit.isAssumed = side.body != kStillScene && isAssumed(side.body);

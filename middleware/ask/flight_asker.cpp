@@ -180,10 +180,7 @@ bool FlightAsker::askPiece(const ContactSide& side, const Hull& hull_L, double r
   if (way.norm() > 0.0) met.shape.way = way.normalized();
   FlightHit hit;
   hit.hit = hitOf(met.shape, met.piece.hull, radius, met.meeting);
-  hit.hit.what.body = side.body;
-  hit.hit.what.link = side.link;
-  hit.hit.what.lss = side.lss;
-  hit.hit.what.triangle = side.triangle;
+  takeOwner(side, hit.hit);
   hit.hit.isAssumed = isAssumed_;
   const BodyKind& kind = world_.kindOf(side.body);
   if (kind.mesh) {

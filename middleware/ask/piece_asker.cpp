@@ -73,6 +73,13 @@ WorldHit hitOf(const AskedShape& shape, const Hull& piece, double radius, const 
   return hit;
 }
 
+void takeOwner(const ContactSide& side, WorldHit& hit) {
+  hit.what.body = side.body;
+  hit.what.link = side.link;
+  hit.what.lss = side.lss;
+  hit.what.triangle = side.triangle;
+}
+
 void PieceAsker::askLss(const Lss& lss, const ContactSide& side) {
   if (!filter_.takes(side.body, side.link, kEveryObject)) return;
   shape_.reach = limit();
@@ -97,8 +104,8 @@ void PieceAsker::askTriangle(const Triangle& triangle, const ContactSide& side, 
 void PieceAsker::add(const Meeting& meeting, const Hull& piece, double radius,
                      const ContactSide& side, ObjectId object) {
   WorldHit hit = hitOf(shape_, piece, radius, meeting);
+  takeOwner(side, hit);
   const Vector3d p = hit.what.p_W;
-  hit.what = side;
   hit.what.p_W = frame_.at(p);
   hit.nhat_W = frame_.R_WL * hit.nhat_W;
   hit.object = object;

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr const char* kKinds[] = {"ray",          "sphere cast", "capsule cast", "overlap",
                                   "nearest",      "hull cast",   "hull overlap", "hull nearest",
                                   "point inside", "hull inside"};
-constexpr int kFirstHull = 5, kPointInside = 8, kHullInside = 9, kNumKinds = 10;
+constexpr int kFirstHull = 5, kPointInside = 8, kHullInside = 9;
 
 AskWhat whatOf(int kind) {
   constexpr AskWhat kWhat[] = {
@@ -133,7 +133,8 @@ void count(const AskedWorld& world, const WorldQuestion& question, const WorldAn
 
 }  // namespace
 
-AskTally judgeQuestions(std::uint64_t seed, int numQuestions, const AskTamper& tamper) {
+AskTally judgeQuestions(std::uint64_t seed, int numQuestions, const AskTamper& tamper,
+                        int firstKind) {
   Random random(seed);
   AskTally tally;
   AskedWorld world(random);
@@ -141,7 +142,7 @@ AskTally judgeQuestions(std::uint64_t seed, int numQuestions, const AskTamper& t
   WorldAnswer answer;
   WorldTime time;
   for (int i = 0; i < numQuestions; ++i) {
-    const int kind = random.below(kNumKinds);
+    const int kind = firstKind + random.below(kAskedKinds - firstKind);
     WorldQuestion question;
     question.what = whatOf(kind);
     question.which = static_cast<AskWhich>(random.below(3));

@@ -40,8 +40,11 @@ struct AskTamper {
   std::function<void(WorldAnswer&)> answer;
 };
 
-/// A random world by its seed, and `count` questions.
-[[nodiscard]] AskTally judgeQuestions(std::uint64_t seed, int count, const AskTamper& tamper = {});
+/// So many kinds of questions are there: summaryOf() has their names.
+inline constexpr int kAskedKinds = 10;
+/// A random world by its seed, and `count` questions of the kinds from `firstKind` on.
+[[nodiscard]] AskTally judgeQuestions(std::uint64_t seed, int count, const AskTamper& tamper = {},
+                                      int firstKind = 0);
 
 /// The same of flights through a time.
 [[nodiscard]] AskTally judgeFlights(std::uint64_t seed, int count,

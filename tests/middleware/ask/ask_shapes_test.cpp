@@ -53,7 +53,7 @@ WorldQuestion boxAt(const Vector3d& place, double half, const Quaternion& axes) 
 
 TEST(AskShapes, ABoxIsCastOverlapsAndIsNear) {
   const World world = boxWorld();
-  WorldQuestion box = boxAt(Vector3d(-5, 0.25, 0.5), 0.5, Quaternion::Identity());
+  WorldQuestion box = boxAt(Vector3d(-5, 0.25, 0.125), 0.5, Quaternion::Identity());
   box.direction = Vector3d(3, 0, 0);
   box.reach = 10.0;
   const WorldAnswer flat = ask(world, box);
