@@ -48,8 +48,8 @@ void LeafSearch::setTubes(double from, double to) {
 void LeafSearch::keepNearest(NearLeaves& leaves) const {
   if (leaves.size() <= countOf(kMostForCertain)) return;
   const auto isNearer = [this](const NearLeaf& x, const NearLeaf& y) {
-    return NearTriangles::distanceTo(piece_->scene, tubes_, x) <
-           NearTriangles::distanceTo(piece_->scene, tubes_, y);
+    return LinkLeaves::distanceTo(piece_->scene, tubes_, x) <
+           LinkLeaves::distanceTo(piece_->scene, tubes_, y);
   };
   std::nth_element(leaves.begin(), leaves.begin() + kMostForCertain, leaves.end(), isNearer);
   leaves.resize(countOf(kMostForCertain));
@@ -59,7 +59,7 @@ std::optional<double> LeafSearch::findIn(double from, double to, const NearLeave
                                          std::size_t depth) {
   setTubes(from, to);
   NearLeaves& fewer = fewer_[depth];
-  NearTriangles::narrow(piece_->scene, tubes_, leaves, fewer);
+  LinkLeaves::narrow(piece_->scene, tubes_, leaves, fewer);
   if (fewer.empty()) return std::nullopt;
   // What is near throughout would be looked at in every part.
   const bool getsFewer = fewer.size() > kManyLeaves || 4 * fewer.size() <= 3 * leaves.size();
@@ -69,7 +69,7 @@ std::optional<double> LeafSearch::findIn(double from, double to, const NearLeave
     return first ? first : findIn(middle, to, fewer, depth + 1);
   }
   if (search_.body == BracketSearch::Body::Shrunk) keepNearest(fewer);
-  NearTriangles::collect(piece_->scene, tubes_, fewer, pairs_);
+  LinkLeaves::collect(piece_->scene, tubes_, fewer, pairs_);
   if (pairs_.empty()) return std::nullopt;
   piece_->sides.limitTo(pairs_, true);
   return bracketer_.find(piece_->sides, piece_->growth, piece_->resolution, search_, from, to,

@@ -8,7 +8,7 @@
 
 #include "articulated/motion.h"
 #include "lss/lss.h"
-#include "middleware/bracket/near_triangles.h"
+#include "middleware/bracket/link_leaves.h"
 #include "middleware/bracket/side_bracket.h"
 #include "middleware/events/moving_sides.h"
 #include "middleware/pair/growth.h"

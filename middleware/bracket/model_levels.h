@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "middleware/bracket/bracket_run.h"
+#include "middleware/bracket/bracket_plan.h"
 
 namespace foretouch::internal {
 

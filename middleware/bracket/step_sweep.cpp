@@ -161,7 +161,7 @@ const NearLeaves& StepSweep::leavesIn(int k, LinkId link) {
     memory_.areLeavesKnown[slotOf(k)] = 1;
   } else if (memory_.areLeavesKnown[slotOf(k)] == 0) {
     setTubes(k, link);
-    NearTriangles::narrow(*plan_.scene, memory_.tubes, memory_.ofStep[slotOf(link)], leaves);
+    LinkLeaves::narrow(*plan_.scene, memory_.tubes, memory_.ofStep[slotOf(link)], leaves);
     memory_.areLeavesKnown[slotOf(k)] = 1;
   }
   return leaves;
@@ -171,7 +171,7 @@ const NearPairs& StepSweep::pairsIn(int k, LinkId link) {
   NearPairs& pairs = memory_.near[slotOf(k)];
   if (memory_.arePairsKnown[slotOf(k)] == 0) {
     setTubes(k, link);
-    NearTriangles::collect(*plan_.scene, memory_.tubes, leavesIn(k, link), pairs);
+    LinkLeaves::collect(*plan_.scene, memory_.tubes, leavesIn(k, link), pairs);
     memory_.arePairsKnown[slotOf(k)] = 1;
   }
   return pairs;
@@ -185,7 +185,7 @@ SidesPair StepSweep::nearestAt(int k, BracketSearch::Way way, LinkId link) {
       isBegin ? pieces.placesAtBegin(skeletonOf(0), k) : pieces.placesAtEnd(skeletonOf(0), k);
   const double margin = ask_.growths.of(piece, 0, link).at(isBegin ? 0.0 : 1.0);
   setTubes(piece, link, places, places, 0.0, margin + plan_.resolution);
-  return NearTriangles::nearest(*plan_.scene, memory_.tubes, memory_.leaves[slotOf(k)]);
+  return LinkLeaves::nearest(*plan_.scene, memory_.tubes, memory_.leaves[slotOf(k)]);
 }
 
 }  // namespace foretouch::internal

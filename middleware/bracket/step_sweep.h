@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "middleware/bracket/bracket_run.h"
+#include "middleware/bracket/bracket_plan.h"
 
 namespace foretouch::internal {
 

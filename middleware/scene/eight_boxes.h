@@ -13,12 +13,12 @@
 namespace foretouch::internal {
 
 /// Rounded outward, relative to a tree's origin.
-struct FloatBox {
+struct LocalBox {
   float lower[3], upper[3];
 };
 
-[[nodiscard]] inline FloatBox localBox(const Aabb& box, const Eigen::Vector3d& origin) {
-  FloatBox local;
+[[nodiscard]] inline LocalBox localBox(const Aabb& box, const Eigen::Vector3d& origin) {
+  LocalBox local;
   for (int axis = 0; axis < 3; ++axis) {
     local.lower[axis] = floatBelow(box.min[axis] - origin[axis]);
     local.upper[axis] = floatAbove(box.max[axis] - origin[axis]);
@@ -33,7 +33,7 @@ struct Eight {
 
 [[nodiscard]] inline Eight eightOverlapping(const float (&lower)[3][kBvhWidth],
                                             const float (&upper)[3][kBvhWidth],
-                                            const FloatBox& box) {
+                                            const LocalBox& box) {
   Eight eight;
   for (int i = 0; i < kBvhWidth; ++i) {
     const auto atMost = [](float x, float y) { return static_cast<unsigned>(x <= y); };
@@ -46,7 +46,7 @@ struct Eight {
 }
 
 /// Of a leaf's triangles; unused places repeat the last one.
-[[nodiscard]] inline Eight trianglesOverlapping(const BvhLeaf& leaf, const FloatBox& box) {
+[[nodiscard]] inline Eight trianglesOverlapping(const BvhLeaf& leaf, const LocalBox& box) {
   float lower[3][kBvhWidth], upper[3][kBvhWidth];
   for (int axis = 0; axis < 3; ++axis) {
     for (int i = 0; i < kBvhWidth; ++i) {

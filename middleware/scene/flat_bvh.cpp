@@ -9,7 +9,7 @@ namespace {
 /// A walk of one box, depth first, keeps at most this many nodes.
 constexpr std::size_t kStackSize = kBvhWidth * (kMaxBvhDepth + 1);
 
-void collectLeaf(const BvhLeaf& leaf, const FloatBox& box, std::vector<TriangleId>& ids) {
+void collectLeaf(const BvhLeaf& leaf, const LocalBox& box, std::vector<TriangleId>& ids) {
   const Eight eight = trianglesOverlapping(leaf, box);
   for (int i = 0; i < kBvhWidth && leaf.id[i] >= 0; ++i) {
     if (eight.overlaps[i] != 0) ids.push_back(leaf.id[i]);
@@ -19,7 +19,7 @@ void collectLeaf(const BvhLeaf& leaf, const FloatBox& box, std::vector<TriangleI
 }  // namespace
 
 void FlatBvh::collect(const Aabb& box, std::vector<TriangleId>& ids, std::uint64_t& visited) const {
-  const FloatBox local = localBox(box, origin_);
+  const LocalBox local = localBox(box, origin_);
   std::uint32_t stack[kStackSize];
   std::size_t size = 0;
   stack[size++] = 0;
@@ -41,7 +41,7 @@ void FlatBvh::collect(const Aabb& box, std::vector<TriangleId>& ids, std::uint64
 }
 
 bool FlatBvh::meetsLeaf(const Aabb& box, std::uint64_t& visited) const {
-  const FloatBox local = localBox(box, origin_);
+  const LocalBox local = localBox(box, origin_);
   std::uint32_t stack[kStackSize];
   std::size_t size = 0;
   stack[size++] = 0;

@@ -1,4 +1,4 @@
-// middleware/bracket/near_triangles.h: which triangles of the scene may be near a link whose LSS
+// middleware/bracket/link_leaves.h: which triangles of the scene may be near a link whose LSS
 // are its surface, in a step and in each of its pieces: one walk of the tree for all links, and
 // tubes around what LSS sweep in between. Nothing of it needs the motion inside a piece. Proof:
 // bracket.md 3. Metres in W. Not installed.
@@ -32,7 +32,7 @@ using NearPairs = std::vector<SidesPair>;
 using LinkTubes = std::vector<SweptTube>;
 
 /// For one thread; keeps its memory.
-class NearTriangles {
+class LinkLeaves {
  public:
   /// Of each box (of a link, or of a link in a piece), which leaves it meets.
   void walk(const Scene& scene, const std::vector<Aabb>& boxes);

@@ -1,4 +1,4 @@
-#include "middleware/bracket/near_triangles.h"
+#include "middleware/bracket/link_leaves.h"
 
 #include <algorithm>
 
@@ -25,7 +25,7 @@ void forEachAsked(const FlatBvh& bvh, const NearLeaf& near, const Visit& visit) 
 
 }  // namespace
 
-void NearTriangles::setLanes(const Scene& scene, const std::vector<Aabb>& boxes) {
+void LinkLeaves::setLanes(const Scene& scene, const std::vector<Aabb>& boxes) {
   const Eigen::Vector3d& origin = scene.parts().origin;
   lanes_.resize(static_cast<std::int32_t>(boxes.size()));
   for (int axis = 0; axis < 3; ++axis) {
@@ -36,7 +36,7 @@ void NearTriangles::setLanes(const Scene& scene, const std::vector<Aabb>& boxes)
   }
 }
 
-void NearTriangles::walk(const Scene& scene, const std::vector<Aabb>& boxes) {
+void LinkLeaves::walk(const Scene& scene, const std::vector<Aabb>& boxes) {
   setLanes(scene, boxes);
   BoxLanes lanes;
   lanes.count = lanes_.count;
@@ -50,8 +50,8 @@ void NearTriangles::walk(const Scene& scene, const std::vector<Aabb>& boxes) {
   hits_.sortByBox(boxes.size());
 }
 
-void NearTriangles::collect(const Scene& scene, std::size_t box, const IgnoredObjects& ignored,
-                            const LinkTubes& tubes, std::size_t numLss, NearLeaves& leaves) const {
+void LinkLeaves::collect(const Scene& scene, std::size_t box, const IgnoredObjects& ignored,
+                         const LinkTubes& tubes, std::size_t numLss, NearLeaves& leaves) const {
   const FlatBvh& bvh = scene.parts().bvh;
   leaves.clear();
   const std::uint32_t begin = hits_.first[box], end = hits_.first[box + 1];
@@ -65,8 +65,8 @@ void NearTriangles::collect(const Scene& scene, std::size_t box, const IgnoredOb
   }
 }
 
-void NearTriangles::narrow(const Scene& scene, const LinkTubes& tubes, const NearLeaves& leaves,
-                           NearLeaves& fewer) {
+void LinkLeaves::narrow(const Scene& scene, const LinkTubes& tubes, const NearLeaves& leaves,
+                        NearLeaves& fewer) {
   const FlatBvh& bvh = scene.parts().bvh;
   fewer.clear();
   for (const NearLeaf& near : leaves) {
@@ -74,13 +74,13 @@ void NearTriangles::narrow(const Scene& scene, const LinkTubes& tubes, const Nea
   }
 }
 
-void NearTriangles::collect(const Scene& scene, const LinkTubes& tubes, const NearLeaves& leaves,
-                            NearPairs& pairs) {
+void LinkLeaves::collect(const Scene& scene, const LinkTubes& tubes, const NearLeaves& leaves,
+                         NearPairs& pairs) {
   const FlatBvh& bvh = scene.parts().bvh;
   pairs.clear();
   double least = kInfinity;
   std::int32_t lss = -1;
-  FloatBox box{};
+  LocalBox box{};
   for (const NearLeaf& near : leaves) {
     const SweptTube& tube = tubes[slotOf(near.lss)];
     if (near.lss != lss) box = localBox(tube.box(), bvh.origin());
@@ -99,8 +99,8 @@ void NearTriangles::collect(const Scene& scene, const LinkTubes& tubes, const Ne
   }
 }
 
-SidesPair NearTriangles::nearest(const Scene& scene, const LinkTubes& tubes,
-                                 const NearLeaves& leaves) {
+SidesPair LinkLeaves::nearest(const Scene& scene, const LinkTubes& tubes,
+                              const NearLeaves& leaves) {
   const FlatBvh& bvh = scene.parts().bvh;
   const NearLeaf* best = nullptr;
   double least = kInfinity;
@@ -124,7 +124,7 @@ SidesPair NearTriangles::nearest(const Scene& scene, const LinkTubes& tubes,
   return nearest;
 }
 
-double NearTriangles::distanceTo(const Scene& scene, const LinkTubes& tubes, const NearLeaf& leaf) {
+double LinkLeaves::distanceTo(const Scene& scene, const LinkTubes& tubes, const NearLeaf& leaf) {
   return tubes[slotOf(leaf.lss)].distanceTo(ballOf(scene.parts().bvh, leaf.leaf));
 }
 
