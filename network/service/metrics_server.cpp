@@ -12,7 +12,7 @@ using Handled = httplib::Server::HandlerResponse;
 
 /// A page of a stranger, in a browser on this machine, must not read what this machine says to
 /// itself. An address that others reach has other names, and hides nothing.
-Handled checked(const httplib::Request& request, httplib::Response& response) {
+Handled readFromHere(const httplib::Request& request, httplib::Response& response) {
   const bool isRead = request.method == "GET" || request.method == "HEAD";
   if (isRead && !internal::namesForeignHost(request)) return Handled::Unhandled;
   response.status = isRead ? 403 : 405;
@@ -48,7 +48,7 @@ Result<MetricsServer> MetricsServer::start(const std::string& host, std::uint16_
                                            Pages pages) {
   auto impl = std::make_unique<Impl>();
   addPages(impl->server, std::move(pages));
-  if (isLoopback(host)) impl->server.set_pre_routing_handler(checked);
+  if (isLoopback(host)) impl->server.set_pre_routing_handler(readFromHere);
   FORETOUCH_CHECK(impl->server.start("metrics", host, port));
   return MetricsServer(std::move(impl));
 }

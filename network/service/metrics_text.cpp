@@ -17,7 +17,7 @@ std::string number(double value) {
 }
 
 /// A label's value: escapes backslash, quote and line break.
-std::string quoted(std::string_view text) {
+std::string asLabel(std::string_view text) {
   std::string value = "\"";
   for (const char c : text) {
     if (c == '\\' || c == '"') value += '\\';
@@ -47,20 +47,21 @@ class Page {
   void rejects(const std::string& name, const std::string& help, const RejectCounts& counts) {
     head(name, help, "counter");
     for (std::size_t i = 1; i < kNumRejects; ++i) {
-      line(name, "reason=" + quoted(toString(static_cast<Reject>(i))), std::to_string(counts[i]));
+      line(name, "reason=" + asLabel(toString(static_cast<Reject>(i))), std::to_string(counts[i]));
     }
   }
   void faults(const std::string& name, const std::string& help, const WireCounts& counts) {
     head(name, help, "counter");
     for (std::size_t i = 1; i < kNumDatagramFaults; ++i) {
-      line(name, "fault=" + quoted(toString(static_cast<DatagramFault>(i))),
+      line(name, "fault=" + asLabel(toString(static_cast<DatagramFault>(i))),
            std::to_string(counts.faults[i]));
     }
   }
   void histogram(const std::string& name, const std::string& help, const LatencyHistogram& values) {
     head(name, help, "histogram");
     for (std::size_t i = 0; i < LatencyHistogram::kBoundsUs.size(); ++i) {
-      line(name + "_bucket", "le=" + quoted(number(LatencyHistogram::kBoundsUs[i] * kSecondsPerUs)),
+      line(name + "_bucket",
+           "le=" + asLabel(number(LatencyHistogram::kBoundsUs[i] * kSecondsPerUs)),
            std::to_string(values.countAtMost(i)));
     }
     line(name + "_bucket", "le=\"+Inf\"", std::to_string(values.count()));
@@ -82,7 +83,7 @@ class Page {
     for (const auto& count : counts.avatars) {
       for (std::size_t i = 0; i < numbers(count).size(); ++i) {
         if (numbers(count)[i] == 0) continue;
-        line(name, labelOf(count) + "," + label + "=" + quoted(toString(static_cast<Kind>(i))),
+        line(name, labelOf(count) + "," + label + "=" + asLabel(toString(static_cast<Kind>(i))),
              std::to_string(numbers(count)[i]));
       }
     }
@@ -90,7 +91,7 @@ class Page {
   void events(const std::string& name, const std::string& help, const WorldCounts& counts) {
     head(name, help, "counter");
     for (std::size_t i = 0; i < kNumEventKinds; ++i) {
-      line(name, "kind=" + quoted(toString(static_cast<EventKind>(i))),
+      line(name, "kind=" + asLabel(toString(static_cast<EventKind>(i))),
            std::to_string(counts.events[i]));
     }
   }
@@ -99,7 +100,8 @@ class Page {
     head(name, help, "gauge");
     for (const RefusedBody& body : counts.refusedLongest) {
       line(name,
-           "body=" + quoted(std::to_string(body.body)) + ",reason=" + quoted(toString(body.reason)),
+           "body=" + asLabel(std::to_string(body.body)) +
+               ",reason=" + asLabel(toString(body.reason)),
            std::to_string(body.poses));
     }
   }
@@ -116,7 +118,7 @@ class Page {
   }
   template <typename Count>
   static std::string labelOf(const Count& count) {
-    return "avatar=" + quoted(std::to_string(count.avatar));
+    return "avatar=" + asLabel(std::to_string(count.avatar));
   }
   std::string text_;
 };
@@ -252,7 +254,7 @@ std::string metricsText(const ServiceFacts& facts, const ServiceCounts& counts,
                         const WorldReport* world, const PersonCounts& persons) {
   Page page;
   page.info("foretouch_build_info", "What is running.",
-            "build=" + quoted(facts.build) + ",scene=" + quoted(facts.scene));
+            "build=" + asLabel(facts.build) + ",scene=" + asLabel(facts.scene));
   page.gauge("foretouch_start_time_seconds", "When the service started.",
              number(static_cast<double>(facts.startUtimeUs) * kSecondsPerUs));
   page.gauge("foretouch_avatars", "Avatars that are served.", std::to_string(facts.numAvatars));

@@ -20,6 +20,7 @@
 #include "network/stream/bound_stream.h"
 #include "network/stream/person_stream.h"
 #include "network/stream/step_observer.h"
+#include "network/wire/message_key.h"
 
 namespace foretouch::internal {
 

@@ -10,7 +10,6 @@ namespace foretouch::internal {
 namespace {
 
 constexpr std::int32_t kNowhere = -1;
-constexpr std::uint8_t kKnownFlags = kJointValid | kJointTracked | kJointInferred;
 
 /// The joint's entry in `places`; null if the skeleton does not have it.
 std::int32_t* placeOf(std::vector<std::int32_t>& places, std::int32_t joint) {
@@ -60,7 +59,7 @@ Reject PoseAssembly::checkJoints(const PoseMessage& message) {
     std::int32_t* const place = placeOf(listed_, joint.joint);
     if (place == nullptr || *place != kNowhere) return Reject::BadIndex;
     *place = static_cast<std::int32_t>(i);
-    if ((joint.flags & ~kKnownFlags) != 0) return Reject::OutOfRange;
+    if ((joint.flags & ~kKnownJointFlags) != 0) return Reject::OutOfRange;
     if ((joint.flags & kJointValid) == 0) continue;
     if (!joint.rotation.coeffs().allFinite()) return Reject::NonFinite;
     if (!unitQuaternion(joint.rotation)) return Reject::NonUnit;

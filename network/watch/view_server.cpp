@@ -110,12 +110,14 @@ void serveEvents(httplib::Server& server, Audience& audience) {
   });
 }
 
+constexpr internal::HttpBounds kBounds{kMaxViewRequestBytes, kRequestMs, kResponseMs};
+
 }  // namespace
 
 struct ViewServer::Impl {
   explicit Impl(Audience started) : audience(std::move(started)) {}
   Audience audience;
-  internal::BoundedHttp server{internal::HttpBounds{kMaxViewRequestBytes, kRequestMs, kResponseMs}};
+  internal::BoundedHttp server{kBounds};
 };
 
 ViewServer::ViewServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

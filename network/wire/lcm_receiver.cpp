@@ -19,7 +19,7 @@ namespace foretouch {
 namespace {
 
 constexpr int kQueueCapacity = 10000;
-constexpr int kBatch = 64;
+constexpr int kMostAtOnce = 64;
 // liblcm's thread and its self-test select() on some ten descriptors that they open.
 constexpr int kMaxDescriptor = FD_SETSIZE - 32;
 
@@ -51,7 +51,7 @@ class LcmReceiver : public Receiver {
   Result<Done> receive(std::vector<WireMessage>& messages, int timeoutMs) override {
     messages_ = &messages;
     const int fd = lcm_get_fileno(lcm_.get());
-    for (int i = 0; i < kBatch && waitReadable(fd, i == 0 ? timeoutMs : 0); ++i) {
+    for (int i = 0; i < kMostAtOnce && waitReadable(fd, i == 0 ? timeoutMs : 0); ++i) {
       if (lcm_handle(lcm_.get()) != 0) {
         return Error::in(url_, ErrorCode::FileUnreadable, "liblcm gave up receiving");
       }

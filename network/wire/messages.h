@@ -99,6 +99,7 @@ struct SkeletonMessage {
 
 /// Bits of PoseJoint::flags.
 enum JointFlag : std::uint8_t { kJointValid = 1, kJointTracked = 2, kJointInferred = 4 };
+constexpr std::uint8_t kKnownJointFlags = kJointValid | kJointTracked | kJointInferred;
 
 struct PoseJoint {
   std::int32_t joint = 0;  ///< Index in the sender's skeleton.

@@ -48,7 +48,7 @@ struct Whole {
   }
 };
 inline constexpr Whole kWhole, kFlag{0, 1};
-inline constexpr Whole kKnownFlags{0, kJointValid | kJointTracked | kJointInferred};
+inline constexpr Whole kKnownFlags{0, kKnownJointFlags};
 /// An enumeration's values, from 0 to below `count`.
 constexpr Whole codeBelow(std::int64_t count) {
   return {0, count - 1};
