@@ -31,6 +31,7 @@ const char* reasonOf(AskUnknown why) {
     case AskUnknown::Assumed: return "silent, and taken to hold still";
     case AskUnknown::Silent: return "silent: nothing is known after its last pose";
     case AskUnknown::Unresolved: return "not resolved";
+    case AskUnknown::Open: return "not closed, so it has no inside";
     case AskUnknown::NotThere: break;
   }
   return "not there yet";
