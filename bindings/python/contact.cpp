@@ -1,5 +1,6 @@
 // bindings/python/contact.cpp: foretouch.Contact and Verdict.
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <type_traits>
 
@@ -7,6 +8,7 @@
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
 #include "bindings/python/int_enum.h"
+#include "middleware/events/told_depth.h"
 #include "middleware/exact/feature.h"
 
 namespace foretouch::python {
@@ -78,7 +80,7 @@ py::object triangleOf(const Contact&, const LinkContact& c) {
 
 /// Triangles have no inside.
 bool startsAtUnknownDepth(const LinkContact& contact) {
-  return contact.verdict == Verdict::StartsInContact && !(contact.penetration > 0.0);
+  return std::isnan(toldDepth(contact));
 }
 
 py::object penetrationOf(const Contact&, const LinkContact& c) {

@@ -2,7 +2,7 @@
 // meets whom between two of these, from enter to leave; and volumes that tell who is in them. What
 // it is good for, and where it ends: docs/moving.md. Instants are whole microseconds since any epoch.
 
-import { type Fields, ForetouchError, Held, handleOf, instant, type Machine, numberOf, type Point, point, real, type Room, type Struct, type Values, whole, type Writes } from "./machine.js";
+import { type Fields, ForetouchError, Held, handleOf, instant, known, type Machine, numberOf, type Point, point, real, type Room, type Struct, type Values, whole, type Writes } from "./machine.js";
 import { type Verdict, verdicts } from "./query.js";
 import { Avatar, type PoseLike, Scene, writtenPose } from "./shapes.js";
 import * as structs from "./structs.js";
@@ -77,8 +77,8 @@ export interface WorldContact {
   readonly a: ContactSide;
   readonly b: ContactSide;
   readonly separation: number;
-  /** Of `starts_in_contact`. */
-  readonly penetration: number;
+  /** Of `starts_in_contact`; null if it is not known, as of triangles, which have no inside. */
+  readonly penetration: number | null;
   /** Unit, from b to a. */
   readonly normal: Point;
   /** It rests on a body that was silent, and was taken to hold still. */
@@ -127,8 +127,8 @@ export interface WorldEvent {
   readonly a: ContactSide;
   readonly b: ContactSide;
   readonly separation: number;
-  /** How deep the axis lies, of one that starts inside. */
-  readonly penetration: number;
+  /** How deep the axis lies, of one that starts inside; null: as in WorldContact. */
+  readonly penetration: number | null;
   /** Unit, from b to a; zero if none is told. */
   readonly normal: Point;
   /** Of a's point less b's, m/s. */
@@ -317,6 +317,7 @@ export class World extends Held {
       return {
         contacts: this.list(room, structs.ft_world_contact, "ft_world_contacts").map((contact) => ({
           ...contact,
+          penetration: known(contact.penetration),
           verdict: verdicts[contact.verdict],
           reason: reasons[contact.reason],
           isAssumed: contact.isAssumed === 1,
@@ -531,6 +532,7 @@ export class Triggers {
 function eventOf({ pointCount, points0, points1, points2, points3, ...event }: Values<typeof structs.ft_event.fields>): WorldEvent {
   return {
     ...event,
+    penetration: known(event.penetration),
     kind: eventKinds[event.kind],
     cause: leaveCauses[event.cause],
     reason: reasons[event.reason],
