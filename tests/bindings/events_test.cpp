@@ -64,7 +64,7 @@ void expectSame(const ft_event& c, const WorldEvent& cxx) {
   EXPECT_EQ(c.since_us, cxx.since.us);
   EXPECT_EQ(c.since_fraction, cxx.since.fraction);
   EXPECT_EQ(c.separation, cxx.separation);
-  expectSameDepth(c.penetration, cxx.kind == EventKind::StartsInside, cxx.penetration);
+  test::expectSameDepth(c.penetration, cxx.kind == EventKind::StartsInside, cxx.penetration);
   EXPECT_EQ(vectorOf(c.normal), cxx.nhat_BA_W);
   EXPECT_EQ(vectorOf(c.velocity), cxx.velocity_W);
   EXPECT_EQ(c.approach_speed, cxx.approachSpeed);
