@@ -8,6 +8,7 @@
 #include "bindings/c/last_step.h"
 #include "bindings/c/sized_struct.h"
 #include "lss/index.h"
+#include "middleware/events/told_depth.h"
 
 namespace foretouch::c {
 
@@ -19,7 +20,7 @@ ft_contact contactOf(const LinkContact& contact, const Scene& scene) {
   c.toi = contact.toi;
   c.free_until = contact.freeUntil;
   c.separation = contact.separation;
-  c.penetration = contact.penetration;
+  c.penetration = toldDepth(contact);
   Eigen::Map<Eigen::Vector3d>(c.point_scene) = contact.p_WScene;
   Eigen::Map<Eigen::Vector3d>(c.point_link) = contact.p_WLink;
   Eigen::Map<Eigen::Vector3d>(c.normal) = contact.nhat_SL_W;

@@ -7,6 +7,7 @@
 #include "bindings/c/sized_struct.h"
 #include "bindings/c/world_handle.h"
 #include "lss/index.h"
+#include "middleware/events/told_depth.h"
 
 namespace foretouch::c {
 namespace {
@@ -72,7 +73,7 @@ ft_event eventOf(const ft_world& world, const WorldEvent& event) {
   c.since_us = event.since.us;
   c.since_fraction = event.since.fraction;
   c.separation = event.separation;
-  c.penetration = event.penetration;
+  c.penetration = toldDepth(event);
   Eigen::Map<Eigen::Vector3d>(c.normal) = event.nhat_BA_W;
   Eigen::Map<Eigen::Vector3d>(c.velocity) = event.velocity_W;
   c.approach_speed = event.approachSpeed;

@@ -5,6 +5,7 @@
 #include "bindings/c/sized_struct.h"
 #include "bindings/c/world_handle.h"
 #include "lss/index.h"
+#include "middleware/events/told_depth.h"
 
 namespace foretouch::c {
 namespace {
@@ -34,7 +35,7 @@ ft_world_contact worldContactOf(const ft_world& world, const WorldContact& conta
   c.time_us = contact.time.us;
   c.time_fraction = contact.time.fraction;
   c.separation = contact.separation;
-  c.penetration = contact.penetration;
+  c.penetration = toldDepth(contact);
   Eigen::Map<Eigen::Vector3d>(c.normal) = contact.nhat_BA_W;
   c.a = sideOf(contact.a, objectOf(world, contact.a));
   c.b = sideOf(contact.b, objectOf(world, contact.b));

@@ -7,6 +7,7 @@
 
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
+#include "middleware/events/told_depth.h"
 #include "middleware/query_counters.h"
 
 namespace foretouch::python {
@@ -55,6 +56,17 @@ auto column(Element LinkContact::*field) {
   };
 }
 
+/// Computed, as only what is told of a contact says whether its depth is known.
+template <typename Holder>
+py::array depthsOf(const Holder& holder) {
+  const Frame frame = frameOf(holder);
+  py::array_t<double> depths(frame.extents);
+  std::transform(firstOf(holder), firstOf(holder) + depths.size(), depths.mutable_data(),
+                 [](const LinkContact& contact) { return toldDepth(contact); });
+  depths.attr("flags").attr("writeable") = false;
+  return depths;
+}
+
 template <typename Holder>
 auto points(Vector3d LinkContact::*field) {
   return [field](const py::object& self) {
@@ -81,7 +93,8 @@ void defineArrays(py::class_<Holder>& type) {
                              "Of contacts; 1 where there is none.")
       .def_property_readonly("free_until", column<Holder>(&LinkContact::freeUntil))
       .def_property_readonly("separation", column<Holder>(&LinkContact::separation))
-      .def_property_readonly("penetration", column<Holder>(&LinkContact::penetration))
+      .def_property_readonly("penetration", &depthsOf<Holder>,
+                             "Of what starts in contact; NaN where it is not known, 0 elsewhere.")
       .def_property_readonly("triangles", column<Holder>(&LinkContact::triangle),
                              "-1 where there is no contact.")
       .def_property_readonly("points", points<Holder>(&LinkContact::p_WScene), "On the scene.")

@@ -1,5 +1,6 @@
 // bindings/python/contact.cpp: foretouch.Contact and Verdict.
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <string_view>
 #include <variant>
@@ -9,6 +10,7 @@
 #include "bindings/python/bindings.h"
 #include "bindings/python/int_enum.h"
 #include "middleware/contact_fields.h"
+#include "middleware/events/told_depth.h"
 #include "middleware/exact/feature.h"
 
 namespace foretouch::python {
@@ -51,7 +53,7 @@ py::object objectIdOf(const Contact& contact) {
 
 /// Triangles have no inside.
 bool startsAtUnknownDepth(const LinkContact& contact) {
-  return contact.verdict == Verdict::StartsInContact && !(contact.penetration > 0.0);
+  return std::isnan(toldDepth(contact));
 }
 
 py::object penetrationOf(const Contact& contact) {

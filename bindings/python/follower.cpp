@@ -8,6 +8,7 @@
 #include "bindings/python/query_options.h"
 #include "bindings/python/world.h"
 #include "lss/index.h"
+#include "middleware/events/told_depth.h"
 #include "middleware/events/world_follower.h"
 #include "middleware/mechanics/mass.h"
 #include "middleware/worker_pool.h"
@@ -51,11 +52,11 @@ class Tales {
         return e.kind == EventKind::Leave && e.cause == cause;
       };
       all.append(type(toString(e.kind), e.time.us, e.time.fraction, e.since.us, e.since.fraction,
-                      sideOf(e.a, e.object), sideOf(e.b, e.object), e.separation, e.penetration,
-                      Numbers(3, e.nhat_BA_W.data()), Numbers(3, e.velocity_W.data()),
-                      e.approachSpeed, e.approachLower, e.approachUpper, e.effectiveMass, points,
-                      reasonOf(e.reason), isOf(LeaveCause::NotAsked), e.isAssumed,
-                      isOf(LeaveCause::Moved)));
+                      sideOf(e.a, e.object), sideOf(e.b, e.object), e.separation,
+                      depthOrNone(toldDepth(e)), Numbers(3, e.nhat_BA_W.data()),
+                      Numbers(3, e.velocity_W.data()), e.approachSpeed, e.approachLower,
+                      e.approachUpper, e.effectiveMass, points, reasonOf(e.reason),
+                      isOf(LeaveCause::NotAsked), e.isAssumed, isOf(LeaveCause::Moved)));
     }
     return all;
   }

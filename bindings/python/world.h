@@ -1,6 +1,7 @@
 // bindings/python/world.h: a moving world, and the answer of one window of it.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -75,6 +76,10 @@ class World {
 /// A window's answer as Python sees it: foretouch.WorldContacts.
 [[nodiscard]] py::object toPython(const foretouch::WorldContacts& answer, const Scene* still,
                                   const BodyShapes& shapes);
+/// None: it is not known (kUnknownDepth).
+[[nodiscard]] inline py::object depthOrNone(double depth) {
+  return std::isnan(depth) ? py::object(py::none()) : py::float_(depth);
+}
 /// One side of an event of a world: foretouch.ContactSide. `object`: of the event; it counts where
 /// no triangle says which it is.
 [[nodiscard]] py::object sideToPython(const ContactSide& side, ObjectId object, const Scene* still,

@@ -3,6 +3,7 @@
 #include "bindings/python/poses.h"
 #include "bindings/python/world.h"
 #include "lss/index.h"
+#include "middleware/events/told_depth.h"
 
 namespace foretouch::python {
 namespace {
@@ -43,10 +44,10 @@ py::list contactList(const foretouch::WorldContacts& answer, const Scene* still,
   for (const WorldContact& c : answer.contacts) {
     const py::object reason =
         c.reason == UndecidedReason::None ? py::object(py::none()) : py::str(toString(c.reason));
-    contacts.append(contactType(memberOf(worldVerdictType, c.verdict), reason, c.time.us,
-                                c.time.fraction, sideOf(sideType, c.a, still, shapes),
-                                sideOf(sideType, c.b, still, shapes), c.separation, c.penetration,
-                                Numbers(3, c.nhat_BA_W.data()), c.isAssumed));
+    contacts.append(contactType(
+        memberOf(worldVerdictType, c.verdict), reason, c.time.us, c.time.fraction,
+        sideOf(sideType, c.a, still, shapes), sideOf(sideType, c.b, still, shapes), c.separation,
+        depthOrNone(toldDepth(c)), Numbers(3, c.nhat_BA_W.data()), c.isAssumed));
   }
   return contacts;
 }

@@ -105,6 +105,11 @@ function writeField(memory: DataView, at: number, field: Field, value: unknown, 
 
 // What JavaScript is given: WebAssembly would make 0 of what is no number.
 
+/** What is not known is NaN in C, and null here. */
+export function known(value: number): number | null {
+  return Number.isNaN(value) ? null : value;
+}
+
 /** C judges its value: NaN is refused there by what is expected of it. */
 export function real(value: unknown, name: string): number {
   if (typeof value !== "number") throw new ForetouchError(`${name}: expected a number, found ${String(value)}`);

@@ -1,6 +1,6 @@
 // What does each link meet first?
 
-import { Held, handleOf, type Machine, type Point, pointAt, real, whole } from "./machine.js";
+import { Held, handleOf, known, type Machine, type Point, pointAt, real, whole } from "./machine.js";
 import { Avatar, type PoseLike, Scene, writtenPose } from "./shapes.js";
 import * as structs from "./structs.js";
 
@@ -17,7 +17,8 @@ export interface Contact {
   readonly toi: number;
   readonly freeUntil: number;
   readonly separation: number;
-  readonly penetration: number;
+  /** Of `starts_in_contact`; null if it is not known, as of triangles, which have no inside. */
+  readonly penetration: number | null;
   /** Of the scene; -1: none. */
   readonly triangle: number;
   readonly object: number;
@@ -48,7 +49,7 @@ function contactAt(memory: DataView, at: number): Contact {
     toi: memory.getFloat64(at + toiAt, true),
     freeUntil: memory.getFloat64(at + freeUntilAt, true),
     separation: memory.getFloat64(at + separationAt, true),
-    penetration: memory.getFloat64(at + penetrationAt, true),
+    penetration: known(memory.getFloat64(at + penetrationAt, true)),
     triangle: memory.getInt32(at + triangleAt, true),
     object: memory.getInt32(at + objectAt, true),
     lss: memory.getInt32(at + lssAt, true),

@@ -3,7 +3,7 @@
 // it is good for, and where it ends: docs/moving.md. Instants are whole microseconds since any epoch.
 
 import { type AskOptions, type AskQuestion, type AskShape, type AskTime, type AskWhom, type FlightAnswer, flown, manyProbed, probed, type WorldAnswer } from "./ask.js";
-import { type Fields, ForetouchError, Held, handleOf, instant, type Machine, numberOf, type Point, point, real, type Room, type Struct, type Values, whole, type Writes } from "./machine.js";
+import { type Fields, ForetouchError, Held, handleOf, instant, known, type Machine, numberOf, type Point, point, real, type Room, type Struct, type Values, whole, type Writes } from "./machine.js";
 import { type Verdict, verdicts } from "./query.js";
 import { Avatar, type PoseLike, Scene, writtenPose } from "./shapes.js";
 import * as structs from "./structs.js";
@@ -78,8 +78,8 @@ export interface WorldContact {
   readonly a: ContactSide;
   readonly b: ContactSide;
   readonly separation: number;
-  /** Of `starts_in_contact`. */
-  readonly penetration: number;
+  /** Of `starts_in_contact`; null if it is not known, as of triangles, which have no inside. */
+  readonly penetration: number | null;
   /** Unit, from b to a. */
   readonly normal: Point;
   /** It rests on a body that was silent, and was taken to hold still. */
@@ -128,8 +128,8 @@ export interface WorldEvent {
   readonly a: ContactSide;
   readonly b: ContactSide;
   readonly separation: number;
-  /** How deep the axis lies, of one that starts inside. */
-  readonly penetration: number;
+  /** How deep the axis lies, of one that starts inside; null: as in WorldContact. */
+  readonly penetration: number | null;
   /** Unit, from b to a; zero if none is told. */
   readonly normal: Point;
   /** Of a's point less b's, m/s. */
@@ -318,6 +318,7 @@ export class World extends Held {
       return {
         contacts: this.list(room, structs.ft_world_contact, "ft_world_contacts").map((contact) => ({
           ...contact,
+          penetration: known(contact.penetration),
           verdict: verdicts[contact.verdict],
           reason: reasons[contact.reason],
           isAssumed: contact.isAssumed === 1,
@@ -547,6 +548,7 @@ export class Triggers {
 function eventOf({ pointCount, points0, points1, points2, points3, ...event }: Values<typeof structs.ft_event.fields>): WorldEvent {
   return {
     ...event,
+    penetration: known(event.penetration),
     kind: eventKinds[event.kind],
     cause: leaveCauses[event.cause],
     reason: reasons[event.reason],

@@ -10,6 +10,8 @@
 
 namespace foretouch::test {
 
+/// Unknown depths are 0 in C++, and NaN in C.
+void expectSameDepth(double c, bool startsInside, double cxx);
 void expectSameVector(const double (&c)[3], const Eigen::Vector3d& cxx);
 void expectSame(const ft_contact& c, const LinkContact& cxx, const Scene& scene);
 void expectSame(const ft_contact_details& c, const ContactDetails& cxx);

@@ -50,6 +50,7 @@ Settings certifySettings(AskedCertificate& asked) {
       .required();
   addRateSetting(settings, asked.request);
   addClipSettings(settings, asked.request);
+  addSkipTPose(settings, asked.request);
   addEdgeSettings(settings, asked.edges, asked.request);
   settings
       .number("--tolerance", "M", asked.request.query.tolerance, kToleranceRange,
@@ -86,9 +87,9 @@ Result<CertifiedClip> certify(const ReplayInputs& inputs, const InterruptGuard& 
   for (LinkId link = 0; link < inputs.avatar.numLinks(); ++link) {
     withLss += inputs.avatar.lss(link).empty() ? 0 : 1;
   }
-  FORETOUCH_TRY(auto from, poseAtFrame(inputs, 0));
+  FORETOUCH_TRY(auto from, poseAtFrame(inputs, inputs.steps.frameOf(0)));
   for (std::int64_t step = 0; step < inputs.steps.count && !guard.requested(); ++step) {
-    FORETOUCH_TRY(auto to, poseAtFrame(inputs, (step + 1) * inputs.steps.stride));
+    FORETOUCH_TRY(auto to, poseAtFrame(inputs, inputs.steps.frameOf(step + 1)));
     motion.assign(inputs.avatar.skeleton(), from, to);
     const std::vector<LinkId> clear = clearLinks(inputs.avatar, query.answer(motion, scratch));
     found.clearSteps += clear.size() == withLss ? 1 : 0;

@@ -61,19 +61,25 @@ double stepLengthS(const SweepInputs& inputs) {
   return static_cast<double>(inputs.steps.stride) * inputs.clip.frameTimeS;
 }
 
+/// Where the step begins, in the clip.
+double beginOf(const SweepInputs& inputs, std::int64_t step) {
+  return static_cast<double>(inputs.steps.frameOf(step)) * inputs.clip.frameTimeS;
+}
+
 /// Sets [from, to], within the steps' times.
 Result<Done> setSpan(SweepInputs& inputs) {
-  const double lastS = static_cast<double>(inputs.steps.count) * stepLengthS(inputs);
-  inputs.fromS = inputs.request.fromS.value_or(0.0);
+  const double firstS = beginOf(inputs, 0), lastS = beginOf(inputs, inputs.steps.count);
+  inputs.fromS = inputs.request.fromS.value_or(firstS);
   inputs.toS = inputs.request.toS.value_or(lastS);
   // A frame time printed with few digits makes the end of a clip uncertain by rounding.
   constexpr double kSlack = 1e-9;
   if (inputs.toS > lastS && inputs.toS <= lastS * (1.0 + kSlack)) inputs.toS = lastS;
-  if (!(inputs.fromS >= 0.0 && inputs.fromS < inputs.toS && inputs.toS <= lastS)) {
-    return optionError("--from, --to", ErrorCode::OutOfRange,
-                       fmt::format("expected 0 <= from < to <= {:.6g} s, where the last step ends, "
-                                   "found {:.6g} and {:.6g}",
-                                   lastS, inputs.fromS, inputs.toS));
+  if (!(inputs.fromS >= firstS && inputs.fromS < inputs.toS && inputs.toS <= lastS)) {
+    return optionError(
+        "--from, --to", ErrorCode::OutOfRange,
+        fmt::format("expected {:.6g} <= from < to <= {:.6g} s, where the last step ends, "
+                    "found {:.6g} and {:.6g}",
+                    firstS, lastS, inputs.fromS, inputs.toS));
   }
   return Done{};
 }
@@ -81,7 +87,7 @@ Result<Done> setSpan(SweepInputs& inputs) {
 Result<Pose> poseAt(const SweepInputs& inputs, std::int64_t step) {
   return poseAtFrame({inputs.avatar, inputs.clip, inputs.match, inputs.request.placement,
                       inputs.isUpright, inputs.request.motionPath},
-                     step * inputs.steps.stride);
+                     inputs.steps.frameOf(step));
 }
 
 Result<ChainMotion> motionOf(const SweepInputs& inputs, std::int64_t step) {
@@ -119,7 +125,7 @@ Error tooMany(std::size_t most) {
 /// The swept part of the step.
 SweptSpan spanOf(const SweepInputs& inputs, std::int64_t step) {
   const double length = stepLengthS(inputs);
-  const double beginS = static_cast<double>(step) * length;
+  const double beginS = beginOf(inputs, step);
   SweptSpan span;
   span.beginT = std::clamp((inputs.fromS - beginS) / length, 0.0, 1.0);
   span.endT = std::clamp((inputs.toS - beginS) / length, 0.0, 1.0);
@@ -172,7 +178,7 @@ void sampleSurface(const SweepInputs& inputs, const Work& work, const SweptSurfa
                    Sweep& sweep) {
   constexpr std::size_t kSamples = 500;
   const std::size_t stride = std::max<std::size_t>(1, surface.triangles.size() / kSamples);
-  const double length = stepLengthS(inputs);
+  const double length = stepLengthS(inputs), firstS = beginOf(inputs, 0);
   std::int64_t madeFor = -1;
   std::optional<ChainMotion> motion;
   for (std::size_t i = 0; i < surface.triangles.size(); i += stride) {
@@ -185,7 +191,7 @@ void sampleSurface(const SweepInputs& inputs, const Work& work, const SweptSurfa
       middle += surface.vertices[corner] / 3.0;
     }
     const auto step = std::clamp<std::int64_t>(
-        static_cast<std::int64_t>(std::floor(0.5 * (beginS + endS) / length)), 0,
+        static_cast<std::int64_t>(std::floor((0.5 * (beginS + endS) - firstS) / length)), 0,
         inputs.steps.count - 1);
     if (step != madeFor) {
       auto made = motionOf(inputs, step);
@@ -195,7 +201,7 @@ void sampleSurface(const SweepInputs& inputs, const Work& work, const SweptSurfa
     }
     const SweptSpan span = spanOf(inputs, step);
     const auto inSpan = [&](double timeS) {
-      return std::clamp(timeS / length - static_cast<double>(step), span.beginT, span.endT);
+      return std::clamp((timeS - beginOf(inputs, step)) / length, span.beginT, span.endT);
     };
     for (const Vector3d& point : {middle, surface.vertices[corners[0]]}) {
       sweep.sampledError = std::max(
@@ -247,9 +253,10 @@ Result<Sweep> sweepOf(const SweepInputs& inputs,
                       const std::function<bool(std::int64_t, std::int64_t)>& progress) {
   FORETOUCH_TRY(auto works, workFor(inputs));
   const double length = stepLengthS(inputs);
-  const auto first = static_cast<std::int64_t>(std::floor(inputs.fromS / length));
-  const std::int64_t end =
-      std::min(inputs.steps.count, static_cast<std::int64_t>(std::ceil(inputs.toS / length)));
+  const double firstS = beginOf(inputs, 0);
+  const auto first = static_cast<std::int64_t>(std::floor((inputs.fromS - firstS) / length));
+  const std::int64_t end = std::min(
+      inputs.steps.count, static_cast<std::int64_t>(std::ceil((inputs.toS - firstS) / length)));
   const std::int64_t total =
       std::max<std::int64_t>(0, end - first) + static_cast<std::int64_t>(works.size());
   Sweep sweep;

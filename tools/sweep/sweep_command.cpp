@@ -203,6 +203,7 @@ Command sweepCommand() {
                  "Give up beyond this many");
   settings.asJson(job->asJson);
   addClipSettings(settings, request);
+  addSkipTPose(settings, request);
   addFilesSetting(settings, job->files);
   Command command{
       "sweep", "Write what links of an avatar cover during a clip as a mesh with a certified error",

@@ -541,8 +541,8 @@ class WorldContact(NamedTuple):
     """The body with the lower number, or of one body the lower link; what stands still is b."""
     b: ContactSide
     separation: float
-    penetration: float
-    """Of STARTS_IN_CONTACT."""
+    penetration: Optional[float]
+    """Of STARTS_IN_CONTACT; None if it is not known, as of triangles, which have no inside."""
     normal: Doubles
     """(3,), unit, from b to a."""
     is_assumed: bool
@@ -597,7 +597,8 @@ class WorldEvent(NamedTuple):
     b: ContactSide
     """Of what is unresolved its body may be EVERY_BODY: whatever a is asked about."""
     separation: float
-    penetration: float
+    penetration: Optional[float]
+    """As in WorldContact."""
     normal: Doubles
     """(3,), unit, from b to a; zero if none is told."""
     velocity: Doubles

@@ -4,6 +4,7 @@
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
+import { known as told } from "../machine.js";
 import * as structs from "../structs.js";
 
 const headers = new URL("../../c/include/foretouch/", import.meta.url);
@@ -49,4 +50,10 @@ test("fields lie where a compiler puts them", () => {
   assert.equal(places.a, 144);
   assert.equal(places.points1 - places.points0, 56);
   assert.equal(structs.ft_scene_arrays.size, 36);
+});
+
+test("what C does not know is null, and no depth", () => {
+  assert.equal(told(NaN), null);
+  assert.equal(told(0), 0);
+  assert.equal(told(0.04), 0.04);
 });

@@ -1,7 +1,7 @@
 """From enter to leave: what touches what, and when, in frames. Nothing here knows Blender."""
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, Optional
 
 import numpy as np
 
@@ -39,7 +39,7 @@ class Touch:
     normal: np.ndarray
     """(3,), from the object to the link; zero where there is none."""
     separation: float
-    penetration: float
+    penetration: Optional[float]
     approach: float
     """Metres per second."""
 

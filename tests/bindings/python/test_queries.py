@@ -161,6 +161,19 @@ class Options(unittest.TestCase):
         policies = {"fore": {"fidelity": "exact"}}
         self.assertEqual(self.ask(policies=policies, surface=surface)["fore"].toi, exact.toi)
 
+    def test_the_depth_of_triangles_is_not_known(self):
+        # It goes through the wall from the start.
+        plate = [[[0, 0, -0.03], [0.3, 0, -0.03], [0.3, 0, 0.03]]]
+        surface = foretouch.Surface.from_triangles(self.avatar, [None, plate])
+        step = foretouch.first_contacts(self.avatar, self.motion, wall(0.0), surface=surface,
+                                        policies={"fore": {"fidelity": "exact"}})
+        self.assertEqual(step["fore"].verdict, Verdict.STARTS_IN_CONTACT)
+        self.assertIsNone(step["fore"].penetration)
+        self.assertEqual(step["upper"].penetration, 0.04)
+        np.testing.assert_array_equal(step.penetration, [0.04, np.nan])
+        with self.assertRaises(ValueError):
+            step.penetration[1] = 0.0
+
     def test_counters_count(self):
         counters = self.ask().counters
         self.assertGreater(counters["nodes"], 0)

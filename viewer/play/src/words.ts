@@ -33,7 +33,8 @@ export function headline(play: Play): string {
 
 function contactLine(play: Play, { link, verdict, toi, separation, penetration, object }: Contact): [string, string, string] {
   const { body, scene } = play;
-  const depth = verdict === "starts_in_contact" ? `${millimetres(penetration)} deep` : `${millimetres(separation)} apart`;
+  const inside = penetration === null ? "how deep is not known" : `${millimetres(penetration)} deep`;
+  const depth = verdict === "starts_in_contact" ? inside : `${millimetres(separation)} apart`;
   return [body?.links[link].name ?? "", verdict === "contact" ? `t = ${toi.toFixed(4)}` : verdict.replaceAll("_", " "), `${scene?.objectNames[object] ?? ""}, ${depth}`];
 }
 

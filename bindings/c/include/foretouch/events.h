@@ -85,7 +85,7 @@ typedef struct ft_event {
   int64_t since_us;      /* when that began which ends here; else as the time */
   double since_fraction; /* likewise */
   double separation;     /* metres, then */
-  double penetration;    /* metres: how deep the axis lies, of one that starts inside */
+  double penetration;    /* metres: how deep the axis lies, of one that starts inside, or NaN */
   double normal[3];      /* unit, from b to a, W; zero if none is told */
   double velocity[3];    /* of a's material point less b's, m/s in W */
   double approach_speed; /* m/s along the normal, above zero while the two approach */

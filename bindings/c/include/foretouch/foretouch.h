@@ -468,7 +468,9 @@ enum {
 enum { FT_FEATURE_VERTEX = 0, FT_FEATURE_EDGE = 1, FT_FEATURE_FACE = 2 };
 
 /* What one link meets first. Sound: toi and free_until never exceed the true time of contact. In
- * arrays, the first element's size applies to all, and the library sets the others'. */
+ * arrays, the first element's size applies to all, and the library sets the others'. How deep
+ * triangles begin, which have no inside, is not known: penetration is NaN then, here and in
+ * ft_world_contact and ft_event. */
 typedef struct ft_contact {
   uint32_t size;
   int32_t link;
@@ -477,7 +479,7 @@ typedef struct ft_contact {
   double toi;            /* time of impact, [0, 1], rounded down; valid for contacts */
   double free_until;     /* toi for contacts, 1 for clear */
   double separation;     /* metres at toi */
-  double penetration;    /* metres, of FT_VERDICT_STARTS_IN_CONTACT */
+  double penetration;    /* metres, of FT_VERDICT_STARTS_IN_CONTACT; NaN: not known */
   double point_scene[3]; /* witness point on the triangle, W */
   double point_link[3];  /* witness point on the link's surface, W */
   double normal[3];      /* unit, from the scene to the link, W */

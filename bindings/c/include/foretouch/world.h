@@ -145,7 +145,7 @@ typedef struct ft_world_contact {
   int64_t time_us;      /* whole microseconds, rounded down, */
   double time_fraction; /* and a fraction of one more, in [0, 1) */
   double separation;    /* metres, then */
-  double penetration;   /* metres, of FT_VERDICT_STARTS_IN_CONTACT */
+  double penetration;   /* metres, of FT_VERDICT_STARTS_IN_CONTACT; NaN: not known */
   double normal[3];     /* unit, from b to a, W */
   ft_world_side a, b;   /* a: the lower body, or of one body the lower link; what is still is b */
 } ft_world_contact;

@@ -65,7 +65,7 @@ namespace Foretouch {
     public double sinceFraction;
     /// <summary>metres, then</summary>
     public double separation;
-    /// <summary>metres: how deep the axis lies, of one that starts inside</summary>
+    /// <summary>metres: how deep the axis lies, of one that starts inside, or NaN</summary>
     public double penetration;
     /// <summary>unit, from b to a, W; zero if none is told</summary>
     public FtVector normal;

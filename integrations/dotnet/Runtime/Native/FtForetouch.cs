@@ -396,7 +396,9 @@ namespace Foretouch {
     public const int Face = 2;
   }
   /// <summary>What one link meets first. Sound: toi and free_until never exceed the true time of contact.
-  /// In arrays, the first element's size applies to all, and the library sets the others'.</summary>
+  /// In arrays, the first element's size applies to all, and the library sets the others'. How deep
+  /// triangles begin, which have no inside, is not known: penetration is NaN then, here and in
+  /// ft_world_contact and ft_event.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtContact {
     public uint size;
@@ -410,7 +412,7 @@ namespace Foretouch {
     public double freeUntil;
     /// <summary>metres at toi</summary>
     public double separation;
-    /// <summary>metres, of FT_VERDICT_STARTS_IN_CONTACT</summary>
+    /// <summary>metres, of FT_VERDICT_STARTS_IN_CONTACT; NaN: not known</summary>
     public double penetration;
     /// <summary>witness point on the triangle, W</summary>
     public FtVector pointScene;

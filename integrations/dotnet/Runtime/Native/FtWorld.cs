@@ -95,7 +95,7 @@ namespace Foretouch {
     public double timeFraction;
     /// <summary>metres, then</summary>
     public double separation;
-    /// <summary>metres, of FT_VERDICT_STARTS_IN_CONTACT</summary>
+    /// <summary>metres, of FT_VERDICT_STARTS_IN_CONTACT; NaN: not known</summary>
     public double penetration;
     /// <summary>unit, from b to a, W</summary>
     public FtVector normal;
