@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 constexpr double kUpper = 0.28, kLower = 0.25;
 
 Quaternion fromRest(const Vector3d& direction) {
-  return turnBetween(-Vector3d::UnitX(), direction);
+  return foretouch::turnBetween(-Vector3d::UnitX(), direction);
 }
 
 std::size_t jointOf(const Avatar& figure, const char* name) {
