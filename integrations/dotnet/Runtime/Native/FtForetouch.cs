@@ -875,7 +875,8 @@ namespace Foretouch {
     [DllImport(Library)] public static extern int ft_scene_create(FtSceneArrays* arrays, out FtScene scene);
     [DllImport(Library)] public static extern int ft_import_options_init(FtImportOptions* options, ulong size);
     /// <summary>Reads OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X or IQM, in a caged child process: a
-    /// file that crashes the importer is an error here. `options` may be NULL.</summary>
+    /// file that crashes the importer is an error here. Or a scene that `foretouch scene bake` wrote: in
+    /// milliseconds, without that process. `options` may be NULL.</summary>
     [DllImport(Library)] public static extern int ft_scene_create_from_file(byte* path, FtImportOptions* options, out FtScene scene);
     /// <summary>Fills as much of `info` as info-&gt;size covers.</summary>
     [DllImport(Library)] public static extern int ft_scene_get_info(FtScene scene, FtSceneInfo* info);
