@@ -342,6 +342,7 @@ TEST(Quiet, MeansTheSameToEveryCommand) {
       {"avatar", "check", man},
       {"avatar", "pairs", FORETOUCH_EXAMPLE_FOLDER "/dancer.avatar.json"},
       {"scene", "check", wall},
+      {"scene", "bake", wall, "-o", out + "ftscene"},
       {"log", "info", log},
       {"log", "check", log},
       {"log", "recover", log, "-o", out + "lcmlog"},
