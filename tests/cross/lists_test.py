@@ -15,7 +15,7 @@ import sys
 PACKAGES = {"Eigen3": "libeigen3-dev", "Threads": None, "hwy": "libhwy-dev", "fmt": "libfmt-dev",
             "nlohmann_json": "nlohmann-json3-dev"}
 # What is not looked for there: found where it is, or needed by tests and by every program.
-OTHERS = {"libembree-dev", "libgtest-dev", "libgmp-dev", "libboost-dev"}
+OTHERS = {"libembree-dev", "libgtest-dev", "libgmp-dev", "libboost-dev", "libxxhash-dev"}
 OF_THE_COMPILER = re.compile(r"libc6-dev|libstdc\+\+-\d+-dev")
 
 

@@ -118,7 +118,7 @@ static class Answers {
     }
   }
 
-  static void Ask(FtWorld moving, int body, int door, long until) {
+  static unsafe void Ask(FtWorld moving, int body, int door, long until) {
     var question = FtQuestion.Usual;
     question.which = FtAsk.All;
     question.shape = new FtLss(new FtVector(-2, 1, 0.1), new FtVector(-2, 1, 0.1), 0.02);
