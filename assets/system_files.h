@@ -45,6 +45,21 @@ struct FileState {
 [[nodiscard]] bool closeFile(int descriptor);
 /// On the disk, not only on its way there.
 [[nodiscard]] bool syncFile(int descriptor);
+/// Closes it on every path. Whoever needs the result of closing, closes it himself.
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(int descriptor) : descriptor_(descriptor) {}
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+  ~FileDescriptor() {
+    if (descriptor_ >= 0) static_cast<void>(closeFile(descriptor_));
+  }
+  [[nodiscard]] int get() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
 void setPermissions(int descriptor, unsigned permissions);
 void removeFile(const std::string& path);
 /// The file takes the other name, and the place of what has it.

@@ -23,21 +23,6 @@ namespace {
 
 constexpr std::size_t kChunkBytes = 1u << 20;
 
-/// Closes on every path; PendingFile needs the result of close(), so it has its own.
-class Descriptor {
- public:
-  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (descriptor_ >= 0) static_cast<void>(internal::closeFile(descriptor_));
-  }
-  [[nodiscard]] int get() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
 /// Reads to the end or past `limitBytes`: files in /proc state a size of zero, and others may grow
 /// meanwhile.
 Result<std::string> readAll(int descriptor, const std::string& path, std::size_t sizeHint,
@@ -98,7 +83,7 @@ std::shared_ptr<const char> internal::copyOf(int descriptor, std::size_t bytes) 
 }
 
 Result<std::string> readWholeFile(const std::string& path, std::size_t limitBytes) {
-  const Descriptor file(internal::openToRead(path));
+  const internal::FileDescriptor file(internal::openToRead(path));
   if (file.get() < 0 && internal::stateOf(path).kind == FileKind::Folder) {
     return Error::in(path, ErrorCode::FileUnreadable, "is not a regular file");
   }

@@ -12,6 +12,7 @@
 #include "lss/assert.h"
 #include "lss/fit.h"
 #include "lss/hull_volume.h"
+#include "lss/vertex_order.h"
 
 namespace foretouch {
 namespace {
@@ -23,10 +24,6 @@ constexpr double kWorthwhileSaving = 0.15;
 
 /// Where to cut a part, in order of its triangles' middles along an axis.
 constexpr double kCuts[] = {0.25, 0.5, 0.75};
-
-bool lessByCoordinates(const Vector3d& p, const Vector3d& q) {
-  return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
-}
 
 /// Triangles as indices into their distinct vertices: each vertex of a mesh occurs about six times.
 struct Indexed {
@@ -40,13 +37,13 @@ Indexed indexed(const std::vector<Triangle>& triangles) {
     FORETOUCH_ASSERT(isFinite(triangle));
     mesh.points.insert(mesh.points.end(), triangle.vertices.begin(), triangle.vertices.end());
   }
-  std::sort(mesh.points.begin(), mesh.points.end(), lessByCoordinates);
+  std::sort(mesh.points.begin(), mesh.points.end(), isBeforeByCoordinates<Vector3d>);
   mesh.points.erase(std::unique(mesh.points.begin(), mesh.points.end()), mesh.points.end());
   for (const Triangle& triangle : triangles) {
     auto& corners = mesh.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       const auto found = std::lower_bound(mesh.points.begin(), mesh.points.end(),
-                                          triangle.vertices[k], lessByCoordinates);
+                                          triangle.vertices[k], isBeforeByCoordinates<Vector3d>);
       corners[k] = static_cast<std::uint32_t>(found - mesh.points.begin());
     }
   }

@@ -77,20 +77,6 @@ struct Places {
   }
 };
 
-class Descriptor {
- public:
-  explicit Descriptor(const std::string& path) : descriptor_(openToRead(path)) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (descriptor_ >= 0) static_cast<void>(closeFile(descriptor_));
-  }
-  [[nodiscard]] int get() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
 Error damaged(const std::string& path, const std::string& why) {
   return Error::in(path, ErrorCode::Syntax,
                    "expected a baked scene: " + why + "; bake it anew (foretouch scene bake)");
@@ -102,7 +88,7 @@ struct FileMark {
 
 /// Nothing if it cannot be read.
 std::optional<FileMark> markOf(const std::string& path) {
-  const Descriptor file(path);
+  const FileDescriptor file(openToRead(path));
   const FileState state = stateOf(file.get());
   if (file.get() < 0 || state.kind != FileKind::Regular) return std::nullopt;
   const auto content = contentOf(file.get(), state.bytes);
@@ -145,7 +131,7 @@ std::optional<std::vector<std::string>> textsIn(std::string_view bytes, std::uin
 }
 
 Result<Baked> opened(const std::string& path) {
-  const Descriptor file(path);
+  const FileDescriptor file(openToRead(path));
   const FileState state = stateOf(file.get());
   Baked baked;
   if (file.get() < 0 || state.bytes < sizeof(Header)) return damaged(path, "it is too short");
@@ -361,7 +347,7 @@ Header headerOf(const ImportedScene& imported, const SceneParts& parts) {
 }  // namespace
 
 bool isBaked(const std::string& path) {
-  const Descriptor file(path);
+  const FileDescriptor file(openToRead(path));
   std::array<char, 8> found{};
   return file.get() >= 0 && stateOf(file.get()).kind == FileKind::Regular &&
          readSome(file.get(), found.data(), found.size()) == 8 && found == kMagic;

@@ -11,6 +11,7 @@
 #include "bench/extremes/float_mode.h"
 #include "bench/judged.h"
 #include "lss/simd.h"
+#include "lss/vertex_order.h"
 #include "tests/reference/reference_query.h"
 
 namespace foretouch::tools::extremes {
@@ -50,10 +51,6 @@ Result<Prepared> prepare(const ExtremeCase& extreme) {
   return prepared;
 }
 
-bool isBefore(const Vector3d& p, const Vector3d& q) {
-  return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
-}
-
 /// Each triangle once, whatever the order of its corners.
 std::vector<oracle::Triangle> distinctOf(const std::vector<Triangle>& triangles) {
   std::vector<oracle::Triangle> distinct;
@@ -61,7 +58,7 @@ std::vector<oracle::Triangle> distinctOf(const std::vector<Triangle>& triangles)
   for (const Triangle& triangle : triangles) {
     if (!isFinite(triangle)) continue;
     Triangle sorted = triangle;
-    std::sort(sorted.vertices.begin(), sorted.vertices.end(), isBefore);
+    std::sort(sorted.vertices.begin(), sorted.vertices.end(), isBeforeByCoordinates<Vector3d>);
     std::array<double, 9> numbers;
     for (std::size_t i = 0; i < 9; ++i) {
       numbers[i] = sorted.vertices[i / 3][static_cast<Eigen::Index>(i % 3)];

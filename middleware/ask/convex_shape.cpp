@@ -57,7 +57,6 @@ class ConvexSearch {
     result.numOne = 3;
     result.nhat = nhat_;
     result.clearance.fill(best_);
-    result.upper = apart_.upper;
     if (isEnclosed_) {
       result.upper = result.distance = 0.0;
       result.difference = Vector3d::Zero();

@@ -28,10 +28,11 @@ void forEachAsked(const FlatBvh& bvh, const NearLeaf& near, const Visit& visit) 
 void LinkLeaves::setLanes(const Scene& scene, const std::vector<Aabb>& boxes) {
   const Eigen::Vector3d& origin = scene.parts().origin;
   lanes_.resize(static_cast<std::int32_t>(boxes.size()));
-  for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t link = 0; link < boxes.size(); ++link) {
-      lanes_.lower[axis][link] = floatBelow(boxes[link].min[axis] - origin[axis]);
-      lanes_.upper[axis][link] = floatAbove(boxes[link].max[axis] - origin[axis]);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const LocalBox box = localBox(boxes[i], origin);
+    for (int axis = 0; axis < 3; ++axis) {
+      lanes_.lower[axis][i] = box.lower[axis];
+      lanes_.upper[axis][i] = box.upper[axis];
     }
   }
 }

@@ -121,8 +121,7 @@ void StepSweep::openNearScene() {
 }
 
 bool StepSweep::collectNear(LinkId link) {
-  if (!areLssSurface()) return true;
-  if (isCrowded(link)) return true;
+  if (!areLssSurface() || isCrowded(link)) return true;
   clearTubes();
   if (base(0).count() == 1) setTubes(0, link);
   NearLeaves& leaves = memory_.ofStep[slotOf(link)];
@@ -154,15 +153,13 @@ void StepSweep::walkPieces(LinkId link) {
 
 const NearLeaves& StepSweep::leavesIn(int k, LinkId link) {
   NearLeaves& leaves = memory_.leaves[slotOf(k)];
-  if (memory_.areLeavesKnown[slotOf(k)] == 0 && isCrowded(link)) {
-    setTubes(k, link);
+  if (std::exchange(memory_.areLeavesKnown[slotOf(k)], std::uint8_t{1}) != 0) return leaves;
+  setTubes(k, link);
+  if (isCrowded(link)) {
     memory_.ofPieces.collect(*plan_.scene, slotOf(k), memory_.ignored, memory_.tubes,
                              memory_.tubes.size(), leaves);
-    memory_.areLeavesKnown[slotOf(k)] = 1;
-  } else if (memory_.areLeavesKnown[slotOf(k)] == 0) {
-    setTubes(k, link);
+  } else {
     LinkLeaves::narrow(*plan_.scene, memory_.tubes, memory_.ofStep[slotOf(link)], leaves);
-    memory_.areLeavesKnown[slotOf(k)] = 1;
   }
   return leaves;
 }

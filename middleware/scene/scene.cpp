@@ -9,6 +9,7 @@
 #include "articulated/try.h"
 #include "lss/assert.h"
 #include "lss/index.h"
+#include "lss/vertex_order.h"
 #include "middleware/scene/scene_parts.h"
 #include "middleware/scene/sort_by_hash.h"
 
@@ -16,10 +17,6 @@ namespace foretouch {
 namespace {
 
 using Eigen::Vector3d;
-
-bool lexicographicallyLess(const Vector3d& p, const Vector3d& q) {
-  return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
-}
 
 Result<Done> checked(const RawScene& raw) {
   if (raw.triangles.size() > kMaxTriangles) {
@@ -79,7 +76,7 @@ std::vector<TriangleId> inOrderOfGeometry(const std::vector<Triangle>& triangles
     const auto &v = triangles[slotOf(x.second)].vertices, &w = triangles[slotOf(y.second)].vertices;
     if (v != w) {
       return std::lexicographical_compare(v.begin(), v.end(), w.begin(), w.end(),
-                                          lexicographicallyLess);
+                                          isBeforeByCoordinates<Vector3d>);
     }
     return x.second < y.second;
   });
@@ -103,7 +100,7 @@ Result<Scene> Scene::build(RawScene raw) {
   for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
     Triangle& triangle = raw.triangles[i];
     if (!isFinite(triangle)) continue;
-    std::sort(triangle.vertices.begin(), triangle.vertices.end(), lexicographicallyLess);
+    std::sort(triangle.vertices.begin(), triangle.vertices.end(), isBeforeByCoordinates<Vector3d>);
     finiteIds.push_back(static_cast<TriangleId>(i));
   }
   FORETOUCH_TRY(parts->bvh,

@@ -8,6 +8,7 @@
 #include "articulated/skeleton.h"
 #include "articulated/try.h"
 #include "lss/index.h"
+#include "lss/vertex_order.h"
 #include "middleware/scene/bvh_tree.h"
 
 namespace foretouch::internal {
@@ -189,14 +190,12 @@ Aabb boxOfLeaf(const SceneParts& parts, std::uint32_t index) {
 
 /// The box of all finite triangles, each of which has its vertices in order.
 Result<Aabb> boxOfOrdered(const SceneParts& parts) {
-  const auto isBefore = [](const Vector3d& p, const Vector3d& q) {
-    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
-  };
   Aabb whole;
   for (const TriangleId id : parts.finiteIds()) {
     const Triangle& triangle = parts.triangles[slotOf(id)];
     whole.add(boxOf(triangle));
-    if (!std::is_sorted(triangle.vertices.begin(), triangle.vertices.end(), isBefore)) {
+    if (!std::is_sorted(triangle.vertices.begin(), triangle.vertices.end(),
+                        isBeforeByCoordinates<Vector3d>)) {
       return noScene("triangle " + std::to_string(id) + " has its vertices out of order");
     }
   }

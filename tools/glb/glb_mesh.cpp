@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "lss/vertex_order.h"
+
 namespace foretouch::tools {
 namespace {
 
@@ -75,10 +77,6 @@ std::vector<Ring> capsuleRings(double length, double radius) {
   return rings;
 }
 
-bool isBefore(const Vector3f& p, const Vector3f& q) {
-  return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
-}
-
 }  // namespace
 
 GlbMesh meshOf(const std::vector<Triangle>& triangles, const Vector3d& origin) {
@@ -91,8 +89,9 @@ GlbMesh meshOf(const std::vector<Triangle>& triangles, const Vector3d& origin) {
   }
   std::vector<std::uint32_t> order(corners.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t i, std::uint32_t j) { return isBefore(corners[i], corners[j]); });
+  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    return isBeforeByCoordinates<Vector3f>(corners[i], corners[j]);
+  });
   GlbMesh mesh;
   mesh.indices.resize(corners.size());
   for (const std::uint32_t corner : order) {
