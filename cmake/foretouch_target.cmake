@@ -70,7 +70,8 @@ endfunction()
 set(foretouch_kernel foretouch_lss foretouch_articulated foretouch_tessellation foretouch_middleware
   foretouch_reference)
 set(foretouch_readers foretouch_assets foretouch_gltf foretouch-import foretouch_network foretouch_codecs
-  foretouch_tools foretouch foretouch_verification foretouch-verify)
+  foretouch_addresses foretouch_player foretouch_tools foretouch-demo foretouch foretouch_verification
+  foretouch-verify)
 if(FORETOUCH_HARDENED AND FORETOUCH_SANITIZE)
   message(FATAL_ERROR "FORETOUCH_HARDENED and FORETOUCH_SANITIZE exclude one another")
 endif()

@@ -2,20 +2,16 @@
 
 #include <algorithm>
 #include <arpa/inet.h>
-#include <charconv>
 #include <ifaddrs.h>
 #include <memory>
 #include <netinet/in.h>
-#include <string_view>
 #include <utility>
 
-#include "articulated/quoted.h"
 #include "network/wire/udpm_socket.h"
 
 namespace foretouch {
 namespace {
 
-constexpr int kAddressBits = 32;
 constexpr Network kLoopback{0x7f000000, 8};  // 127.0.0.0/8
 constexpr Network kLinkLocalGroups{0xe0000000,
                                    24};  // 224.0.0.0/24: Linux takes 0.0.0.0 from outside
@@ -24,40 +20,11 @@ constexpr std::chrono::seconds kReadEvery{1};
 /// An address that was ours may be another machine's by now.
 constexpr std::chrono::seconds kReadAnywayEvery{10};
 
-std::uint32_t maskOf(int bits) {
-  return bits == 0 ? 0 : ~std::uint32_t{0} << (kAddressBits - bits);
-}
-
 bool contains(const Network& network, std::uint32_t address) {
-  return ((address ^ network.address) & maskOf(network.bits)) == 0;
+  return ((address ^ network.address) & network.mask()) == 0;
 }
 
 }  // namespace
-
-Result<Network> parseNetwork(const std::string& text) {
-  const auto refused = [&] {
-    return Error::of(
-        ErrorCode::OutOfRange,
-        "expected an IPv4 network as 10.0.0.0/24, or one address, found " + inQuotes(text));
-  };
-  const std::size_t slash = text.find('/');
-  in_addr address{};
-  if (::inet_pton(AF_INET, text.substr(0, slash).c_str(), &address) != 1) return refused();
-  Network network{ntohl(address.s_addr), kAddressBits};
-  if (slash != std::string::npos) {
-    const std::string_view bits = std::string_view(text).substr(slash + 1);
-    const auto [end, fault] = std::from_chars(bits.data(), bits.data() + bits.size(), network.bits);
-    if (fault != std::errc() || end != bits.data() + bits.size()) return refused();
-    if (network.bits < 0 || network.bits > kAddressBits) return refused();
-  }
-  // 10.0.0.7/24 is a slip: of the address, or of the number of bits.
-  if ((network.address & ~maskOf(network.bits)) != 0) {
-    return Error::of(ErrorCode::OutOfRange, "expected a network whose bits after the first " +
-                                                std::to_string(network.bits) + " are 0, found " +
-                                                inQuotes(text));
-  }
-  return network;
-}
 
 SenderFilter::SenderFilter(const UdpmUrl& url, std::vector<Network> networks)
     : takesAll_(url.ttl > 0 && networks.empty()),

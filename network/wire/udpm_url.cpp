@@ -93,4 +93,29 @@ Result<UdpmUrl> parseUdpmUrl(const std::string& url) {
   return parsed;
 }
 
+Result<Network> parseNetwork(const std::string& text) {
+  const auto refused = [&] {
+    return Error::of(
+        ErrorCode::OutOfRange,
+        "expected an IPv4 network as 10.0.0.0/24, or one address, found " + inQuotes(text));
+  };
+  const std::size_t slash = text.find('/');
+  in_addr address{};
+  if (::inet_pton(AF_INET, text.substr(0, slash).c_str(), &address) != 1) return refused();
+  Network network{ntohl(address.s_addr), Network::kAddressBits};
+  if (slash != std::string::npos) {
+    const std::string_view bits = std::string_view(text).substr(slash + 1);
+    const auto [end, fault] = std::from_chars(bits.data(), bits.data() + bits.size(), network.bits);
+    if (fault != std::errc() || end != bits.data() + bits.size()) return refused();
+    if (network.bits < 0 || network.bits > Network::kAddressBits) return refused();
+  }
+  // 10.0.0.7/24 is a slip: of the address, or of the number of bits.
+  if ((network.address & ~network.mask()) != 0) {
+    return Error::of(ErrorCode::OutOfRange, "expected a network whose bits after the first " +
+                                                std::to_string(network.bits) + " are 0, found " +
+                                                inQuotes(text));
+  }
+  return network;
+}
+
 }  // namespace foretouch

@@ -48,8 +48,13 @@ inline constexpr char kDefaultUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 
 /// An IPv4 network: its first address in host byte order, and how many leading bits name it.
 struct Network {
+  static constexpr int kAddressBits = 32;
   std::uint32_t address = 0;
   int bits = 0;
+
+  [[nodiscard]] std::uint32_t mask() const {
+    return bits == 0 ? 0 : ~std::uint32_t{0} << (kAddressBits - bits);
+  }
 };
 /// "10.0.0.0/24", or one address. Errors: anything else, or bits set after the leading ones.
 [[nodiscard]] Result<Network> parseNetwork(const std::string& text);

@@ -11,7 +11,7 @@
 #include "assets/text_file.h"
 #include "tools/audit/audits.h"
 #include "tools/commands/open_page.h"
-#include "tools/commands/replay_command.h"
+#include "tools/commands/play_clip.h"
 #include "tools/commands/solid_replay.h"
 #include "tools/inputs/example_folder.h"
 #include "tools/results_output.h"

@@ -13,7 +13,7 @@
 #include "articulated/avatar.h"
 #include "tools/person/bracket_joiner.h"
 #include "tools/reported_contact.h"
-#include "tools/setup/placement_check.h"
+#include "tools/setup/check_list.h"
 #include "tools/touches/touch.h"
 #include "tools/touches/touch_strength.h"
 

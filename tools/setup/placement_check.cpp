@@ -214,15 +214,6 @@ bool isSamePlace(const Placement& a, const Placement& b) {
 
 }  // namespace
 
-const char* toString(CheckState state) {
-  switch (state) {
-    case CheckState::Good: return "good";
-    case CheckState::Doubt: return "doubt";
-    case CheckState::Bad: return "bad";
-  }
-  return "?";
-}
-
 bool areUsable(const std::vector<PlacementCheck>& checks) {
   return std::none_of(checks.begin(), checks.end(),
                       [](const PlacementCheck& check) { return check.state == CheckState::Bad; });
@@ -253,31 +244,6 @@ std::vector<PlacementCheck> checksOf(const Walker& walker, const Standing& stand
   if (first != checks.end() && first->tryThis.empty())
     first->tryThis = "--place " + textOf(better->place);
   return checks;
-}
-
-std::string describe(const std::vector<PlacementCheck>& checks) {
-  std::string text;
-  for (const PlacementCheck& check : checks) {
-    const char* const mark = check.state == CheckState::Good    ? "ok"
-                             : check.state == CheckState::Doubt ? "?"
-                                                                : "WRONG";
-    text += fmt::format("  {:<6}{:<14}{}\n", mark, check.name, check.text);
-    if (!check.tryThis.empty()) text += fmt::format("  {:<20}try {}\n", "", check.tryThis);
-  }
-  return text;
-}
-
-void writeChecks(const std::vector<PlacementCheck>& checks, JsonWriter& out) {
-  out.beginArray();
-  for (const PlacementCheck& check : checks) {
-    out.beginObject();
-    out.field("name", check.name);
-    out.field("state", toString(check.state));
-    out.field("text", check.text);
-    if (!check.tryThis.empty()) out.field("try", check.tryThis);
-    out.endObject();
-  }
-  out.endArray();
 }
 
 }  // namespace foretouch::tools
