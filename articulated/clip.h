@@ -26,7 +26,7 @@ struct Clip {
   /// frame count, ...). At most kMaxClipNotes; if there were more, the last one says how many.
   std::vector<std::string> notes;
 
-  /// Of a table of joint positions: every so many frames there is one of its rows. Those between
+  /// For a table of joint positions: a row of the table every so many frames. The frames between
   /// lie on the straight line in joint coordinates, so that the shorter arc from each frame to the
   /// next is the way that the numbers say. 1: every frame is one of the file's.
   std::int64_t framesPerRow = 1;

@@ -33,7 +33,7 @@ struct LinkState {
   [[nodiscard]] Eigen::Vector3d velocityAt(const Eigen::Vector3d& p_L) const {
     return v_WL + w_WL.cross(R_WL * p_L);
   }
-  /// Of the link's point that is at `p_W` in W.
+  /// Velocity of the link's point that is at `p_W` in W.
   [[nodiscard]] Eigen::Vector3d velocityOf(const Eigen::Vector3d& p_W) const {
     return v_WL + w_WL.cross(p_W - p_WL);
   }
@@ -47,9 +47,9 @@ struct LinkState {
 struct MotionBounds {
   double angularSpeed = 0.0;
   double angularAcceleration = 0.0;
-  double speed = 0.0;         ///< Of the link's origin.
-  double acceleration = 0.0;  ///< Of the link's origin.
-  double reach = 0.0;         ///< Of the link's origin from the world's.
+  double speed = 0.0;         ///< The link's origin.
+  double acceleration = 0.0;  ///< The link's origin.
+  double reach = 0.0;         ///< From the world's origin to the link's.
   /// On |d^8/dt^8| of the link's origin: bounds the error of interpolation through eight instants
   /// (tessellation/lss_polynomials.md).
   double eighthDerivative = 0.0;
@@ -87,8 +87,8 @@ struct MotionBounds {
 struct ChainSums {
   double angularSpeed = 0.0, angularAcceleration = 0.0, speed = 0.0, acceleration = 0.0;
   double eighthDerivative = 0.0;
-  double armReach = 0.0;   ///< Of the link's origin from its root's (m).
-  double rootReach = 0.0;  ///< Of the root's origin from the world's (m).
+  double armReach = 0.0;   ///< From its root's origin to the link's (m).
+  double rootReach = 0.0;  ///< From the world's origin to the root's (m).
   double depth = 0.0;      ///< Joints of the chain, the root and the link's own included.
 
   /// Rounded up, with the bounds on rounding that follow from them (motion_bounds.md 3). O(1).
@@ -154,7 +154,7 @@ class ChainMotion {
   /// The largest angularSpeed, eighthDerivative, armReach and depth of all links' sums, each by
   /// itself; the other fields mean nothing.
   [[nodiscard]] const ChainSums& largestSums() const { return largest_; }
-  /// Of the joint that the link moves with.
+  /// The arc of the joint that moves the link.
   [[nodiscard]] JointArc arc(LinkId link) const;
   [[nodiscard]] JointId parent(LinkId link) const { return parents_[slotOf(link)]; }
   /// Bounds on the link's joint in its parent's frame over t in [0,1]: its turn (rad), the length
@@ -163,7 +163,7 @@ class ChainMotion {
     double turn, length, driftLength;
   };
   [[nodiscard]] JointBounds jointBounds(LinkId link) const;
-  /// Of all joints' arcs; 0 if there are none.
+  /// The largest of all joints' arcs; 0 without joints.
   [[nodiscard]] double largestVersine() const { return largestVersine_; }
 
  private:
@@ -191,7 +191,7 @@ class MotionEvaluator {
   /// `t` in [0,1]. O(depth of the link).
   [[nodiscard]] LinkState stateAt(LinkId link, double t);
   /// The link's state in the frame of a link above it, as ChainMotion::sumsIn() bounds it:
-  /// rotation, place and velocities that somebody who rides on `frame` sees. O(depth below the
+  /// rotation, place and velocities as an observer on `frame` sees them. O(depth below the
   /// frame).
   [[nodiscard]] LinkState stateIn(LinkId frame, LinkId link, double t);
   /// All links at once, in order; `states` is resized. O(joints).
@@ -215,7 +215,7 @@ class MotionEvaluator {
 };
 
 inline MotionBounds ChainSums::bounds() const {
-  // Of one joint's rotation, its rate, and one product, in units of the roundoff (motion_bounds.md
+  // For one joint's rotation, its rate, and one product, in units of the roundoff (motion_bounds.md
   // 3).
   constexpr double kJointRotation = 128.0 * kUnitRoundoff, kJointRate = 64.0 * kUnitRoundoff,
                    kProduct = 16.0 * kUnitRoundoff, kSum = 2.0 * kUnitRoundoff,

@@ -20,7 +20,7 @@ enum class PairReason : std::uint8_t {
   Adjacent = 1,     ///< One moves the other: between the two is no other link with LSS.
   RestOverlap = 2,  ///< Their LSS overlap at rest, and in a usual pose if any are known.
   Always = 3,       ///< They touch in nearly all usual poses.
-  User = 4,         ///< Somebody wanted it so.
+  User = 4,         ///< The user left the pair out.
 };
 inline constexpr std::uint8_t kNumPairReasons = 5;
 
@@ -62,13 +62,13 @@ struct PairRuleOptions {
   double restSkin = 2e-3;  ///< Metres, > 0.
   /// Poses that the avatar usually takes, for PairReason::Always. Validated for its skeleton.
   const std::vector<Pose>* usualPoses = nullptr;
-  double alwaysShare = 0.95;      ///< Of the usual poses, in (0,1].
+  double alwaysShare = 0.95;      ///< Share of the usual poses, in (0,1].
   std::vector<LinkPair> leftOut;  ///< By the user, in either order.
   /// False: rest is no pose that the avatar takes, so overlapping there is no reason.
   bool isRestTaken = true;
 };
 
-/// Of a robot, whose usual poses are configurations drawn within its limits.
+/// For a robot: its usual poses are configurations drawn within its limits.
 struct RobotPairOptions {
   std::int32_t samples = 10000;  ///< At least 1. Each costs all pairs of LSS.
   std::uint64_t seed = 1;        ///< The same configurations on every machine.

@@ -29,7 +29,7 @@ enum class RobotJointKind : std::uint8_t {
 /// How a joint moves against its parent, as an author or a file gives it.
 struct RobotJoint {
   RobotJointKind kind = RobotJointKind::Fixed;
-  std::string name;  ///< Of the coordinate; empty: the name of the skeleton's joint.
+  std::string name;  ///< The coordinate's; empty: the name of the skeleton's joint.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< In the joint's frame; any length but 0.
   double lower = -kUnlimited, upper = kUnlimited;   ///< Of Revolute and Prismatic.
   /// The joint follows another one: its own coordinate is factor * (the other's) + offset.
@@ -41,7 +41,7 @@ struct RobotJoint {
 
 /// One number of a configuration.
 struct RobotCoordinate {
-  std::string name;  ///< Of a planar joint: NAME/x, NAME/y, NAME/angle.
+  std::string name;  ///< For a planar joint: NAME/x, NAME/y, NAME/angle.
   JointId joint = 0;
   double lower = -RobotJoint::kUnlimited, upper = RobotJoint::kUnlimited;
   bool isAngle = true;      ///< Radians; else metres.
@@ -118,7 +118,7 @@ class Robot {
   /// any.
   [[nodiscard]] Result<std::vector<Pose>> sampledPoses(std::int32_t count,
                                                        std::uint64_t seed) const;
-  /// Of a joint that moves by one number: its own, or what it gets from the one that it follows.
+  /// The number that a joint moves by: its own, or what it gets from the joint that it follows.
   [[nodiscard]] double valueOf(JointId joint, const double* q) const;
 
   /// No point of a link's LSS is farther from where exact arithmetic puts it (m), in poseAt() and
@@ -141,7 +141,7 @@ class Robot {
   Avatar avatar_;
   std::vector<RobotJoint> joints_;  // axes are unit
   std::vector<RobotCoordinate> coordinates_;
-  std::vector<std::int32_t> firstCoordinate_;  // per joint: its own or that of whom it follows
+  std::vector<std::int32_t> firstCoordinate_;  // per joint: its own, or of the one it follows
   double poseRounding_ = 0.0, reach_ = 0.0;
 };
 

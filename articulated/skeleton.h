@@ -72,7 +72,7 @@ class Skeleton {
   [[nodiscard]] std::int32_t numJoints() const { return static_cast<std::int32_t>(joints_.size()); }
   [[nodiscard]] const std::string& name(JointId joint) const { return at(joint).name; }
   [[nodiscard]] JointId parent(JointId joint) const { return at(joint).parent; }
-  /// Of all joints, in order: contiguous, because every step reads them.
+  /// All joints' parents, in order: contiguous, because every step reads them.
   [[nodiscard]] const std::vector<JointId>& parents() const { return parents_; }
   [[nodiscard]] const Eigen::Vector3d& restOffset(JointId joint) const { return at(joint).offset; }
   [[nodiscard]] const Quaternion& restRotation(JointId joint) const { return at(joint).rotation; }

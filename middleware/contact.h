@@ -66,7 +66,7 @@ struct LinkContact {
   std::int32_t lss = -1;  ///< Index among the link's LSS; 0 above link fidelity.
   Eigen::Vector3d p_WScene = Eigen::Vector3d::Zero();  ///< Witness point on the triangle.
   Eigen::Vector3d p_WLink = Eigen::Vector3d::Zero();   ///< Witness point on the LSS's surface.
-  /// Unit normal from the scene to the link; zero if they meet so that none is told (a point on a
+  /// Unit normal from the scene to the link; zero if they meet so that there is none (a point on a
   /// point, without radii).
   Eigen::Vector3d nhat_SL_W = Eigen::Vector3d::Zero();
   /// At exact fidelity: the link's triangle, and the features of it and of the scene's triangle
@@ -96,7 +96,7 @@ struct StepContacts {
   /// False: `pairs` is empty and claims nothing.
   bool arePairsAnswered = false;
   /// As long as a link, or a pair, is free, it stays at least so far from what it is asked about
-  /// (m). Less than a share of the tolerance only where somebody begins nearer and leaves.
+  /// (m). Less than a share of the tolerance only where a link begins nearer and leaves.
   double provenClearance = 0.0;
   QueryCounters counters;
 };

@@ -75,10 +75,10 @@ struct LinkPolicy {
 struct QueryOptions {
   double tolerance = kDefaultTolerance;  ///< eps in metres; kMinTolerance to kMaxTolerance.
   Fidelity fidelity = Fidelity::Link;
-  /// Of the same avatar. Fidelity::Exact needs it, for all links or for one. Where nobody needs it,
+  /// The same avatar's. Fidelity::Exact needs it, for all links or for one. Where no link needs it,
   /// it is not looked at; nor is the skin.
   std::optional<AvatarSurface> surface;
-  std::optional<SkinnedSurface> skin;  ///< Of the same avatar. Fidelity::Skinned needs it.
+  std::optional<SkinnedSurface> skin;  ///< The same avatar's. Fidelity::Skinned needs it.
   Scope scope = Scope::EveryLink;
   /// A link that begins within the tolerance of the scene without touching it, and whose witness
   /// point does not approach the scene's, is not stopped there: its first contact is the next one

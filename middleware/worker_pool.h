@@ -29,7 +29,7 @@ class WorkerPool {
   /// For the questions' own sources: calls `part` once on every thread, with numbers from 0, which
   /// is the calling one's; returns when the last one is done. `part` throws nothing.
   void run(const std::function<void(std::size_t)>& part);
-  /// Of the thread with this number.
+  /// The memory of the thread with this number.
   [[nodiscard]] Scratch& scratch(std::size_t thread = 0);
 
  private:

@@ -45,7 +45,7 @@ inline constexpr std::size_t kMaxPairsFileBytes = 64u << 20;
                                            const Avatar& avatar);
 
 /// The text of a file: parsePairs() of it gives the same rules, bit for bit, but for pairs of links
-/// without LSS, which nobody asks and the text leaves out. Precondition: rules of this avatar.
+/// without LSS, which is never asked and the text leaves out. Precondition: rules of this avatar.
 [[nodiscard]] std::string formatPairs(const PairRules& rules, const Avatar& avatar);
 
 /// Writes a temporary file and renames it into place: never half a file.

@@ -27,10 +27,10 @@ struct BoundEntry {
   std::string link;                  ///< By name; or
   std::string part;                  ///< head, trunk, arm, hand, leg, foot, or all.
   std::optional<MotionModel> model;  ///< That it is about; nothing: any.
-  double rateHz = 0.0;               ///< Of the poses that it is about, within a tenth; 0: any.
+  double rateHz = 0.0;               ///< Rate of the poses it is about, within a tenth; 0: any.
   LinkBound bound;
-  double quantile = 1.0;   ///< Of the observations that it holds at.
-  std::int64_t count = 0;  ///< Of the observations behind it; 0: it was declared.
+  double quantile = 1.0;   ///< Share of the observations that it holds at.
+  std::int64_t count = 0;  ///< Observations behind it; 0: it was declared.
 };
 
 struct BoundsFile {

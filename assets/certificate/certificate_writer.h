@@ -61,7 +61,7 @@ class CertificateWriter {
   struct Plane;
   using Triangles = std::vector<TriangleId>;
 
-  /// Of a link in the frame of one that carries it; kNoParent: the world.
+  /// A link in the frame of one that carries it; kNoParent: the world.
   [[nodiscard]] Bound boundOf(LinkId carrier, LinkId link, const Lss& lss) const;
   [[nodiscard]] std::optional<std::string> link(LinkId link);
   bool spans(LinkId link, const Bound& bound, int level, std::int64_t index, const Triangles& near,

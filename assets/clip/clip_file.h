@@ -28,7 +28,7 @@ struct ClipFileOptions {
   /// scale and up in place of what the file says; placed() turns BVH clips, and robots stand on z.
   /// Limits and importer are those of models.
   SceneImportOptions import;
-  std::string animation;                  ///< Of a model; empty: its first.
+  std::string animation;                  ///< The one of a model to take; empty: its first.
   double rateHz = 30.0;                   ///< Sampling rate of a model's animation.
   std::string robot;                      ///< The URDF whose joints a table is about.
   std::vector<std::string> packagePaths;  ///< Folders of that URDF's packages.

@@ -31,7 +31,7 @@ namespace foretouch {
 struct SceneImportOptions {
   /// Metres per unit of the file, in place of what the file says. Finite, > 0.
   std::optional<double> scale;
-  std::optional<UpAxis> up;  ///< Of the file, in place of what the file says.
+  std::optional<UpAxis> up;  ///< Of the file, in place of what it says.
   /// Address space of the child. At most half of the machine's memory is used, or of what a control
   /// group (a container) allows this process; and for a small file no more than 1 GB: 990 MB, and
   /// 256 bytes for each byte that is read.

@@ -22,11 +22,11 @@ enum class UrdfSurface : std::uint8_t { Collision, Visual };
 struct ModelImportOptions {
   SceneImportOptions import;  ///< scale, up, limits and the importer's place, as for scenes.
   UrdfSurface urdfSurface = UrdfSurface::Collision;
-  /// Of a robot: refuses by name what an avatar can do without, with a note, and a robot that moves
+  /// A robot: refuses by name what an avatar can do without, with a note, and a robot that moves
   /// by joint coordinates cannot: missing or unreadable meshes, limits the wrong way round, equal
   /// or absent, a floating joint, a mimic of a joint that is not there. Of MJCF: docs/robots.md.
   bool isRobot = false;
-  bool needsMeshes = false;  ///< Of a URDF: refuses missing and unreadable meshes, as isRobot does.
+  bool needsMeshes = false;  ///< A URDF: refuses missing and unreadable meshes, as isRobot does.
   /// Folders to search for package://NAME/..., as FOLDER/NAME/... and FOLDER/...; after them the
   /// URDF's own folder and its parents. Of MJCF: folders that its files may lie in, besides its
   /// own.

@@ -24,7 +24,7 @@ namespace foretouch {
 [[nodiscard]] Result<ImportedScene> importScene(const std::string& path,
                                                 const SceneImportOptions& options = {});
 
-/// Of a model's file, or of one that bakeScene() wrote: that takes milliseconds and no importer,
+/// From a model's file, or one that bakeScene() wrote: that takes milliseconds and no importer,
 /// gives the same answers bit for bit, and where only this user may write the file, all processes
 /// that read it share its pages. Errors: as importScene() and Scene::build(); a baked file that is
 /// damaged, of another version, read with other options, or older than the model beside it.

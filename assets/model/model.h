@@ -42,7 +42,7 @@ struct ModelNode {
   ModelJointType joint = ModelJointType::Free;
   std::string jointName;    ///< URDF and MJCF name joints apart from links; else empty.
   bool isOnlooker = false;  ///< A camera or a light: what it does is no motion of a body.
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Of the joint, in the node's frame, unit.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< The joint's, in the node's frame, unit.
   double lowerLimit = 0.0, upperLimit = 0.0;        ///< Radians or metres; equal: none stated.
 };
 
@@ -88,7 +88,7 @@ struct ModelTrack {
   std::vector<VectorKey> positions, scales;
   std::vector<RotationKey> rotations;
 
-  /// Of a key of a cubic spline, per second: where the curve comes in, and where it goes out.
+  /// Tangents of a cubic spline's key, per second: where the curve comes in, and where it goes out.
   template <typename Value>
   struct Tangents {
     Value in, out;

@@ -35,7 +35,7 @@ struct ModelAvatarReport {
   std::size_t unweighted = 0;        ///< Given to their mesh's own node: no usable weight.
   std::size_t badWeights = 0;        ///< NaN, infinite, negative or of no vertex: ignored.
   std::size_t shared = 0;            ///< Triangles whose vertices several links move.
-  /// Of the convex hulls of the points of each LSS, a lower bound (lss/hull_volume.h), m^3.
+  /// Volume of the convex hulls of each LSS' points, a lower bound (lss/hull_volume.h), m^3.
   double hullVolume = 0.0;
   double excessVolume = 0.0;  ///< Volume of those LSS less hullVolume, m^3; >= 0.
   std::vector<std::string> bonesWithoutTriangles;

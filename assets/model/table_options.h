@@ -13,12 +13,12 @@ namespace foretouch {
 enum class QuaternionOrder : std::uint8_t { Xyzw, Wxyz };
 
 struct JointTableOptions {
-  /// Of a table without a header: its columns' names, in order; or only the name of a layout that
+  /// For a table without a header: its columns' names, in order; or only the name of a layout that
   /// is known (tableLayouts()), which says units, rate and order as well. Empty: as the header
   /// says.
   std::vector<std::string> columns;
   std::optional<double> rateHz;               ///< Rows per second, of a table without times.
-  std::optional<QuaternionOrder> quaternion;  ///< Of arrays, whose names need not say it.
+  std::optional<QuaternionOrder> quaternion;  ///< In arrays, whose names need not say it.
   bool isInDegrees = false;                   ///< Or as the layout has it.
   std::optional<double> metresPerUnit;        ///< Empty: metres, or as the layout has it.
 };

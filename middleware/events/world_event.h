@@ -1,5 +1,5 @@
-// middleware/events/world_event.h: what happens between bodies of a world: who enters whom, leaves
-// whom, when, where and how hard; and the parts of world time in which two are in contact. Metres,
+// middleware/events/world_event.h: what happens between bodies of a world: which enters and leaves
+// which, when, where and how hard; and the parts of world time in which two are in contact. Metres,
 // seconds, kilograms, in W. The promise: docs/guarantees.md 17.
 #pragma once
 
@@ -62,23 +62,23 @@ struct WorldEvent {
   /// As in WorldContact. Of UnresolvedFrom and UnresolvedTo the points are zero; the links may be
   /// kEveryLink, and b may be kEveryBody: a body that is silent, and taken to be Undecided.
   ContactSide a, b;
-  /// Of the mesh, or of the static scene: each object by itself. -1 if there is none.
+  /// An object of the mesh, or of the static scene, each by itself. -1 if there is none.
   ObjectId object = -1;
   double separation = 0.0;   ///< As WorldContact::separation.
   double penetration = 0.0;  ///< As WorldContact::penetration.
-  /// Unit, from b to a; zero if none is told.
+  /// Unit, from b to a; zero if there is none.
   Eigen::Vector3d nhat_BA_W = Eigen::Vector3d::Zero();
-  /// Of the material point of a at its witness point less that of b: m/s.
+  /// The material point of a at its witness point less that of b: m/s.
   Eigen::Vector3d velocity_W = Eigen::Vector3d::Zero();
   /// Along the normal, above zero while the two approach: m/s.
   double approachSpeed = 0.0;
   /// If these two points touch, in the rest of the motion that is known between two poses, they do
   /// so at a speed between these along this normal. A lower one below zero: a graze, perhaps.
   double approachLower = 0.0, approachUpper = 0.0;
-  /// That meets the other along the normal (kg), of those bodies whose mass the follower was told;
+  /// The mass that meets the other along the normal (kg), of bodies whose mass the follower knows;
   /// infinite if neither has one.
   double effectiveMass = 0.0;
-  /// Of the pairs of these two sides within the tolerance (of Leave: twice that): the nearest
+  /// Among the pairs of these two sides within the tolerance (for Leave: twice that): the nearest
   /// first, then as ContactDetails::points. In an order that does not depend on how triangles are
   /// numbered.
   std::array<EventPoint, kMostPoints> points;
@@ -127,14 +127,14 @@ struct EventCounters {
   void add(const EventCounters& more);
 };
 
-/// Of the time from one call of WorldFollower::follow() to the next.
+/// What happened from one call of WorldFollower::follow() to the next.
 struct WorldEvents {
   std::int64_t fromUs = 0, toUs = 0;  ///< Followed in this call.
   std::vector<WorldEvent> events;     ///< By comesBefore().
   std::vector<WorldPart> parts;       ///< By pair, then by time.
   std::vector<SilentBody> silent;     ///< As WorldContacts::silent, at the end of the time.
-  WorldCounters world;                ///< Of the questions for first contacts.
-  EventCounters counters;             ///< Of what came on top.
+  WorldCounters world;                ///< What the questions for first contacts took.
+  EventCounters counters;             ///< What events took on top.
 };
 
 }  // namespace foretouch

@@ -1,5 +1,5 @@
 // middleware/events/world_follower.h: follows a world (world.h) through time: from window to window
-// it keeps who touches whom, and tells every enter and leave once. World time in microseconds.
+// it keeps which bodies touch, and reports every enter and leave once. World time in microseconds.
 // The promise: docs/guarantees.md 17; how it is kept: events.md.
 #pragma once
 
@@ -30,18 +30,18 @@ inline constexpr std::int64_t kMostCutUs = 10'000'000;
 /// A wrong clock would be followed cut by cut for years: refused, while hours at 1 ms are not.
 inline constexpr std::int64_t kMostCuts = 10'000'000;
 
-/// For one thread at a time; nobody changes the world while it is asked. Memory is bounded by the
+/// For one thread at a time; the world must not change while it is asked. Memory is bounded by the
 /// bodies and by who touches, and nothing is allocated once it has grown.
 class WorldFollower {
  public:
-  /// Nothing before `fromUs` is told: who is in contact there starts inside. Errors: options or an
+  /// Nothing before `fromUs` is reported: what touches there starts inside. Errors: options or an
   /// instant out of range, or the system refuses the threads.
   static Result<WorldFollower> start(std::int64_t fromUs, const FollowOptions& options = {});
   ~WorldFollower();
   WorldFollower(WorldFollower&&) noexcept;
   WorldFollower& operator=(WorldFollower&&) noexcept;
 
-  /// What a body weighs, for WorldEvent::effectiveMass. One that is not told is moved by nothing:
+  /// What a body weighs, for WorldEvent::effectiveMass. A body without one is moved by nothing:
   /// it is tracked, or stands still. Errors: as checkedMass(); a body below 0.
   Result<Done> weigh(BodyId body, const Mass& mass);
   /// The same of an avatar that is a ragdoll.

@@ -28,7 +28,7 @@ struct ContactMaterial {
 /// A point where a and b meet, as a WorldContact has it. In W.
 struct CollisionPoint {
   Eigen::Vector3d nhat_BA_W = Eigen::Vector3d::UnitY();  ///< Unit, from b to a.
-  Eigen::Vector3d velocity_W = Eigen::Vector3d::Zero();  ///< Of a's point less b's (m/s).
+  Eigen::Vector3d velocity_W = Eigen::Vector3d::Zero();  ///< a's point less b's (m/s).
   /// How their points part per N s: the sum of what inverseMassAt() says of a and of b. One that
   /// nothing moves (the scene, a tracked hand) adds nothing. Symmetric.
   Eigen::Matrix3d inverseMass_W = Eigen::Matrix3d::Identity();
@@ -66,7 +66,7 @@ struct Mass {
 /// the sum of the other two. Else what is wrong (NonFinite, OutOfRange).
 Result<Mass> checkedMass(const Mass& mass);
 
-/// Of a solid LSS of `density` (kg/m3): a cylinder and two half spheres. All zero for radius 0.
+/// A solid LSS of `density` (kg/m3): a cylinder and two half spheres. All zero for radius 0.
 [[nodiscard]] Mass massOf(const Lss& lss, double density);
 
 /// Of two bodies that are one. All zero if neither weighs anything.
@@ -84,8 +84,8 @@ Result<std::vector<Mass>> massesOfLinks(const Avatar& avatar, double kg);
 
 /// By how much the motion of a link changes at once.
 struct VelocityChange {
-  Eigen::Vector3d w_WL = Eigen::Vector3d::Zero();  ///< Of its angular velocity (rad/s).
-  Eigen::Vector3d v_WL = Eigen::Vector3d::Zero();  ///< Of its origin's velocity (m/s).
+  Eigen::Vector3d w_WL = Eigen::Vector3d::Zero();  ///< Change of its angular velocity (rad/s).
+  Eigen::Vector3d v_WL = Eigen::Vector3d::Zero();  ///< Change of its origin's velocity (m/s).
 };
 
 /// Every joint turns freely about its origin, as in the in-between motion, and roots move freely;

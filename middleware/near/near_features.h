@@ -27,10 +27,10 @@ struct NearFeature {
   LinkId link = 0;
   std::int32_t lss = -1;  ///< Index among the link's LSS.
   TriangleId triangle = -1;
-  /// Of the triangle: what holds p_WScene. Face also where an end of the axis is right above an
+  /// What of the triangle holds p_WScene. Face also where an end of the axis is right above an
   /// edge or a vertex along the face's own normal, and the surface goes on flat.
   FeatureKind feature = FeatureKind::Face;
-  double along = 0.0;  ///< Of the axis' nearest point: its share of the way from end a to end b.
+  double along = 0.0;  ///< Where the axis' nearest point is: share of the way from end a to end b.
   /// Lower bound on the separation at this place: of the whole LSS from the triangle, of the sphere
   /// at one end of the axis from it, or of the LSS from one of its edges. Rounded down; below zero
   /// where the two overlap: the axis' distance less the radius.
@@ -38,7 +38,7 @@ struct NearFeature {
   Eigen::Vector3d p_WScene = Eigen::Vector3d::Zero();  ///< On the triangle.
   Eigen::Vector3d p_WLink = Eigen::Vector3d::Zero();   ///< On the LSS's surface.
   /// Unit, from the scene to the link. Where the axis passes through the triangle: the face's
-  /// normal, to the side of the axis' longer part. Zero if the two meet so that none is told.
+  /// normal, to the side of the axis' longer part. Zero if the two meet so that there is none.
   Eigen::Vector3d nhat_SL_W = Eigen::Vector3d::Zero();
 };
 

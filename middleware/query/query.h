@@ -1,5 +1,5 @@
 // middleware/query/query.h: the question Foretouch answers: what does each link meet first between
-// two poses? And more about a contact, for whoever needs it: how fast the two sides approach, and
+// two poses? And, where asked, more about a contact: how fast the two sides approach, and
 // up to four points where they are near. Lengths in metres in the world W; t is normalised, 0 at
 // the earlier pose and 1 at the later; velocities per unit of t. The promise, its proof and the
 // constants in it: docs/guarantees.md.
@@ -31,22 +31,22 @@ struct ContactPoint {
   Eigen::Vector3d p_WLink = Eigen::Vector3d::Zero();   ///< On the link's surface.
   Eigen::Vector3d p_WOther = Eigen::Vector3d::Zero();  ///< On the scene, or the other link.
   double separation = 0.0;         ///< As computed; below zero where the two overlap.
-  TriangleId triangle = -1;        ///< Of the scene, or of the other link's mesh.
+  TriangleId triangle = -1;        ///< In the scene, or in the other link's mesh.
   std::int32_t lss = -1;           ///< Index among the link's LSS.
-  std::int32_t linkTriangle = -1;  ///< Of the link's mesh; -1 at link fidelity.
+  std::int32_t linkTriangle = -1;  ///< In the link's mesh; -1 at link fidelity.
 };
 
 struct ContactDetails {
   static constexpr std::size_t kMostPoints = 4;
 
-  /// Of the material points at the two witness points, at the contact's instant.
+  /// Velocities of the material points at the two witness points, at the contact's instant.
   Eigen::Vector3d v_WLink = Eigen::Vector3d::Zero(), v_WOther = Eigen::Vector3d::Zero();
   /// Along the contact's normal, above zero while the two approach; 0 without a normal.
   double approachSpeed = 0.0;
   /// If these two points touch in this step, within the tolerance from here, they do so at a speed
   /// between these along this normal. A lower bound below zero: perhaps they never touch (a graze).
   double approachLower = 0.0, approachUpper = 0.0;
-  /// Of the pairs of the same two sides (the link and the object, or both links) that are within
+  /// Among the pairs of the same two sides (the link and the object, or both links) within
   /// the tolerance then: the nearest first; then the one farthest from it, the one that spans the
   /// largest triangle with both, and the one farthest on the other side of that. Not in an order
   /// that depends on how the scene's triangles are numbered.

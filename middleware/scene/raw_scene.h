@@ -39,7 +39,7 @@ struct SceneAudit {
   double shortestEdge = 0.0, longestEdge = 0.0;  ///< Metres; the shortest that is not zero.
 };
 
-/// Of the finite triangles; empty if there are none. O(n), and much cheaper than an audit.
+/// The box around the finite triangles; empty without any. O(n), and much cheaper than an audit.
 [[nodiscard]] Eigen::AlignedBox3d boundsOf(const RawScene& raw);
 
 /// Counts and measures what build() would keep; also for scenes that build() refuses.

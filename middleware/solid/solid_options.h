@@ -28,7 +28,7 @@ struct SolidOptions {
   /// The gap to surfaces that the avatar keeps where it can: a step of 1 cm on a lever of 30 cm is
   /// linear to 0.2 mm. 1e-5 to 0.1.
   double skin = 2e-3;
-  /// Of the queries that certify motions; at most half the skin. A link that begins a motion nearer
+  /// Tolerance of queries that certify motions; at most half the skin. A link that begins nearer
   /// than that has half its gap for its tolerance.
   double tolerance = 5e-4;
   /// How much faster than the tracked pose the shown one may move while it catches up (m/s, of any
@@ -45,7 +45,7 @@ struct SolidOptions {
   std::vector<bool> feet;
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();  ///< Unit; for the floor policy and placing.
   double mostLift = 0.1;                          ///< 0 to 1.
-  /// Farther from the tracked pose than this, for longer than `patience`, is told as Held for the
+  /// Farther from the tracked pose than this, for longer than `patience`, counts as Held for the
   /// whole avatar (its roots) or a limb, and a snap may follow.
   double mostDeviation = 0.5, mostLimbDeviation = 0.35, patience = 0.7;
   /// Whether the avatar may then appear at the tracked pose, if that is free: the only break of the

@@ -26,7 +26,7 @@ inline constexpr std::uint8_t kNumSolidStates = 7;
 /// "placing", "equal", "following", "sliding", "held", "around", "snapped".
 [[nodiscard]] const char* toString(SolidState state);
 
-/// Of one joint and its link.
+/// The state of one joint and its link.
 enum class SolidJointState : std::uint8_t {
   Free = 0,     ///< No contact moves it from its tracked place.
   Sliding = 1,  ///< Its link is in contact, and moved.
@@ -52,7 +52,7 @@ inline constexpr std::uint8_t kNumSolidLimits = 4;
 struct SolidContact {
   LinkId link = 0;
   std::int32_t lss = -1;     ///< Index among the link's LSS.
-  TriangleId triangle = -1;  ///< Of the scene; -1 if another own link is touched.
+  TriangleId triangle = -1;  ///< In the scene; -1 if another own link is touched.
   LinkId other = -1;         ///< That link.
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();     ///< On the surface that is touched.
   Eigen::Vector3d nhat_W = Eigen::Vector3d::Zero();  ///< Unit, from it to the link.
@@ -61,7 +61,7 @@ struct SolidContact {
   /// nhat_W with which a haptic device holds the hand; the pushes of all contacts together hold the
   /// shown pose from the tracked one, ends of joints apart (solid.md 4). Zero: it holds nothing.
   double push = 0.0;
-  double slipSpeed = 0.0;  ///< Of the link's point along the surface, m/s.
+  double slipSpeed = 0.0;  ///< How fast the link's point goes along the surface (m/s).
 };
 
 /// Work done, independent of the machine's load.

@@ -1,5 +1,5 @@
 // middleware/solid_world/solid_body_tick.h: what a solid avatar among bodies that move
-// (solid_world.h) is told, and what it shows. Lengths in metres in the world W, world time in
+// (solid_world.h) gets, and what it shows. Lengths in metres in the world W, world time in
 // microseconds.
 #pragma once
 
@@ -27,21 +27,21 @@ struct SolidBodyContact {
   BodyId body = 0;
   LinkId link = 0;        ///< The avatar's.
   std::int32_t lss = -1;  ///< Among the link's LSS; those of tools in its hand come after its own.
-  TriangleId triangle = -1;                          ///< Of a mesh; else -1.
+  TriangleId triangle = -1;                          ///< In a mesh; else -1.
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();     ///< On the body's surface.
   Eigen::Vector3d nhat_W = Eigen::Vector3d::Zero();  ///< Unit, from it to the avatar.
   double gap = 0.0;
   double push = 0.0;       ///< As SolidContact::push; what the body's own motion adds is in it.
-  double slipSpeed = 0.0;  ///< Of the link's point along that surface, which moves, m/s.
+  double slipSpeed = 0.0;  ///< How fast the link's point goes along that moving surface (m/s).
 };
 
-/// A body that nobody holds back has left the avatar no proven way: between the two nothing is
+/// A body that nothing holds back has left the avatar no proven way: between the two nothing is
 /// claimed from `sinceUs` on. Everything else stays proven.
 struct SolidCrush {
   BodyId body = 0;
   LinkId link = 0;  ///< Where it was met; while they overlap, the link that is deepest.
   std::int64_t sinceUs = 0;
-  /// It ended at the tick's begin, where the two are proven apart; told once. False: it lasts.
+  /// It ended at the tick's begin, where the two are proven apart; reported once. False: it lasts.
   bool isOver = false;
   /// At the tick's end: the largest depth of a link's axis below the body's surface, its radius at
   /// most. To part them takes at least as much. 0: they do not overlap there.

@@ -1,6 +1,6 @@
 // middleware/solid_world/solid_world.h: solid avatars (middleware/solid/solid_avatar.h) in a world
 // in which other things move (middleware/world/world.h): doors push them, what they hold is solid
-// with them, two of them meet and neither passes. What each is told, and what it shows. Metres in
+// with them, two of them meet and neither passes. What each gets, and what it shows. Metres in
 // W, world time in microseconds. The algorithm, the promise and its proof:
 // middleware/solid_world/solid_world.md.
 #pragma once
@@ -25,7 +25,7 @@ namespace foretouch {
 
 /// How far solid avatars reach in SolidWorld::world().
 enum class SolidReach : std::uint8_t {
-  /// To the gap at which they stop (SolidOptions::skin): whoever asks the world, or follows it,
+  /// To the gap at which they stop (SolidOptions::skin): a question to the world, or a follower,
   /// finds them in contact with what they press against.
   Skin,
   /// To their surface: they are found to touch nothing but what crushes them.
@@ -46,20 +46,20 @@ class SolidWorld {
   ~SolidWorld();
 
   /// The world: add what moves by itself (doors, lifts, balls), push its poses, attach what hands
-  /// hold. A solid avatar's own poses are pushed by tick(), and by nobody else. It reaches to its
-  /// skin there, unless build() was told otherwise, or it has own links or a surface (BodyOptions).
+  /// hold. A solid avatar's own poses are pushed by tick() alone. It reaches to its
+  /// skin there, unless build() said otherwise, or it has own links or a surface (BodyOptions).
   [[nodiscard]] World& world();
   [[nodiscard]] const World& world() const;
 
   /// A solid avatar. It is there from its first target on. Errors: as SolidAvatar::build() and
-  /// World::add(); SolidOptions::maySnap, since on a timeline nobody jumps.
+  /// World::add(); SolidOptions::maySnap, since on a timeline no body jumps.
   Result<BodyId> add(const Avatar& avatar, const SolidOptions& options = {},
                      const BodyOptions& body = {});
 
   /// Where the last tick ended.
   [[nodiscard]] std::int64_t utimeUs() const;
 
-  /// One tick, to `utimeUs`. Whoever has no target in it keeps his last one. Moves what is not a
+  /// One tick, to `utimeUs`. One without a target in it keeps its last one. Moves what is not a
   /// solid avatar as the world knows it; then each solid avatar, by body: it certifies its motion
   /// against everything that moves before it, and against those after it as they stand. Its way is
   /// pushed into the world. `ticks`: one per solid avatar that has had a target, by body.
@@ -68,12 +68,12 @@ class SolidWorld {
   /// or two of one; a body that waits for its poses (WhenSilent::Wait) and is not known until
   /// then; a solid avatar that is carried; what moves in its hand (Carrier::movesInFrame), or
   /// changes hands within the tick; a tick that begins before what the world has forgotten.
-  /// Allocates nothing once memory has grown, as long as nobody takes or lets go.
+  /// Allocates nothing once memory has grown, as long as no hand takes or lets go.
   Result<Done> tick(std::int64_t utimeUs, const std::vector<SolidBodyTarget>& targets,
                     std::vector<SolidBodyTick>& ticks);
 
-  /// What has happened from where the last call ended until the last tick's end: whoever meets
-  /// whom, from enter to leave, at the instants at which the shown motions do (world_follower.h).
+  /// What has happened from where the last call ended until the last tick's end: which body meets
+  /// which, from enter to leave, at the instants at which the shown motions do (world_follower.h).
   /// A solid avatar enters what it comes as near as its skin, and the world's tolerance; its points
   /// are those of its skin. What presses on it meanwhile, and how hard, is in the ticks. To be
   /// called before World::forgetBefore(). Errors: as WorldFollower::follow().

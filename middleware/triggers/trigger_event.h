@@ -12,7 +12,7 @@ namespace foretouch {
 /// In the order in which they were added.
 using TriggerId = std::int32_t;
 
-/// Somebody is inside if a point of his volume is in the trigger's, as far as is known: see
+/// A body is inside if a point of its volume is in the trigger's, as far as is known: see
 /// TriggerEvent.
 struct TriggerEvent {
   EventKind kind = EventKind::Enter;
@@ -20,8 +20,8 @@ struct TriggerEvent {
   BodyId body = 0;
   /// Which link enters or leaves, also where the body counts as one; kEveryLink: none by itself.
   LinkId link = kEveryLink;
-  /// Sound: nobody is inside, at any instant, who is not told to be, or to be unresolved: an Enter
-  /// is never later than it is, a Leave never earlier. Tight: who is told to be inside is, but for
+  /// Sound: no body is inside, at any instant, that is not reported so, or as unresolved: an Enter
+  /// is never later than it is, a Leave never earlier. Tight: a body reported inside is, but for
   /// twice the world's tolerance, and enters from within once of it.
   WorldTime time;
   WorldTime since;  ///< Of Leave and UnresolvedTo: when that began which ends here. Else `time`.
@@ -32,13 +32,13 @@ struct TriggerEvent {
 struct Occupant {
   TriggerId trigger = 0;
   BodyId body = 0;
-  LinkId link = kEveryLink;   ///< Of one that counts by link; else kEveryLink.
+  LinkId link = kEveryLink;   ///< Where the trigger counts by link; else kEveryLink.
   bool isUnresolved = false;  ///< Nothing is known of whether it is inside.
   WorldTime since;
 };
 
 struct TriggerCounters {
-  std::uint64_t pairs = 0;    ///< Of a trigger and a link, that something was to be said of.
+  std::uint64_t pairs = 0;    ///< Of a trigger and a link that were asked about.
   std::uint64_t decided = 0;  ///< Times that a link and a closed mesh were asked, at one instant,
                               ///< whether it is inside.
 };

@@ -54,7 +54,7 @@ class TriggerVolume {
 /// The group of triggers, unless they are given another: they meet everybody else.
 inline constexpr BodyGroup kTriggerGroup = kNumBodyGroups - 1;
 
-/// Whom a trigger looks at: a body, or a link of it.
+/// What a trigger looks at: a body, or a link of it.
 struct Watched {
   BodyId body = 0;
   LinkId link = kEveryLink;
@@ -62,7 +62,7 @@ struct Watched {
 
 struct TriggerOptions {
   BodyGroup group = kTriggerGroup;
-  /// By default a trigger that is not told where it is stays where it was, and nobody waits for it.
+  /// By default a trigger without a new pose stays where it was, and nothing waits for it.
   WhenSilent whenSilent = WhenSilent::HoldStill;
   /// Empty: everybody but other triggers.
   std::vector<Watched> watched;
@@ -92,7 +92,7 @@ class Triggers {
   /// The trigger that the body is; -1 if it is none. O(1).
   [[nodiscard]] TriggerId triggerOf(BodyId body) const;
 
-  /// Adds one to those whom the trigger looks at. Errors: an unknown trigger, body or link; a
+  /// Adds one to those that the trigger looks at. Errors: an unknown trigger, body or link; a
   /// trigger that was updated already (OutOfRange).
   Result<Done> watch(const World& world, TriggerId trigger, const Watched& watched);
 

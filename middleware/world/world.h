@@ -68,7 +68,7 @@ class World {
   Result<Done> attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs, const Pose& pose);
   Result<Done> attach(BodyId body, const Carrier& carrier, std::int64_t utimeUs,
                       const RigidPose& pose);
-  /// From `utimeUs` on, nobody carries the body; `pose` is its pose there, in W. Errors: as above,
+  /// From `utimeUs` on, no body carries this one; `pose` is its pose there, in W. Errors: as above,
   /// and a body that is not carried.
   Result<Done> detach(BodyId body, std::int64_t utimeUs, const Pose& pose);
   Result<Done> detach(BodyId body, std::int64_t utimeUs, const RigidPose& pose);
@@ -80,19 +80,19 @@ class World {
   Result<Done> askStill(BodyGroup group, bool isAsked);
 
   /// All is known, or taken to be, until here: the earliest last pose of the bodies that wait for
-  /// theirs (WhenSilent::Wait); if nobody waits, the latest pose of all. Nothing if there is none.
+  /// theirs (WhenSilent::Wait); if none waits, the latest pose of all. Nothing if there is none.
   [[nodiscard]] std::optional<std::int64_t> knownUntilUs() const;
-  /// The body that knownUntilUs() waits for; nothing if nobody waits.
+  /// The body that knownUntilUs() waits for; nothing if it waits for none.
   [[nodiscard]] std::optional<BodyId> waitsFor() const;
 
   /// The first contact, in the window from `fromUs` to `toUs`, of every two links of different
   /// bodies that are asked, of every link and the static scene, and of own links where a body asks
   /// for these. Depends on the poses alone, not on the order in which they came, nor on how many
   /// threads share the work. Allocates nothing once the scratch and the answer have grown, as long
-  /// as nobody is added or carried in another way. The promise: docs/guarantees.md 15. Errors,
+  /// as no body is added or carried in another way. The promise: docs/guarantees.md 15. Errors,
   /// which name who or what: a window without length, that begins before what was forgotten, or
   /// ends after knownUntilUs(); carriers whose chains are too deep together; on a pool, memory ran
-  /// out (DeviceFailed): the answer then means nothing. Nobody changes the world meanwhile.
+  /// out (DeviceFailed): the answer then means nothing. The world must not change meanwhile.
   Result<Done> contacts(std::int64_t fromUs, std::int64_t toUs, Scratch& scratch,
                         WorldContacts& answer) const;
   Result<Done> contacts(std::int64_t fromUs, std::int64_t toUs, WorkerPool& pool,
@@ -109,9 +109,9 @@ class World {
   [[nodiscard]] Result<WorldDepth> depth(const WorldTime& time, const DepthQuestion& question,
                                          Scratch& scratch) const;
 
-  /// Lets go of what no window from `utimeUs` on needs, nor who tells where somebody was who is put
-  /// elsewhere there. Poses at or before it are refused from now
-  /// on, and so are windows that begin before it.
+  /// Lets go of what no window from `utimeUs` on needs, nor a body that is put elsewhere there, to
+  /// say where it was. Poses at or before it are refused from now on, and so are windows that
+  /// begin before it.
   void forgetBefore(std::int64_t utimeUs);
 
   /// For the query's own sources.

@@ -30,7 +30,7 @@ struct WorldTime {
 
 /// The instant at `t` in [0,1] of the span [beginUs, endUs], rounded down: never later than it is.
 [[nodiscard]] WorldTime worldTimeAt(std::int64_t beginUs, std::int64_t endUs, double t);
-/// The next instant that can be told.
+/// The next instant that can be written.
 [[nodiscard]] WorldTime justAfter(const WorldTime& time);
 /// From `us` to the instant, in microseconds, rounded.
 [[nodiscard]] inline double microsecondsAfter(std::int64_t us, const WorldTime& time) {
@@ -50,7 +50,7 @@ struct ContactSide {
   BodyId body = kStillScene;
   LinkId link = 0;        ///< 0 for a mesh and for the scene.
   std::int32_t lss = -1;  ///< Index among the link's LSS; -1 for a mesh and for the scene.
-  /// Of a mesh and of the scene; of an avatar that brings a surface, among the link's triangles, or
+  /// In a mesh or the scene; in an avatar that brings a surface, among the link's triangles, or
   /// -1 where its LSS touches; else -1.
   TriangleId triangle = -1;
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< Witness point on its surface.
@@ -85,16 +85,16 @@ struct SilentBody {
 
 struct WorldCounters {
   std::uint64_t bodies = 0;     ///< Whose swept boxes were found.
-  std::uint64_t pairs = 0;      ///< Of bodies, asked, whose boxes meet.
-  std::uint64_t nearPairs = 0;  ///< Of these, with two LSS whose boxes meet.
+  std::uint64_t pairs = 0;      ///< Pairs of bodies, asked, whose boxes meet.
+  std::uint64_t nearPairs = 0;  ///< Those with two LSS whose boxes meet.
   std::uint64_t spans = 0;      ///< Asked of a pair or of a body alone, from knot to knot.
-  QueryCounters queries;        ///< Of all of these.
+  QueryCounters queries;        ///< What all of these took.
   /// What this answer took, in the units of WorldOptions::workPerWindow: the others count what an
   /// earlier window has found out as well, and this does not.
   std::uint64_t work = 0;
 };
 
-/// Of one window. All pairs of links that were asked and are not listed are proven clear while both
+/// For one window. All pairs of links that were asked and not listed are proven clear while both
 /// bodies are there; but nothing is claimed of a body in `silent` that is taken to be Undecided,
 /// nor of what it carries, from then on.
 struct WorldContacts {

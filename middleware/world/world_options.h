@@ -1,4 +1,4 @@
-// middleware/world/world_options.h: what a world and its bodies are told when they are made.
+// middleware/world/world_options.h: what a world and its bodies are made with.
 // Metres.
 #pragma once
 
@@ -43,7 +43,7 @@ struct WorldOptions {
   /// much again. With thousands of pairs and a small budget, most are undecided without a look.
   std::uint64_t workPerWindow = std::numeric_limits<std::uint64_t>::max();
   /// A body that may meet more than so many others in a window is crowded; without a bound unless
-  /// set. Two that are crowded are not asked about each other: each is told as a body of which
+  /// set. Two that are crowded are not asked about each other: each is reported as a body of which
   /// nothing is known in that window (WorldContacts::silent, WorkBudget), and not once per pair.
   std::size_t mostNear = std::numeric_limits<std::size_t>::max();
 };
@@ -55,7 +55,7 @@ struct BodyOptions {
   WhenSilent whenSilent = WhenSilent::Wait;
   /// Asks whether own links touch each other. Of the same avatar.
   std::optional<PairRules> self;
-  /// The avatar touches by these triangles (exact fidelity), whoever it meets, and so do its own
+  /// The avatar touches by these triangles (exact fidelity), whatever it meets, and so do its own
   /// links; an LSS that holds none of its link's triangles is its own surface. Nothing: by its LSS.
   std::optional<AvatarSurface> surface;
   /// A volume that others are in, as a trigger's is: solid bodies go through it.

@@ -62,7 +62,7 @@ struct StreamCounts {
   std::uint64_t accepted = 0;   ///< Each ends a step.
   std::uint64_t lost = 0;       ///< Poses between accepted ones of one timeline.
   std::uint64_t gaps = 0;       ///< Steps AcrossGap.
-  std::uint64_t vastGaps = 0;   ///< Of them, across more than kMostCountedLost poses.
+  std::uint64_t vastGaps = 0;   ///< Those across more than kMostCountedLost poses.
   std::uint64_t timelines = 0;  ///< Begun.
   RejectCounts rejects{};       ///< Of poses and skeletons.
 };
@@ -88,7 +88,7 @@ class AvatarStream {
   /// Whether the last message, if it was refused, may decide about later ones: it counts into a run
   /// that begins a timeline. A stream without the others answers alike.
   [[nodiscard]] bool leftTrace() const;
-  /// Of the skeletons whose poses may be accepted: the one in use, and another one.
+  /// The skeletons whose poses may be accepted: the one in use, and another one.
   [[nodiscard]] std::array<std::optional<std::int64_t>, 2> knownHashes() const;
   [[nodiscard]] const StreamCounts& counts() const { return counts_; }
 

@@ -22,7 +22,7 @@ enum class Reject : std::uint8_t {
   None,
   // About the bytes.
   Length,        ///< Shorter or longer than its own counts say, or a text without its end.
-  Fingerprint,   ///< Of another type, or of another version of it.
+  Fingerprint,   ///< Another type's, or another version's.
   Version,       ///< The `version` field is not kMessageVersion.
   Limit,         ///< A count beyond its limit.
   NonFinite,     ///< NaN or infinity in a joint that is marked valid, or in another message.
@@ -44,10 +44,10 @@ enum class Reject : std::uint8_t {
   StaleStamp,     ///< A later sequence with a capture time that is not later.
   FutureStamp,    ///< Captured longer than StreamPolicy::maxStepUs after the last pose.
   OldSession,     ///< From a sender that has been restarted since.
-  FutureSession,  ///< Of a sender that says it starts more than a day after the message arrived.
-  Late,           ///< Of an instant that the world has answered already.
+  FutureSession,  ///< Its sender says it starts more than a day after the message arrived.
+  Late,           ///< For an instant that the world has answered already.
   // About a moving world.
-  UnknownBody,   ///< A pose of a body that nobody has told of; a carrier or link that is not there.
+  UnknownBody,   ///< A pose of a body that nobody introduced; a carrier or link that is not there.
   HeldFast,      ///< A pose of a body that another one holds fast.
   UnknownShape,  ///< A body whose shape is not in the world file.
   CarrierLoop,   ///< A body that would carry itself.
@@ -78,7 +78,7 @@ inline constexpr char kPersonChannel[] = "FORETOUCH_PERSON";
 inline constexpr char kStatusChannel[] = "FORETOUCH_STATUS";
 /// Of logs only.
 inline constexpr char kSpeakerChannel[] = "FORETOUCH_SPEAKER";
-/// Of a whole channel name, suffix included, in bytes (LCM_MAX_CHANNEL_NAME_LENGTH).
+/// Length of a whole channel name, suffix included, in bytes (LCM_MAX_CHANNEL_NAME_LENGTH).
 inline constexpr std::size_t kMaxChannelBytes = 63;
 
 /// Largest message, in bytes: a skeleton of kMaxJoints joints with long names fits.
@@ -163,7 +163,7 @@ inline constexpr std::size_t kMaxSolidJoints = 512, kMaxSolidPoses = 64, kMaxSol
 struct ShownContact {
   SolidContact contact;
   std::string linkName;
-  std::string otherName;  ///< Of the object, or of the own link, that is touched.
+  std::string otherName;  ///< The object, or the own link, that is touched.
 };
 
 /// What a solid avatar shows at one pose. Poses are of the avatar's joints, bit for bit as proven.
@@ -173,7 +173,7 @@ struct SolidMessage {
   std::int64_t utimeUs = 0;  ///< Capture.
   StepKind kind = StepKind::First;
   std::int64_t lost = 0;
-  std::int64_t stepUs = 0;      ///< The time from the pose before, as the avatar was told.
+  std::int64_t stepUs = 0;      ///< The time from the pose before, as the avatar got it.
   std::int64_t avatarHash = 0;  ///< skeletonHash() of the avatar's skeleton.
   double skin = 0.0, tolerance = 0.0, catchUp = 0.0;
   std::int64_t workBudget = 0;
@@ -207,7 +207,7 @@ inline constexpr std::size_t kMaxPersonBrackets = 256;
 struct ToldBracket {
   LinkBracket bracket;
   std::string linkName;
-  std::string otherName;  ///< Of the object, or of the own link, that is touched.
+  std::string otherName;  ///< The object, or the own link, that is touched.
 };
 
 /// A claim that a pose shows to be wrong.
@@ -233,7 +233,7 @@ struct PersonMessage {
   std::int64_t boundsHash = 0;
   double resolution = 0.0;
 
-  StepKind kind = StepKind::First;  ///< Of the step; First: none is answered.
+  StepKind kind = StepKind::First;  ///< The step's; First: none is answered.
   std::int64_t sequenceFrom = 0, sequenceTo = 0;
   std::int64_t utimeFromUs = 0, utimeToUs = 0;
   std::vector<BracketVerdict> verdicts;   ///< Of every link and the scene, in order.
