@@ -181,7 +181,7 @@ class Gathering {
 
 /// A mesh of more triangles than this, and of more than so many times what may be shown, has
 /// vertices merged first: to collapse edges of all would take seconds.
-constexpr double kQuicklyDone = 2e5, kMostTimesShown = 4.0;
+constexpr double kQuicklyDone = 2e5, kMostTimesShown = 2.0;
 
 /// `share`: of the triangles that may be shown in those that there are.
 Simplifier simplifierOf(const Scene& scene, const Part& part, const Vector3d& origin,
@@ -196,14 +196,14 @@ Simplifier simplifierOf(const Scene& scene, const Part& part, const Vector3d& or
 }
 
 /// All objects with the same error, the least that leaves at most `most` triangles; if none does,
-/// each with the same share of its triangles.
+/// each with the same share of its triangles. One object alone takes what it may have at once.
 std::vector<Simplified> simplifiedTo(const std::vector<Simplifier>& simplifiers, std::size_t most,
                                      double sizeM) {
   // From a millionth of the scene to a sixteenth, each 1.41 times the one before.
   constexpr int kFinest = -40, kCoarsest = -8;
   std::vector<Simplified> best;
   int low = kFinest, high = kCoarsest;
-  while (low <= high) {
+  while (low <= high && simplifiers.size() > 1) {
     const int middle = low + (high - low) / 2;
     std::vector<Simplified> made;
     std::size_t total = 0;
