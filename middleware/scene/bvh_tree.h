@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <hwy/cache_control.h>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -88,7 +89,14 @@ std::vector<Primitive> primitivesOf(const std::vector<Triangle>& triangles,
                                     const std::vector<TriangleId>& ids,
                                     const Eigen::Vector3d& origin) {
   std::vector<Primitive> primitives(ids.size());
+  // The ids' order is one of chance: each triangle is a cache miss, which is asked for early.
+  constexpr std::size_t kAhead = 16;
   for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (i + kAhead < ids.size()) {
+      const Triangle& next = triangles[slotOf(ids[i + kAhead])];
+      hwy::Prefetch(&next);
+      hwy::Prefetch(&next.vertices[2]);
+    }
     const Aabb box = boxOf(triangles[slotOf(ids[i])]);
     const Eigen::Vector3d lower = box.min - origin;
     const Eigen::Vector3d upper = box.max - origin;

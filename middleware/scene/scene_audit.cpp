@@ -148,14 +148,14 @@ std::size_t countDuplicates(const std::vector<Triangle>& triangles) {
   internal::sortByHash(hashes, std::less<>());
   std::size_t duplicates = 0;
   std::vector<PointSet> sameHash;
-  for (std::size_t first = 0; first < hashes.size();) {
+  for (std::size_t first = 0, last = 0; first < hashes.size(); first = last) {
+    while (last < hashes.size() && hashes[last].first == hashes[first].first) ++last;
+    if (last - first < 2) continue;
     sameHash.clear();
-    std::size_t last = first;
-    for (; last < hashes.size() && hashes[last].first == hashes[first].first; ++last) {
-      sameHash.push_back(pointsOf(triangles[slotOf(hashes[last].second)]));
+    for (std::size_t i = first; i < last; ++i) {
+      sameHash.push_back(pointsOf(triangles[slotOf(hashes[i].second)]));
     }
     duplicates += duplicatesIn(sameHash);
-    first = last;
   }
   return duplicates;
 }
