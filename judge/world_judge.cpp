@@ -38,9 +38,43 @@ Corners<Real> cornersIn(const OraclePart& part, const Frame& frame) {
   return corners;
 }
 
-Real coreDistance(const OraclePart& one, const Frame& atOne, const OraclePart& other,
-                  const Frame& atOther) {
-  return closestPoints(cornersIn(one, atOne), cornersIn(other, atOther)).distance;
+/// A part in W, and a ball that holds its corners.
+struct Placed {
+  Corners<Real> corners;
+  int count = 0;
+  Vec3<Real> middle;
+  Real reach = 0, radius = 0;
+};
+
+Placed placed(const OraclePart& part, const Frame& frame) {
+  Placed in;
+  in.corners = cornersIn(part, frame);
+  in.middle = Real(1) / 3 * (in.corners[0] + in.corners[1] + in.corners[2]);
+  for (const Vec3<Real>& corner : in.corners) {
+    in.reach = std::max(in.reach, norm(corner - in.middle));
+  }
+  in.count = part.count;
+  in.radius = static_cast<Real>(part.radius);
+  return in;
+}
+
+std::vector<Placed> placedOf(const std::vector<OraclePart>& parts, int link, const Frame& frame) {
+  std::vector<Placed> all;
+  for (const OraclePart& part : parts) {
+    if (part.link == link) all.push_back(placed(part, frame));
+  }
+  return all;
+}
+
+/// Their cores are at least so far apart, but for less than a nanometre of rounding.
+Real apartAtLeast(const Placed& one, const Placed& other) {
+  return norm(one.middle - other.middle) - one.reach - other.reach;
+}
+
+Real coreDistance(const Placed& one, const Placed& other) {
+  if (one.count == 3 && other.count == 3) return closestPoints(one.corners, other.corners).distance;
+  if (one.count == 3) return coreDistance(other, one);
+  return closestPoints(one.corners[0], one.corners[1], other.corners).distance;
 }
 
 }  // namespace
@@ -93,15 +127,17 @@ OracleWorld::Moving OracleWorld::movingAt(int id, std::int64_t fromUs, Real us,
 
 Real OracleWorld::separation(int a, const Moving& atA, int linkOfA, int b, const Moving& atB,
                              int linkOfB) const {
+  const auto of = [&](int id, const Moving& at, int link) {
+    return placedOf(body(id).parts, link, at.frames[static_cast<std::size_t>(link)]);
+  };
+  const std::vector<Placed> ofA = of(a, atA, linkOfA), ofB = of(b, atB, linkOfB);
   Real least = kForever;
-  for (const OraclePart& one : body(a).parts) {
-    if (one.link != linkOfA) continue;
-    for (const OraclePart& other : body(b).parts) {
-      if (other.link != linkOfB) continue;
-      const Real distance = coreDistance(one, atA.frames[static_cast<std::size_t>(linkOfA)], other,
-                                         atB.frames[static_cast<std::size_t>(linkOfB)]);
-      least = std::min(least,
-                       distance - static_cast<Real>(one.radius) - static_cast<Real>(other.radius));
+  for (const Placed& one : ofA) {
+    for (const Placed& other : ofB) {
+      const Real radii = one.radius + other.radius;
+      // Who is farther apart changes nothing.
+      if (apartAtLeast(one, other) - radii > least + kTouch) continue;
+      least = std::min(least, coreDistance(one, other) - radii);
     }
   }
   return least;
@@ -247,14 +283,14 @@ OracleTouch OracleWorld::firstTouch(int a, int linkOfA, int b, int linkOfB, std:
 Real OracleWorld::distanceToSurface(int id, int link, const Vec3d& p_W, std::int64_t fromUs,
                                     Real us) const {
   const Moving at = movingAt(id, fromUs, us, false);
-  OraclePart point;
-  point.corners = {p_W, p_W, p_W};
+  OraclePart part;
+  part.corners = {p_W, p_W, p_W};
+  const Placed point = placed(part, Frame());
   Real least = kForever;
-  for (const OraclePart& part : body(id).parts) {
-    if (part.link != link) continue;
-    const Real distance =
-        coreDistance(part, at.frames[static_cast<std::size_t>(link)], point, Frame());
-    least = std::min(least, std::abs(distance - static_cast<Real>(part.radius)));
+  for (const Placed& one :
+       placedOf(body(id).parts, link, at.frames[static_cast<std::size_t>(link)])) {
+    if (apartAtLeast(one, point) - one.radius > least + kTouch) continue;
+    least = std::min(least, std::abs(coreDistance(one, point) - one.radius));
   }
   return least;
 }
