@@ -14,15 +14,15 @@ namespace {
 using Eigen::Vector3d;
 
 /// Nobody walks more slowly (m/s).
-constexpr double kSlowest = 0.3;
+constexpr double kSlowestWalk = 0.3;
 /// What bears goes one way: its mean velocity is at least this share of its mean speed. The body
 /// comes by no more than the other share of that way.
 constexpr double kOneWay = 0.7, kStays = 0.3;
 /// Steps that are looked at, spread evenly, and seconds that a walk lasts at least.
 constexpr std::int64_t kMostLooks = 2000;
-constexpr double kShortest = 0.5;
+constexpr double kLeastWalkS = 0.5;
 
-Vector3d flat(const Vector3d& v) {
+Vector3d levelled(const Vector3d& v) {
   return {v.x(), 0.0, v.z()};
 }
 
@@ -46,7 +46,7 @@ Vector3d middleOfFeet(const RestingBody& body, const std::vector<LinkState>& sta
   double count = 0.0;
   for (const RestingLimb& limb : body.limbs) {
     if (limb.isHand) continue;
-    sum += flat(states[slotOf(limb.ankle)].p_WL);
+    sum += levelled(states[slotOf(limb.ankle)].p_WL);
     count += 1.0;
   }
   return sum / std::max(1.0, count);
@@ -57,7 +57,7 @@ Vector3d middleOfFeet(const RestingBody& body, const std::vector<LinkState>& sta
 std::optional<double> walksInPlace(const FeetInputs& inputs) {
   const std::int64_t steps = inputs.steps();
   const double stepS = inputs.stepS();
-  if (static_cast<double>(steps) * stepS < kShortest) return std::nullopt;
+  if (static_cast<double>(steps) * stepS < kLeastWalkS) return std::nullopt;
   const std::int64_t looks = std::min(steps, kMostLooks);
   std::vector<LinkState> from, to;
   Vector3d sum = Vector3d::Zero(), least = sum, most = sum;
@@ -70,8 +70,8 @@ std::optional<double> walksInPlace(const FeetInputs& inputs) {
     placeLinks(inputs.body.avatar.skeleton(), next.value(), to);
     const PartCorner* const low = bearing(inputs.body, from);
     if (low == nullptr) return std::nullopt;
-    const Vector3d moved = flat(to[slotOf(low->link)].pointAt(low->center_L) -
-                                from[slotOf(low->link)].pointAt(low->center_L));
+    const Vector3d moved = levelled(to[slotOf(low->link)].pointAt(low->center_L) -
+                                    from[slotOf(low->link)].pointAt(low->center_L));
     sum += moved;
     way += moved.norm();
     const Vector3d middle = middleOfFeet(inputs.body, from);
@@ -82,7 +82,7 @@ std::optional<double> walksInPlace(const FeetInputs& inputs) {
   const double speed = way / (static_cast<double>(looks) * stepS);
   const bool isOneWay = sum.norm() > kOneWay * way;
   const bool stays = (most - least).norm() < kStays * way * share;
-  if (!(speed > kSlowest) || !isOneWay || !stays) return std::nullopt;
+  if (!(speed > kSlowestWalk) || !isOneWay || !stays) return std::nullopt;
   return speed;
 }
 
