@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -81,6 +82,9 @@ struct LinkContact {
 struct PairContact : LinkContact {
   LinkId other = -1;           ///< Above `link`; -1: the scene.
   std::int32_t otherLss = -1;  ///< Index among the other link's LSS.
+  /// Not below the depth (m), of which `penetration` is a lower bound then. A query does not say it
+  /// of meshes: LinkDepths (middleware/depth/link_depths.h) does.
+  double penetrationAtMost = std::numeric_limits<double>::infinity();
 };
 
 struct StepContacts {

@@ -1,5 +1,6 @@
 #include "tools/contact_json.h"
 
+#include <cmath>
 #include <type_traits>
 #include <variant>
 
@@ -28,6 +29,9 @@ void writeContact(const LinkContact& contact, const ContactWords& words, JsonWri
     if (isOwn && (name == "object" || (name == "triangle" && contact.triangle < 0))) continue;
     if (name == "penetration") {
       writePenetration(contact.penetration, out);
+      if (std::isfinite(words.penetrationAtMost)) {
+        out.field("penetration_at_most", words.penetrationAtMost);
+      }
       continue;
     }
     out.key(name);

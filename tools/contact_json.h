@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -19,6 +20,8 @@ struct ContactWords {
   std::optional<std::int64_t> utimeUs;  ///< and on the clock.
   /// The own link, its name or number, that takes the place of the scene; empty: none.
   std::string_view other;
+  /// Of an own link that starts in contact (m): it is no deeper; infinite: not known.
+  double penetrationAtMost = std::numeric_limits<double>::infinity();
 };
 
 /// Writes the contact's fields by kContactFields into an open object. `contact` is not clear.

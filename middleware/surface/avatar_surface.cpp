@@ -121,7 +121,17 @@ void LinkSurface::prepareWide() const {
 }
 
 const std::vector<Eigen::Vector3d>& LinkSurface::cornerOfPieces() const {
-  std::call_once(builtCorners_, [this] {
+  preparePieces();
+  return corners_;
+}
+
+const std::vector<std::int32_t>& LinkSurface::pieceOf() const {
+  preparePieces();
+  return pieceOf_;
+}
+
+void LinkSurface::preparePieces() const {
+  std::call_once(builtPieces_, [this] {
     // Triangles at a corner are joined with the first one that was there.
     std::vector<std::size_t> joined(triangles_.size());
     std::iota(joined.begin(), joined.end(), std::size_t{0});
@@ -138,11 +148,14 @@ const std::vector<Eigen::Vector3d>& LinkSurface::cornerOfPieces() const {
         if (!isNew) joined[rootOf(i)] = rootOf(first->second);
       }
     }
+    pieceOf_.resize(triangles_.size());
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      if (rootOf(i) == i) corners_.push_back(triangles_[i].vertices[0]);
+      if (rootOf(i) != i) continue;
+      pieceOf_[i] = static_cast<std::int32_t>(corners_.size());
+      corners_.push_back(triangles_[i].vertices[0]);
     }
+    for (std::size_t i = 0; i < triangles_.size(); ++i) pieceOf_[i] = pieceOf_[rootOf(i)];
   });
-  return corners_;
 }
 
 const internal::ObjectRoom& LinkSurface::room() const {

@@ -54,6 +54,8 @@ class LinkSurface {
   /// A corner of each connected piece: triangles are connected by corners at the same place. Built
   /// likewise.
   [[nodiscard]] const std::vector<Eigen::Vector3d>& cornerOfPieces() const;
+  /// Of each triangle: the number of its piece, in the same order.
+  [[nodiscard]] const std::vector<std::int32_t>& pieceOf() const;
   /// Of all its triangles as one object. Built likewise.
   [[nodiscard]] const ObjectRoom& room() const;
   /// As prepare(), for wideNode() as well.
@@ -81,13 +83,15 @@ class LinkSurface {
   };
 
   void prepareLanes() const;
+  void preparePieces() const;
   [[nodiscard]] const LaneNode& laneNode(std::int32_t lss, HierarchyChild node) const {
     return laneNodes_[slotOf(lss)][slotOf(node.index())];
   }
   std::vector<Triangle> triangles_;
   std::vector<std::vector<std::int32_t>> idsOfLss_;
-  mutable std::once_flag built_, builtWide_, builtCorners_, builtRoom_;
+  mutable std::once_flag built_, builtWide_, builtPieces_, builtRoom_;
   mutable std::vector<Eigen::Vector3d> corners_;
+  mutable std::vector<std::int32_t> pieceOf_;
   mutable ObjectRoom room_;
   mutable Hierarchies hierarchies_;
   mutable std::vector<LanePart> laneTriangles_;

@@ -56,7 +56,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"mechanics", {}},
       {"solid", {"query", "near", "pair", "mechanics", "", "scene"}},
       {"world", {"query", "pair", "", "lanes", "scene", "surface"}},
-      {"depth", {"world", "", "scene"}},
+      {"depth", {"world", "exact", "", "scene", "surface"}},
       {"ask", {"depth", "world", "exact", "", "scene", "surface"}},
       {"triggers", {"events", "depth", "world", "exact", "", "scene", "surface"}},
       {"events", {"world", "query", "pair", "mechanics", "", "lanes", "scene", "surface"}},

@@ -93,6 +93,8 @@ Result<Done> runReplay(
   }
   tell(summary, person.text);
   for (const std::string& remark : doubts.remarks()) printNote(remark);
+  const auto hint = hintOnOwnPairs(inputs, summary.startingPairs(), summary.steps());
+  if (hint) printNote(*hint);
   return Done{};
 }
 

@@ -14,6 +14,7 @@
 #include "assets/import/scene_import.h"
 #include "lss/index.h"
 #include "tools/console.h"
+#include "tools/feet/in_place.h"
 #include "tools/floor/heels.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/first_pose.h"
@@ -41,7 +42,9 @@ Result<PlayedClip> loadPlayed(const FeetRequest& request) {
   return Error::in(
       "--avatar", ErrorCode::Empty,
       "expected the body's avatar file beside " + inQuotes(request.motionPath) +
-          ": only of a BVH clip and of a robot a body is made (foretouch avatar make)");
+          ": only of a BVH clip and of a robot a body is made; to make one of a model with a skin: "
+          "foretouch avatar mesh " +
+          inQuotes(request.motionPath) + " -o body.json");
 }
 
 Result<Level> sceneOf(const FeetRequest& request) {
@@ -132,6 +135,7 @@ Result<Done> fitGround(FeetInputs& inputs) {
   const auto named = [&](Error error) {
     error.file = "--ground fit";
     error.message = clip + ": " + error.message;
+    if (walksInPlace(inputs)) error.message += "; it walks in place, so each foot slides";
     return error;
   };
   FORETOUCH_TRY_OR(named, const FloorFit fit, fitFloor(rests));

@@ -9,6 +9,7 @@
 #include "assets/bvh/bvh_reader.h"
 #include "lss/index.h"
 #include "tools/feet/feet_inputs.h"
+#include "tools/feet/in_place.h"
 #include "tools/inputs/first_pose.h"
 #include "tools/inputs/t_pose.h"
 #include "tools/settings/plain_figures.h"
@@ -85,6 +86,15 @@ std::optional<std::string> remarkOnJumps(const FeetInputs& inputs) {
       jumps == 1 ? "" : fmt::format(", as in {} steps more", jumps - 1), plainFigures(farthest));
 }
 
+std::optional<std::string> remarkOnPlace(const FeetInputs& inputs) {
+  const auto speed = walksInPlace(inputs);
+  if (!speed) return std::nullopt;
+  return fmt::format(
+      "{}: it walks in place, for something else to move it: each foot that bears slides, on "
+      "average at {:.2f} m/s",
+      inputs.request.motionPath, *speed);
+}
+
 /// Of an avatar that was given.
 std::optional<std::string> remarkOnHeels(const FeetInputs& inputs) {
   if (inputs.heelsMissing == 0) return std::nullopt;
@@ -108,6 +118,7 @@ std::vector<std::string> remarksOn(const FeetInputs& inputs) {
   add(remarkOnScene(inputs));
   add(remarkOnTPose(inputs));
   add(remarkOnJumps(inputs));
+  add(remarkOnPlace(inputs));
   add(remarkOnHeels(inputs));
   const auto first = inputs.poseAt(0);
   if (first.ok()) {

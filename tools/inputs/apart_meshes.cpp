@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "articulated/quoted.h"
+#include "lss/index.h"
 #include "middleware/query/query.h"
 #include "tools/inputs/played_clip.h"
 
@@ -36,34 +38,78 @@ void dropTouching(const Query& query, const Pose& pose, std::vector<LinkPair>& p
   }
 }
 
+/// Those of the pairs whose meshes are apart at every pose; none if they cannot be asked.
+std::vector<LinkPair> apartAt(const std::vector<Pose>& poses, const Avatar& avatar,
+                              const Scene& scene, const AvatarSurface& surface,
+                              std::vector<LinkPair> pairs) {
+  auto asking = PairRules::asking(avatar, pairs);  // an error if there are none
+  if (!asking.ok() || poses.empty()) return {};
+  QueryOptions options;
+  options.fidelity = Fidelity::Exact;
+  options.surface = surface;
+  options.self = std::move(asking).value();
+  const auto asked = Query::build(avatar, scene, options);
+  if (!asked.ok()) return {};
+  for (const Pose& pose : poses) dropTouching(asked.value(), pose, pairs);
+  return pairs;
+}
+
+std::string pairName(const LinkPair& pair, const Avatar& avatar) {
+  return avatar.skeleton().name(pair.a) + ":" + avatar.skeleton().name(pair.b);
+}
+
+std::string counted(std::size_t pairs, const char* one, const char* several) {
+  return pairs == 1 ? one : fmt::format("{} {}", pairs, several);
+}
+
 }  // namespace
 
 std::optional<std::string> remarkOnApartMeshes(const Avatar& avatar, const Scene& scene,
                                                const QueryOptions& query,
                                                const std::vector<Pose>& poses) {
   if (query.fidelity != Fidelity::Exact || !query.surface || !query.self) return std::nullopt;
-  std::vector<LinkPair> pairs = leftOutByLss(query);
-  auto asking = PairRules::asking(avatar, pairs);  // an error if there are none
-  if (!asking.ok()) return std::nullopt;
-  QueryOptions options;
-  options.fidelity = Fidelity::Exact;
-  options.surface = query.surface;
-  options.self = std::move(asking).value();
-  const auto asked = Query::build(avatar, scene, options);
-  if (!asked.ok()) return std::nullopt;
-  for (const Pose& pose : poses) dropTouching(asked.value(), pose, pairs);
-  if (pairs.empty() || poses.empty()) return std::nullopt;
+  const auto pairs = apartAt(poses, avatar, scene, *query.surface, leftOutByLss(query));
+  if (pairs.empty()) return std::nullopt;
   std::vector<std::string> names;
-  for (const LinkPair& pair : pairs) {
-    names.push_back(avatar.skeleton().name(pair.a) + ":" + avatar.skeleton().name(pair.b));
-  }
+  for (const LinkPair& pair : pairs) names.push_back(pairName(pair, avatar));
   return fmt::format(
       "--self: {} left out because their LSS touch, though their meshes are apart at each of {} "
       "poses: {}; to ask about them, take them out of the rules that foretouch avatar pairs writes "
       "(-o), and give these as --pairs",
-      pairs.size() == 1 ? "1 pair of own links is"
-                        : fmt::format("{} pairs of own links are", pairs.size()),
-      poses.size(), firstOf(names));
+      counted(pairs.size(), "1 pair of own links is", "pairs of own links are"), poses.size(),
+      firstOf(names));
+}
+
+std::optional<std::string> hintOnThickPairs(const Avatar& avatar, const Scene& scene,
+                                            std::vector<std::vector<Triangle>> meshes,
+                                            const std::vector<StartingPair>& pairs,
+                                            std::int64_t steps, const std::vector<Pose>& poses,
+                                            const std::string& rules) {
+  std::vector<LinkPair> thick;
+  for (const StartingPair& one : pairs) {
+    const bool haveMeshes =
+        !meshes[slotOf(one.pair.a)].empty() && !meshes[slotOf(one.pair.b)].empty();
+    if (haveMeshes) thick.push_back(one.pair);
+  }
+  const auto surface = AvatarSurface::build(avatar, std::move(meshes));
+  if (!surface.ok()) return std::nullopt;  // exact fidelity says why
+  thick = apartAt(poses, avatar, scene, surface.value(), std::move(thick));
+  if (thick.empty()) return std::nullopt;
+  std::string leftOut;
+  std::int64_t starts = 0;
+  for (const LinkPair& pair : thick) {
+    leftOut += (leftOut.empty() ? "" : ",") + pairName(pair, avatar);
+    for (const StartingPair& one : pairs) {
+      if (one.pair.a == pair.a && one.pair.b == pair.b) starts = std::max(starts, one.starts);
+    }
+  }
+  return fmt::format(
+      "--self: {} by LSS in up to {} of {} steps, though their meshes are apart at each of {} "
+      "poses; leave them out: {} --leave-out {} -o own.pairs.json, then --pairs own.pairs.json; or "
+      "ask the meshes: --fidelity exact",
+      counted(thick.size(), "1 pair of own links starts in contact",
+              "pairs of own links start in contact"),
+      starts, steps, poses.size(), rules, inQuotes(leftOut));
 }
 
 }  // namespace foretouch::tools

@@ -1,12 +1,14 @@
-// tools/inputs/apart_meshes.h: own links that nobody asks about because their LSS always touch,
-// though their meshes do not.
+// tools/inputs/apart_meshes.h: own links whose LSS always touch, though their meshes do not: those
+// that nobody asks about for it, and those that flood an answer.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "articulated/avatar.h"
+#include "articulated/pair_rules.h"
 #include "articulated/skeleton.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/scene.h"
@@ -19,5 +21,21 @@ namespace foretouch::tools {
                                                              const Scene& scene,
                                                              const QueryOptions& query,
                                                              const std::vector<Pose>& poses);
+
+/// Two own links that start in contact in so many steps.
+struct StartingPair {
+  LinkPair pair;
+  std::int64_t starts = 0;
+};
+
+/// Of an answer at link fidelity: which of these pairs, that start in contact in nearly all of
+/// `steps`, have meshes that are apart at each of `poses`. `meshes`: per link; empty: it has none.
+/// `rules`: the command that writes pair rules for it, without what they leave out.
+[[nodiscard]] std::optional<std::string> hintOnThickPairs(const Avatar& avatar, const Scene& scene,
+                                                          std::vector<std::vector<Triangle>> meshes,
+                                                          const std::vector<StartingPair>& pairs,
+                                                          std::int64_t steps,
+                                                          const std::vector<Pose>& poses,
+                                                          const std::string& rules);
 
 }  // namespace foretouch::tools

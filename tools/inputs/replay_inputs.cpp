@@ -16,7 +16,6 @@
 #include "lss/index.h"
 #include "middleware/query_options.h"
 #include "tools/console.h"
-#include "tools/inputs/apart_meshes.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/first_pose.h"
 #include "tools/inputs/ignored_pairs.h"
@@ -79,18 +78,23 @@ ReplayRequest asRead(ReplayRequest request, const FileFrame& scene, const FileFr
   return request;
 }
 
-/// What nobody asks, and how to see it.
-std::string remarkOnPairs(const ReplayRequest& request, const PairRules& rules) {
+/// That lists the pair rules of a replay, or writes them.
+std::string pairsCommand(const ReplayRequest& request) {
   const bool isRobot = !request.robotPath.empty();
   std::string command =
       "foretouch avatar pairs " + request.avatarPath +
       (isRobot ? " --robot " + request.robotPath : " --clip " + request.motionPath);
   if (request.motionScale != 1.0) command += fmt::format(" --clip-scale {}", *request.motionScale);
   if (!request.animation.empty()) command += " --animation " + request.animation;
+  return command;
+}
+
+/// What nobody asks, and how to see it.
+std::string remarkOnPairs(const ReplayRequest& request, const PairRules& rules) {
   return fmt::format(
       "--self: {} of {} pairs of own links are left out, so nothing is said of them ({}); list "
       "them: {}",
-      rules.leftOut().size(), rules.numPairs(), reasonsOf(rules), command);
+      rules.leftOut().size(), rules.numPairs(), reasonsOf(rules), pairsCommand(request));
 }
 
 }  // namespace
@@ -183,6 +187,21 @@ std::vector<Pose> someOf(const ReplayInputs& inputs) {
 }
 
 }  // namespace
+
+std::optional<std::string> hintOnOwnPairs(const ReplayInputs& inputs,
+                                          const std::vector<StartingPair>& pairs,
+                                          std::int64_t steps) {
+  if (pairs.empty() || inputs.query.fidelity != Fidelity::Link) return std::nullopt;
+  std::vector<LinkId> links;
+  for (const StartingPair& one : pairs) links.insert(links.end(), {one.pair.a, one.pair.b});
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  // The hint is not worth an error.
+  auto meshes = loadLinkMeshes(inputs.avatar, inputs.request.avatarPath, links);
+  if (!meshes.ok()) return std::nullopt;
+  return hintOnThickPairs(inputs.avatar, inputs.scene, std::move(meshes).value(), pairs, steps,
+                          someOf(inputs), pairsCommand(inputs.request));
+}
 
 std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
   const ReplayRequest& request = inputs.request;

@@ -12,6 +12,7 @@
 #include "assets/avatar/joint_match.h"
 #include "middleware/query/query.h"
 #include "middleware/scene/scene.h"
+#include "tools/inputs/apart_meshes.h"
 #include "tools/inputs/step_selection.h"
 #include "tools/settings/clip_settings.h"
 #include "tools/settings/world_settings.h"
@@ -62,6 +63,12 @@ struct ReplayInputs {
 /// Tolerated faults, joints without a match and signs of a wrong unit: one sentence each, bounded
 /// in number.
 [[nodiscard]] std::vector<std::string> remarksOn(const ReplayInputs& inputs);
+
+/// Own links that start in contact in nearly all of the steps that were answered, at link fidelity:
+/// which of them only their LSS make touch, and how to leave them out. Reads their meshes.
+[[nodiscard]] std::optional<std::string> hintOnOwnPairs(const ReplayInputs& inputs,
+                                                        const std::vector<StartingPair>& pairs,
+                                                        std::int64_t steps);
 
 /// The avatar's placed pose at a frame. Error if it lies beyond the limit of coordinates. `frame`
 /// is within the clip.

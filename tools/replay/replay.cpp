@@ -151,9 +151,15 @@ Result<Done> replay(const ReplayInputs& inputs, int threads, const StepSink& sin
   FORETOUCH_ASSERT(threads >= 1);
   FORETOUCH_TRY(const auto query,
                 withOptions(Query::build(inputs.avatar, inputs.scene, inputs.query)));
+  std::optional<LinkDepths> depths;
+  if (inputs.query.self && inputs.query.surface) {
+    depths.emplace(inputs.avatar, *inputs.query.surface);
+  }
   const StepFormat format(inputs.avatar, inputs.scene, AskedLists::of(inputs.query));
   std::vector<StepSolver> solvers;
-  for (int i = 0; i < threads; ++i) solvers.emplace_back(inputs, query, format);
+  for (int i = 0; i < threads; ++i) {
+    solvers.emplace_back(inputs, query, depths ? &*depths : nullptr, format);
+  }
   // What the first query grows must not count in any step's latency. An error here recurs, and is
   // reported, at step 0.
   static_cast<void>(solvers.front().solve(0));

@@ -117,6 +117,7 @@ void StepFormat::write(const PairContact& contact, const StepAnswer& answer,
   ContactWords words;
   words.link = links_[slotOf(contact.link)];
   words.other = links_[slotOf(contact.other)];
+  words.penetrationAtMost = contact.penetrationAtMost;
   words.timeS = timeOf(contact, answer.t0S, answer.t1S);
   writeContact(contact, words, out);
 }

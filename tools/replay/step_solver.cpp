@@ -33,6 +33,7 @@ Result<ReplayedStep> StepSolver::solve(std::int64_t step) {
   replayed.answer = recorded(step, contacts, latencyUs);
   replayed.answer.missedByPoses = missedByPoses(motion, replayed.answer.contacts);
   findGround(motion, replayed.answer);
+  findDepths(motion, replayed.answer);
   replayed.line = format_.line(replayed.answer);
   return replayed;
 }
@@ -76,6 +77,17 @@ std::vector<LinkId> StepSolver::missedByPoses(const ChainMotion& motion,
     }
   }
   return missed;
+}
+
+/// Of own links that begin in each other by their triangles, of which the query does not say it.
+void StepSolver::findDepths(const ChainMotion& motion, StepAnswer& answer) const {
+  if (depths_ == nullptr) return;
+  for (PairContact& pair : answer.pairs) {
+    if (pair.verdict != Verdict::StartsInContact || pair.penetration > 0.0) continue;
+    const LinkDepth depth = depths_->at(motion, 0.0, pair.link, pair.other);
+    pair.penetration = depth.lower;
+    pair.penetrationAtMost = depth.upper;
+  }
 }
 
 void StepSolver::findGround(const ChainMotion& motion, StepAnswer& answer) {

@@ -7,6 +7,7 @@
 
 #include "articulated/motion.h"
 #include "articulated/result.h"
+#include "middleware/depth/link_depths.h"
 #include "middleware/query/query.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/replay/results_writer.h"
@@ -22,10 +23,12 @@ struct ReplayedStep {
 /// Answers single steps, in any order; one per thread. Its arguments must outlive it.
 class StepSolver {
  public:
-  /// `query`: of the inputs.
-  StepSolver(const ReplayInputs& inputs, const Query& query, const StepFormat& format)
+  /// `query`: of the inputs. `depths`: of its surface; null without one.
+  StepSolver(const ReplayInputs& inputs, const Query& query, const LinkDepths* depths,
+             const StepFormat& format)
       : inputs_(inputs),
         query_(query),
+        depths_(depths),
         format_(format),
         ground_(inputs.avatar, inputs.scene, inputs.request.ground) {}
 
@@ -37,10 +40,12 @@ class StepSolver {
                                     double latencyUs) const;
   [[nodiscard]] std::vector<LinkId> missedByPoses(const ChainMotion& motion,
                                                   const std::vector<LinkContact>& contacts);
+  void findDepths(const ChainMotion& motion, StepAnswer& answer) const;
   void findGround(const ChainMotion& motion, StepAnswer& answer);
 
   const ReplayInputs& inputs_;
   const Query& query_;
+  const LinkDepths* depths_;
   const StepFormat& format_;
   GroundTest ground_;
   Scratch scratch_;

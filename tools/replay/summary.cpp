@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -38,11 +39,19 @@ void addTo(ReplaySummary::Counts& counts, const LinkContact& contact) {
 constexpr ObjectId kAnyOther = -1;
 constexpr std::size_t kMaxRowsOfTwo = 20;
 
+/// A last column that a table of two names may have.
+template <typename Other>
+struct LastColumn {
+  std::string title;
+  std::function<std::string(const std::pair<LinkId, Other>&)> cell;
+};
+
 /// Of two names each: those with the most contacts first.
 template <typename Other, typename NameOf>
 std::string rowsOfTwo(const char* title,
                       const std::map<std::pair<LinkId, Other>, ReplaySummary::Counts>& counts,
-                      const Skeleton& skeleton, const NameOf& nameOfOther) {
+                      const Skeleton& skeleton, const NameOf& nameOfOther,
+                      const LastColumn<Other>& last = {}) {
   using Row = std::pair<std::pair<LinkId, Other>, ReplaySummary::Counts>;
   std::vector<Row> rows(counts.begin(), counts.end());
   if (rows.empty()) return "";
@@ -50,12 +59,13 @@ std::string rowsOfTwo(const char* title,
     return std::make_pair(x.second.contacts, x.second.startsInContact) >
            std::make_pair(y.second.contacts, y.second.startsInContact);
   });
-  std::string text = fmt::format("\n{:<50}{:>10}{:>19}{:>11}\n", title, "contacts",
-                                 "starts in contact", "undecided");
+  std::string text = fmt::format("\n{:<50}{:>10}{:>19}{:>11}{}\n", title, "contacts",
+                                 "starts in contact", "undecided", last.title);
   for (std::size_t i = 0; i < std::min(rows.size(), kMaxRowsOfTwo); ++i) {
     const auto& [two, c] = rows[i];
-    text += fmt::format("{:<25}{:<25}{:>10}{:>19}{:>11}\n", skeleton.name(two.first),
-                        nameOfOther(two.second), c.contacts, c.startsInContact, c.undecided);
+    text += fmt::format("{:<25}{:<25}{:>10}{:>19}{:>11}{}\n", skeleton.name(two.first),
+                        nameOfOther(two.second), c.contacts, c.startsInContact, c.undecided,
+                        last.cell ? last.cell(two) : "");
   }
   if (rows.size() > kMaxRowsOfTwo) {
     text += fmt::format("and {} more\n", rows.size() - kMaxRowsOfTwo);
@@ -129,8 +139,25 @@ void ReplaySummary::countPairs(const StepAnswer& answer) {
       addTo(*counts, contact);
     }
     touches = touches || contact.verdict != Verdict::Undecided;
+    if (contact.verdict != Verdict::StartsInContact) continue;
+    Deepest& deepest = deepest_[{contact.link, contact.other}];
+    deepest.atLeast = std::max(deepest.atLeast, contact.penetration);
+    const bool isByMesh = contact.linkTriangle >= 0 || contact.triangle >= 0;
+    deepest.atMost =
+        std::max(deepest.atMost, isByMesh ? contact.penetrationAtMost : contact.penetration);
   }
   stepsWithPairs_ += touches ? 1 : 0;
+}
+
+std::vector<StartingPair> ReplaySummary::startingPairs() const {
+  constexpr double kNearlyEvery = 0.8;
+  std::vector<StartingPair> pairs;
+  for (const auto& [pair, counts] : ofPair_) {
+    if (static_cast<double>(counts.startsInContact) < kNearlyEvery * static_cast<double>(steps_))
+      continue;
+    pairs.push_back({{pair.first, pair.second}, counts.startsInContact});
+  }
+  return pairs;
 }
 
 double ReplaySummary::latencyUs(double share) const {
@@ -220,8 +247,28 @@ std::string ReplaySummary::ownPairs() const {
   text += row("start in own contact", pairs_.startsInContact);
   text += row("own pairs undecided", pairs_.undecided);
   const Skeleton& skeleton = inputs_.avatar.skeleton();
-  return text + rowsOfTwo("own links", ofPair_, skeleton,
-                          [&](LinkId other) { return skeleton.name(other); });
+  LastColumn<LinkId> depth;
+  if (!deepest_.empty()) depth.title = fmt::format("{:>16}", "deepest, mm");
+  if (!deepest_.empty()) depth.cell = [&](const auto& pair) { return deepestOf(pair); };
+  text += rowsOfTwo<LinkId>(
+      "own links", ofPair_, skeleton, [&](LinkId other) { return skeleton.name(other); }, depth);
+  const bool isUnknown = std::any_of(deepest_.begin(), deepest_.end(),
+                                     [](const auto& of) { return !(of.second.atLeast > 0.0); });
+  if (isUnknown) {
+    text += "?: not known; a mesh that encloses nothing has no inside (docs/formats.md, Results)\n";
+  }
+  return text;
+}
+
+/// "12.3", and where a mesh leaves it open, "12.3 to 14.0" or "? to 14.0".
+std::string ReplaySummary::deepestOf(const std::pair<LinkId, LinkId>& pair) const {
+  constexpr double kMmPerM = 1000.0, kSameMm = 0.1;
+  const auto at = deepest_.find(pair);
+  if (at == deepest_.end()) return fmt::format("{:>16}", "-");
+  const double least = kMmPerM * at->second.atLeast, most = kMmPerM * at->second.atMost;
+  std::string text = least > 0.0 ? fmt::format("{:.1f}", least) : "?";
+  if (std::isfinite(most) && most - least >= kSameMm) text += fmt::format(" to {:.1f}", most);
+  return fmt::format("{:>16}", text);
 }
 
 std::string ReplaySummary::cost() const {

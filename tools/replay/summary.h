@@ -49,12 +49,19 @@ class ReplaySummary {
   [[nodiscard]] const Counts& totalOfPairs() const { return pairs_; }
   /// Of every link with every object, where they were asked one by one; likewise.
   [[nodiscard]] const Counts& totalOfObjects() const { return objects_; }
+  /// Of these, the pairs that start in contact in nearly every step.
+  [[nodiscard]] std::vector<StartingPair> startingPairs() const;
   [[nodiscard]] std::int64_t stepsWithPairs() const { return stepsWithPairs_; }
   [[nodiscard]] std::int64_t stepsWithContact() const { return stepsWithContact_; }
   /// The latency within which this share of the steps was answered.
   [[nodiscard]] double latencyUs(double share) const;
 
  private:
+  /// Bounds on the depth of the deepest start in contact (m), as far as they are known.
+  struct Deepest {
+    double atLeast = 0.0, atMost = 0.0;
+  };
+
   void count(const LinkContact& contact);
   void countObjects(const StepAnswer& answer);
   void countPairs(const StepAnswer& answer);
@@ -63,6 +70,7 @@ class ReplaySummary {
   [[nodiscard]] std::string byLink() const;
   [[nodiscard]] std::string byObject() const;
   [[nodiscard]] std::string ownPairs() const;
+  [[nodiscard]] std::string deepestOf(const std::pair<LinkId, LinkId>& pair) const;
   [[nodiscard]] std::string cost() const;
 
   const ReplayInputs& inputs_;
@@ -70,6 +78,7 @@ class ReplaySummary {
   Counts total_, objects_, pairs_;
   std::map<std::pair<LinkId, ObjectId>, Counts> ofObject_;
   std::map<std::pair<LinkId, LinkId>, Counts> ofPair_;
+  std::map<std::pair<LinkId, LinkId>, Deepest> deepest_;  // of those that start in contact
   std::vector<Counts> ofLink_;
   TouchCounts touches_;
   std::vector<LinkTouches> touchesOfLink_;

@@ -244,6 +244,91 @@ TEST(SelfReplay, HintsAtMeshesThatAreApartThoughTheirLssTouch) {
       << ended.err;
 }
 
+TEST(SelfReplay, HintsAtPairsThatOnlyTheirLssMakeTouch) {
+  const SmallWorld world;
+  const TempFolder& folder = world.folder;
+  folder.write("plates.urdf", platesUrdf());
+  folder.write("turn.csv", "time,to_high\n0,0\n1,0.1\n");
+  const Ended made =
+      runForetouch({"avatar", "urdf", folder / "plates.urdf", "-o", folder / "plates.json"});
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  // All pairs are asked but those that are one beside the other.
+  folder.write("all.json",
+               R"({"format":"foretouch-pairs","version":1,"left_out":[
+{"a":"low","b":"pin","reason":"adjacent"},{"a":"pin","b":"high","reason":"adjacent"},
+{"a":"high","b":"knob","reason":"adjacent"}]})");
+  const auto replayed = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"--self", "--robot", folder / "plates.urdf", "--output",
+                                       folder / "out.jsonl"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runForetouch(world.replay(arguments, "wall.obj", "plates.json", "turn.csv"));
+  };
+  const Ended thick = replayed({"--pairs", folder / "all.json"});
+  ASSERT_EQ(thick.exitCode, 0) << thick.err;
+  EXPECT_TRUE(holds(thick.err,
+                    "--self: 1 pair of own links starts in contact by LSS in up to 1 of 1 steps, "
+                    "though their meshes are apart at each of 2 poses; leave them out: foretouch "
+                    "avatar pairs "))
+      << thick.err;
+  EXPECT_TRUE(holds(thick.err, "--leave-out 'low:high' -o own.pairs.json, then --pairs"))
+      << thick.err;
+  // The hint's own words do it.
+  const Ended written =
+      runForetouch({"avatar", "pairs", folder / "plates.json", "--robot", folder / "plates.urdf",
+                    "--leave-out", "low:high", "-o", folder / "own.pairs.json"});
+  ASSERT_EQ(written.exitCode, 0) << written.err;
+  const Ended rid = replayed({"--pairs", folder / "own.pairs.json"});
+  EXPECT_EQ(rid.exitCode, 0) << rid.err;
+  EXPECT_FALSE(holds(rid.err, "start in contact by LSS")) << rid.err;
+}
+
+/// A box that slides along x into another one: at 0.75 m by 50 mm, at 0.76 m by 60 mm.
+std::string boxesUrdf() {
+  return R"(<robot name="boxes">
+<link name="base"><collision><geometry><box size="0.4 0.4 0.4"/></geometry></collision></link>
+<link name="pin"><collision><geometry><sphere radius="0.01"/></geometry></collision></link>
+<link name="box"><collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
+<joint name="up" type="fixed"><parent link="base"/><child link="pin"/><origin xyz="0 0 1"/></joint>
+<joint name="slide" type="prismatic"><parent link="pin"/><child link="box"/><origin xyz="-1 0 -1"/>
+<axis xyz="1 0 0"/><limit lower="0" upper="1" effort="1" velocity="1"/></joint></robot>)";
+}
+
+TEST(SelfReplay, TellsHowDeepMeshesBeginInEachOther) {
+  const SmallWorld world;
+  const TempFolder& folder = world.folder;
+  folder.write("boxes.urdf", boxesUrdf());
+  folder.write("slide.csv", "time,slide\n0,0.2\n1,0.75\n2,0.76\n3,0.1\n");
+  const Ended made =
+      runForetouch({"avatar", "urdf", folder / "boxes.urdf", "-o", folder / "boxes.json"});
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  const Ended ended =
+      runForetouch(world.replay({"--self", "--fidelity", "exact", "--robot", folder / "boxes.urdf",
+                                 "--output", folder / "out.jsonl"},
+                                "wall.obj", "boxes.json", "slide.csv"));
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_TRUE(holds(ended.out, "deepest, mm\n")) << ended.out;
+  EXPECT_TRUE(holds(ended.out, " 60.0\n")) << ended.out;
+  std::istringstream stream(contentOf(folder / "out.jsonl"));
+  std::vector<double> deep;
+  for (std::string line; std::getline(stream, line);) {
+    const json read = json::parse(line);
+    if (read.count("touch") != 0) {
+      EXPECT_NEAR(read["touch"]["penetration"].get<double>(), 0.06, 1e-6);
+    }
+    if (read.count("pairs") == 0) continue;
+    for (const json& pair : read["pairs"]) {
+      if (pair["verdict"] != "starts_in_contact") continue;
+      const double least = pair["penetration"], most = pair["penetration_at_most"];
+      EXPECT_LE(least, most);
+      EXPECT_NEAR(least, most, 1e-6);
+      deep.push_back(least);
+    }
+  }
+  ASSERT_EQ(deep.size(), 2u);
+  EXPECT_NEAR(deep[0], 0.05, 1e-6);
+  EXPECT_NEAR(deep[1], 0.06, 1e-6);
+}
+
 TEST(AvatarPairs, ListsEveryHoleWithItsReason) {
   const Hands world;
   const Ended ended = runForetouch({"avatar", "pairs", world.folder / "hands.json"});

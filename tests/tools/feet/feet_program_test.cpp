@@ -182,6 +182,34 @@ TEST(FeetProgram, LaysTheClipOnTheSceneBelowItsFeet) {
   EXPECT_NEAR(std::stod(rows[1][12]), 0.0, 0.1) << "depth";
 }
 
+/// As on a treadmill of 1.4 m/s: a clip whose body something else is to move.
+TEST(FeetProgram, SaysOfAWalkInPlaceThatItIsOne) {
+  const auto soleAt = [](double timeS) {
+    const double share = timeS - std::floor(timeS);
+    if (share < 0.5) return Place{0, 0, 0.35 - 1.4 * share};
+    return Place{0, 0.1 * std::sin(2.0 * 3.14159265358979 * (share - 0.5)),
+                 -0.35 + 1.4 * (share - 0.5)};
+  };
+  std::vector<Place> left, right;
+  for (int frame = 0; frame <= 300; ++frame) {
+    left.push_back(soleAt(frame * kFrameS));
+    right.push_back(soleAt(frame * kFrameS + 0.5));
+  }
+  const PlantedFiles files;
+  files.folder.write("walk.bvh", walkBvh(left, right, kFrameS));
+  const Ended walks = files.feet({});
+  ASSERT_EQ(walks.exitCode, 0) << walks.err;
+  EXPECT_NE(walks.err.find("it walks in place, for something else to move it: each foot that bears "
+                           "slides, on average at 1.40 m/s"),
+            std::string::npos)
+      << walks.err;
+  const Ended fits = files.feet({"--ground", "fit"});
+  EXPECT_EQ(fits.exitCode, 2);
+  EXPECT_NE(fits.err.find("it walks in place, so each foot slides"), std::string::npos) << fits.err;
+  EXPECT_EQ(PlantedFiles().feet({}).err.find("in place"), std::string::npos)
+      << "one that gets somewhere";
+}
+
 /// Real clips: one that begins in a T-pose, and a sprint of 0.6 s whose feet never rest.
 TEST(FeetProgram, FitsAWalkAndRefusesASprint) {
   FORETOUCH_REQUIRE_SHARED(walk, "mocap/cmu_cgspeed_walk_crlf.bvh");

@@ -1,10 +1,12 @@
 // tests/tools/sweep/sweep_program_test.cpp: `foretouch sweep` from files to files, read back.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -12,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "assets/import/scene_import.h"
+#include "tests/tools/inputs/arms_bvh.h"
 #include "tests/tools/program_run.h"
 #include "tests/tools/small_world.h"
 
@@ -123,6 +126,35 @@ TEST(SweepProgram, PlyHoldsTimeAndLinkOfEveryVertex) {
   EXPECT_EQ(links.size(), 2u);
   EXPECT_NEAR(least, 0.05, 1e-12);
   EXPECT_NEAR(most, 0.25, 1e-12);
+}
+
+/// The clip holds a T-pose for its first five frames: then nothing of what they sweep is there.
+TEST(SweepProgram, LeavesOutATPoseWhenAsked) {
+  const TempFolder folder;
+  folder.write("arms.bvh", armsBvh(5, 12));
+  ASSERT_EQ(
+      runForetouch({"avatar", "bvh", folder / "arms.bvh", "-o", folder / "arms.json"}).exitCode, 0);
+  const auto highest = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"sweep",           "--avatar",          folder / "arms.json",
+                                       "--motion",        folder / "arms.bvh", "--output",
+                                       folder / "out.obj"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = runForetouch(arguments);
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    const auto scene = importScene(folder / "out.obj", {});
+    EXPECT_TRUE(scene.ok());
+    double most = 0.0;
+    for (const Triangle& t : scene.value().scene.triangles) {
+      for (const Eigen::Vector3d& v : t.vertices) most = std::max(most, std::abs(v.x()));
+    }
+    return std::pair{most, ended.err};
+  };
+  const auto all = highest({}), cut = highest({"--skip-t-pose"}), named = highest({"--from", "5f"});
+  EXPECT_NE(cut.second.find("--skip-t-pose: left out a T-pose, the first 5 frames"),
+            std::string::npos)
+      << cut.second;
+  EXPECT_LT(cut.first, all.first - 0.05) << "arms held out reach farther than arms that hang";
+  EXPECT_NEAR(cut.first, named.first, 1e-9);
 }
 
 TEST(SweepProgram, GlbIsWhatItsJsonSays) {

@@ -45,17 +45,23 @@ function stands({ begin, end }: FootStance): boolean {
   return end - begin >= shortestStand;
 }
 
-/** The worst first; what is over too soon to stand comes after what stands. */
+/** The worst first; of what slides or sinks in, what is over too soon to stand comes after what stands. */
 export function byBadness(stances: readonly Touch[]): Touch[] {
-  const rank = ({ stance }: Touch): number => (stance === null ? 0 : badness(stance) + (stands(stance) ? 1e6 : 0));
+  const isFault = (stance: FootStance): boolean => isSlide(stance) || isDeep(stance);
+  const rank = ({ stance }: Touch): number => (stance === null ? 0 : badness(stance) + (isFault(stance) && stands(stance) ? 1e6 : 0));
   return [...stances].sort((a, b) => rank(b) - rank(a));
 }
 
 /** Of those that stand the one with the greatest of something; null where all have less than is told. */
 export function worstBy(stances: readonly Touch[], of: (stance: FootStance) => number): Touch | null {
+  return worstOf(stances.filter(({ stance }) => stance !== null && stands(stance)), of);
+}
+
+/** The same of all, also of a foot that only passes. */
+export function worstOf(stances: readonly Touch[], of: (stance: FootStance) => number): Touch | null {
   let worst: Touch | null = null;
   for (const touch of stances) {
-    if (touch.stance === null || !stands(touch.stance) || of(touch.stance) < told) continue;
+    if (touch.stance === null || of(touch.stance) < told) continue;
     if (worst?.stance == null || of(touch.stance) > of(worst.stance)) worst = touch;
   }
   return worst;

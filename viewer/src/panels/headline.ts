@@ -1,7 +1,7 @@
 // The page's title and the one sentence that matters.
 
 import { discreteCount } from "../contacts/discrete.js";
-import { worstBy } from "../contacts/feet.js";
+import { worstBy, worstOf } from "../contacts/feet.js";
 import { countPerson } from "../contacts/person.js";
 import type { Model } from "../model.js";
 import { byId } from "./dom.js";
@@ -20,7 +20,11 @@ function ofFeet(model: Model): string {
   if (slides?.stance != null) parts.push(`${slides.linkName} slides ${millimetres(slides.stance.slide)} (${framed(model, slides.begin)})`);
   if (deep?.stance != null) parts.push(`${deep.linkName} is ${millimetres(deep.stance.depth)} deep in (${framed(model, deep.stance.depthAt)})`);
   if (parts.length > 0) return ` ${parts.join(", and ")}.`;
-  return model.document.feet.length > 0 ? " No foot slides or sinks in." : "";
+  if (model.document.feet.length === 0) return "";
+  const passing = worstOf(model.stances, ({ depth }) => depth);
+  if (passing?.stance == null) return " No foot slides or sinks in.";
+  const { depth, depthAt } = passing.stance;
+  return ` No foot that stands slides or sinks in; ${passing.linkName} passes ${millimetres(depth)} deep (${framed(model, depthAt)}).`;
 }
 
 /** What is true of the person, not of the model. */
