@@ -70,6 +70,8 @@ struct StepBrackets {
   std::vector<LinkBracket> pairs;
   std::int32_t pieces = 0;  ///< Of constant rate, that stand for the model.
   std::uint64_t looks = 0;  ///< Distances of two parts.
+  std::uint64_t work = 0;   ///< As BracketOptions::workBudget counts it.
+  bool isSpent = false;  ///< The budget was: what is possible might have been excluded, or certain.
 };
 
 struct BracketOptions {
@@ -80,6 +82,9 @@ struct BracketOptions {
   std::vector<IgnoredPair> ignored;
   /// Instants are as near to the true ones as this distance (m), 1e-9 to 1.
   double resolution = 1e-5;
+  /// Of one answer, counted as QueryOptions::workBudget is: the same on every machine. Once it is
+  /// spent, what is still open is possible; finding what is open is not counted.
+  std::uint64_t workBudget = std::numeric_limits<std::uint64_t>::max();
 };
 
 }  // namespace foretouch

@@ -10,7 +10,16 @@ void BodyBrackets::begin(std::size_t numLinks) {
   growths.assign(numLinks, std::nullopt);
   most.assign(numLinks, 0.0);
   isOpen.assign(numLinks, 1);
+  isMoved.assign(numLinks, 1);
   cuts = {};
+}
+
+void BodyBrackets::moveOpen(const Skeleton& skeleton) {
+  isMoved = isOpen;
+  for (JointId joint = skeleton.numJoints() - 1; joint >= 0; --joint) {
+    const JointId parent = skeleton.parent(joint);
+    if (isMoved[slotOf(joint)] != 0 && parent != kNoParent) isMoved[slotOf(parent)] = 1;
+  }
 }
 
 BodyPlan BodyPlan::of(const Avatar& avatar, const std::optional<AvatarSurface>& surface) {

@@ -4,13 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "articulated/motion.h"
 #include "lss/index.h"
 #include "middleware/bracket/bracket.h"
+#include "middleware/bracket/known_places.h"
 #include "middleware/bracket/leaf_search.h"
 #include "middleware/bracket/link_leaves.h"
 #include "middleware/bracket/model_pieces.h"
@@ -37,13 +38,16 @@ struct BodyBrackets {
   ModelMotion model;
   std::array<ModelPieces, kLevels> levels;
   std::array<LevelCut, kLevels> cuts{};
-  std::vector<LinkState> before, from, to, after;
+  KnownPlaces places;
   std::vector<std::optional<StepGrowth>> growths;  ///< Per link, of the step.
   std::vector<double> most;                        ///< Per link: the largest, as told.
   std::vector<Aabb> boxes;                         ///< Per link: what it may sweep in the step.
   std::vector<std::uint8_t> isOpen;                ///< Per link: it may touch what is asked.
+  std::vector<std::uint8_t> isMoved;               ///< Per joint: an open link hangs on it.
 
   void begin(std::size_t numLinks);
+  /// From `isOpen`: finer levels move these joints alone.
+  void moveOpen(const Skeleton& skeleton);
 };
 
 /// The same, of one body or two.
@@ -94,6 +98,7 @@ struct BracketPlan {
   std::vector<IgnoredPair> ignored;
   PairsAsked asked;
   std::vector<foretouch::LinkPair> pairs;  // of own links, that are asked
+  std::uint64_t workBudget = std::numeric_limits<std::uint64_t>::max();
 };
 
 /// How the growths of pieces follow from what is known of a link.

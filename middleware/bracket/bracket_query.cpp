@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "articulated/link_places.h"
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
@@ -76,13 +75,12 @@ namespace {
 /// ends of a link's axes; infinite if nothing is known (bracket.md 4).
 class PoseBends {
  public:
-  PoseBends(const PosedStep& step, const Skeleton& skeleton, BodyBrackets& memory)
-      : step_(step), memory_(memory) {
-    place(step.before, skeleton, memory.before);
-    place(step.from, skeleton, memory.from);
-    place(step.to, skeleton, memory.to);
-    place(step.after, skeleton, memory.after);
-  }
+  PoseBends(const PosedStep& step, const Avatar& avatar, internal::KnownPlaces& known)
+      : step_(step),
+        before_(placed(step.before, avatar, known)),
+        from_(placed(step.from, avatar, known)),
+        to_(placed(step.to, avatar, known)),
+        after_(placed(step.after, avatar, known)) {}
   [[nodiscard]] double of(const Avatar& avatar, LinkId link) const {
     double most = 0.0;
     for (const Lss& lss : avatar.lss(link)) {
@@ -92,15 +90,15 @@ class PoseBends {
   }
 
  private:
-  static void place(const Pose* pose, const Skeleton& skeleton, std::vector<LinkState>& states) {
-    if (pose == nullptr) return;
-    placesAt(skeleton, *pose, states);
+  using Places = std::vector<LinkState>;
+  static_assert(internal::KnownPlaces::kKept > 4, "of four poses at once");
+  static const Places* placed(const Pose* pose, const Avatar& avatar,
+                              internal::KnownPlaces& known) {
+    return pose != nullptr ? &known.at(avatar, *pose) : nullptr;
   }
   [[nodiscard]] double ofPoint(LinkId link, const Vector3d& p_L) const {
-    const auto placed = [&](const std::vector<LinkState>& states) {
-      return states[slotOf(link)].pointAt(p_L);
-    };
-    const Vector3d from = placed(memory_.from), to = placed(memory_.to);
+    const auto pointIn = [&](const Places* places) { return (*places)[slotOf(link)].pointAt(p_L); };
+    const Vector3d from = pointIn(from_), to = pointIn(to_);
     const Vector3d rate = (to - from) / step_.seconds;
     double sum = 0.0;
     int count = 0;
@@ -108,14 +106,14 @@ class PoseBends {
       sum += 2.0 * (rate - change / seconds).norm() / (step_.seconds + seconds);
       ++count;
     };
-    if (step_.before != nullptr) add(from - placed(memory_.before), step_.secondsBefore);
-    if (step_.after != nullptr) add(placed(memory_.after) - to, step_.secondsAfter);
+    if (before_ != nullptr) add(from - pointIn(before_), step_.secondsBefore);
+    if (after_ != nullptr) add(pointIn(after_) - to, step_.secondsAfter);
     if (count == 0) return LinkBound::kNone;
     return sum / count * step_.seconds * step_.seconds;
   }
 
   const PosedStep& step_;
-  BodyBrackets& memory_;
+  const Places *before_, *from_, *to_, *after_;
 };
 
 void beginBodies(const BracketPlan& plan, BracketMemory& memory) {
@@ -133,7 +131,8 @@ void beginAnswer(const BracketPlan& plan, BracketMemory& memory, StepBrackets& b
   }
   brackets.pairs.clear();
   brackets.pieces = 0;
-  brackets.looks = memory.sides.looks = 0;
+  memory.sides.looks = memory.sides.work = 0;
+  memory.sides.mostWork = plan.workBudget;
   beginBodies(plan, memory);
 }
 
@@ -192,14 +191,13 @@ class GrowthsAhead final : public internal::PieceGrowths {
 /// The model and what follows from the bounds.
 void prepare(const BodyPlan& plan, const PersonStep& person, BodyBrackets& memory) {
   memory.part = {person.step, person.begin, person.end};
-  const Skeleton& skeleton = plan.avatar.skeleton();
   const std::vector<LinkBound>& bounds = *person.bounds;
-  memory.model.assign(skeleton, person.step, person.model);
+  memory.model.assign(plan.avatar.skeleton(), person.step, person.model);
   std::optional<PoseBends> bends;
   const bool isAnyFollowed = std::any_of(bounds.begin(), bounds.end(), [](const LinkBound& bound) {
     return std::isfinite(bound.followFloor);
   });
-  if (isAnyFollowed) bends.emplace(person.step, skeleton, memory);
+  if (isAnyFollowed) bends.emplace(person.step, plan.avatar, memory.places);
   for (LinkId link = 0; link < plan.avatar.numLinks(); ++link) {
     const auto i = slotOf(link);
     const double bend = bends ? bends->of(plan.avatar, link) : LinkBound::kNone;
@@ -228,8 +226,13 @@ Result<BracketQuery> BracketQuery::build(const Avatar& avatar, const std::option
   if (options.self && options.self->avatarIdentity() != avatar.identity()) {
     return Error::in("self", ErrorCode::Mismatch, "expected the pair rules of this avatar");
   }
-  BracketPlan plan{
-      {BodyPlan::of(avatar, options.surface)}, scene, options.resolution, options.ignored, {}, {}};
+  BracketPlan plan{{BodyPlan::of(avatar, options.surface)},
+                   scene,
+                   options.resolution,
+                   options.ignored,
+                   {},
+                   {},
+                   options.workBudget};
   if (options.self) {
     plan.asked = internal::PairsAsked(avatar, plan.bodies[0].table, *options.self);
     plan.pairs = internal::askedLinks(avatar, *options.self);
@@ -303,7 +306,8 @@ Result<PairBracketQuery> PairBracketQuery::build(const Avatar& one, const Avatar
                   options.resolution,
                   {},
                   {},
-                  {}}));
+                  {},
+                  options.workBudget}));
 }
 
 Result<Done> PairBracketQuery::answer(const PersonStep& one, const PersonStep& other,

@@ -4,6 +4,8 @@
 // docs/person.md; its proof: middleware/bracket/bracket.md.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -61,7 +63,8 @@ class PairBracketQuery {
  public:
   struct Options {
     std::optional<AvatarSurface> surface, otherSurface;  ///< Exact fidelity.
-    double resolution = 1e-5;                            ///< As BracketOptions has it.
+    double resolution = 1e-5;                            ///< As BracketOptions has it, and
+    std::uint64_t workBudget = std::numeric_limits<std::uint64_t>::max();  ///< this, too.
   };
   /// Errors: a surface of another avatar; a resolution out of range.
   static Result<PairBracketQuery> build(const Avatar& one, const Avatar& other,

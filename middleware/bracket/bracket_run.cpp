@@ -7,6 +7,7 @@
 #include "lss/rounding.h"
 #include "middleware/bracket/model_levels.h"
 #include "middleware/bracket/step_sweep.h"
+#include "middleware/scene/flat_bvh_lanes.h"
 #include "tessellation/swept_lss.h"
 
 namespace foretouch::internal {
@@ -36,6 +37,8 @@ class BracketRun : private StepSweep {
     }
     forEachPair([this](const Asked& asked) { bracketPair(asked); });
     brackets_.looks = memory_.sides.looks;
+    brackets_.work = memory_.sides.work;
+    brackets_.isSpent = memory_.sides.isSpent();
   }
 
  private:
@@ -66,21 +69,26 @@ class BracketRun : private StepSweep {
   /// By the base level first, which excludes most, and closes on what is touched throughout; what
   /// it leaves open, by the level that is fine enough.
   void bracketSides(const Asked& asked, LinkBracket& bracket) {
+    if (memory_.sides.isSpent()) {
+      bracket.verdict = BracketVerdict::Possible;
+      return;
+    }
     limit(bracket.growth, asked);
-    bracketOn(memory_.base, asked, bracket);
+    const int level = ask_.isRefined ? levelFor(asked) : memory_.base;
+    bracketOn(memory_.base, asked, level == memory_.base, bracket);
     const bool isClosed = bracket.verdict == BracketVerdict::Excluded ||
                           (bracket.verdict == BracketVerdict::Certain &&
                            bracket.certainFrom <= bracket.possibleFrom &&
                            bracket.certainUntil >= bracket.possibleUntil);
-    const int level = ask_.isRefined && !isClosed ? levelFor(asked) : memory_.base;
-    if (level > memory_.base) {
+    if (memory_.sides.isSpent()) return;
+    if (level > memory_.base && !isClosed) {
       for (const std::size_t body : {std::size_t{0}, asked.otherBody}) {
         cutLevel(plan_, body, level, memory_);
       }
       brackets_.pieces = std::max(brackets_.pieces, 1 << level);
-      bracketOn(level, asked, bracket);
+      bracketOn(level, asked, true, bracket);
     }
-    if (asked.other == kNoParent) findPassage(std::max(level, memory_.base), bracket);
+    if (asked.other == kNoParent) findPassage(isClosed ? memory_.base : level, bracket);
   }
 
   /// Its triangles are listed by leaves, piece by piece.
@@ -134,8 +142,10 @@ class BracketRun : private StepSweep {
     return growth + ask_.growths.of(otherPiece, asked.otherBody, asked.other);
   }
 
-  /// What the bracket says already holds, and is made narrower.
-  void bracketOn(int level, const Asked& asked, LinkBracket& bracket) {
+  /// What the bracket says already holds, and is made narrower. `isLast`: no finer level follows;
+  /// else certainty is of use only where it closes the bracket, as it may on what touches
+  /// throughout.
+  void bracketOn(int level, const Asked& asked, bool isLast, LinkBracket& bracket) {
     const bool isNew = bracket.verdict == BracketVerdict::Excluded;
     const double earliest = isNew ? 0.0 : bracket.possibleFrom;
     const double latest = isNew ? 1.0 : bracket.possibleUntil;
@@ -149,7 +159,8 @@ class BracketRun : private StepSweep {
     SidesPair inside = witness;
     const auto last = find(level, asked, {Body::Grown, Way::Backward}, latest, *first, witness);
     bracket.possibleUntil = last.value_or(latest);
-    findCertain(level, asked, inside, bracket);
+    const bool isThroughout = bracket.possibleFrom <= 0.0 && bracket.possibleUntil >= 1.0;
+    if (isLast || isThroughout) findCertain(level, asked, inside, bracket);
   }
 
   /// Nothing is found; where a coarser level was certain, that holds.
@@ -282,21 +293,22 @@ class BracketRun : private StepSweep {
     const NearLeaves& leaves = leavesIn(basePiece, asked.link);
     if (leaves.empty()) return std::nullopt;
     const bool areFew = leaves.size() <= LeafSearch::kFewLeaves;
-    const NearPairs* const pairs = areFew ? &pairsIn(basePiece, asked.link) : nullptr;
-    if (areFew && pairs->empty()) return std::nullopt;
     const int firstPiece = search.way == Way::Forward ? 0 : piecesOf(0, level).count() - 1;
     if (!areFew && witness.isNone() && k == firstPiece) {
       witness = nearestAt(basePiece, search.way, asked.link);
     }
     const Growth growth = setSides(level, k, asked);
-    if (areFew) {
-      memory_.sides.limitTo(*pairs, level == memory_.base);
-      return memory_.bracketer.find(memory_.sides, growth, plan_.resolution, search, from,
-                                    search.way == Way::Forward ? 1.0 : 0.0, witness);
-    }
-    if (!witness.isNone() &&
+    if (!areFew && !witness.isNone() &&
         SideBracketer::isFound(memory_.sides, growth, plan_.resolution, search, from, witness)) {
       return from;
+    }
+    if (areFew) {
+      memory_.sides.addBoxes(leaves.size() * countOf(kBvhWidth));
+      const NearPairs& pairs = pairsIn(basePiece, asked.link);
+      if (pairs.empty()) return std::nullopt;
+      memory_.sides.limitTo(pairs, level == memory_.base);
+      return memory_.bracketer.find(memory_.sides, growth, plan_.resolution, search, from,
+                                    search.way == Way::Forward ? 1.0 : 0.0, witness);
     }
     const LinkInPiece piece{
         *plan_.scene, lssOf(0, asked.link), asked.link,   piecesOf(0, level).piece(k).evaluator,

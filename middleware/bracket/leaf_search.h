@@ -39,17 +39,20 @@ class LeafSearch {
                                            SidesPair& witness);
 
  private:
+  /// Of the piece, down to the part at hand; the last of them that left about as many leaves.
+  struct Halvings {
+    std::size_t all = 0, idle = 0;
+  };
   [[nodiscard]] std::optional<double> findIn(double from, double to, const NearLeaves& leaves,
-                                             std::size_t depth);
+                                             Halvings done);
   void setTubes(double from, double to);
-  void keepNearest(NearLeaves& leaves) const;
 
   const LinkInPiece* piece_ = nullptr;
   BracketSearch search_;
   SidesPair* witness_ = nullptr;
   MotionBounds bounds_;
   SideBracketer bracketer_;
-  std::vector<NearLeaves> fewer_;  // per depth
+  std::vector<NearLeaves> fewer_;  // per halving
   NearPairs pairs_;
   LinkTubes tubes_;
 };

@@ -86,7 +86,6 @@ void LinkLeaves::collect(const Scene& scene, const LinkTubes& tubes, const NearL
     const SweptTube& tube = tubes[slotOf(near.lss)];
     if (near.lss != lss) box = localBox(tube.box(), bvh.origin());
     lss = near.lss;
-    if (!tube.mayMeet(ballOf(bvh, near.leaf))) continue;
     const Eight eight = trianglesOverlapping(bvh.leaf(near.leaf), box);
     forEachAsked(bvh, near, [&](unsigned slot, TriangleId id) {
       if (eight.overlaps[slot] == 0) return;
@@ -123,10 +122,6 @@ SidesPair LinkLeaves::nearest(const Scene& scene, const LinkTubes& tubes,
     nearest = {{best->lss, -1}, {-1, id}};
   });
   return nearest;
-}
-
-double LinkLeaves::distanceTo(const Scene& scene, const LinkTubes& tubes, const NearLeaf& leaf) {
-  return tubes[slotOf(leaf.lss)].distanceTo(ballOf(scene.parts().bvh, leaf.leaf));
 }
 
 }  // namespace foretouch::internal

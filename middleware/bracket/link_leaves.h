@@ -46,15 +46,12 @@ class LinkLeaves {
   /// The leaves among them that tubes meet.
   static void narrow(const Scene& scene, const LinkTubes& tubes, const NearLeaves& leaves,
                      NearLeaves& fewer);
-  /// The pairs in leaves that tubes meet; the nearest is the first, or nearly so.
+  /// The pairs that tubes meet in leaves that they do; the nearest is the first, or nearly so.
   static void collect(const Scene& scene, const LinkTubes& tubes, const NearLeaves& leaves,
                       NearPairs& pairs);
   /// The nearest, or nearly so, of those that tubes meet; none if that is not sure.
   [[nodiscard]] static SidesPair nearest(const Scene& scene, const LinkTubes& tubes,
                                          const NearLeaves& leaves);
-  /// Of a leaf's middle from the tube's axis, as computed (m).
-  [[nodiscard]] static double distanceTo(const Scene& scene, const LinkTubes& tubes,
-                                         const NearLeaf& leaf);
 
  private:
   void setLanes(const Scene& scene, const std::vector<Aabb>& boxes);

@@ -34,8 +34,8 @@ double excessOf(const BodyPlan& plan, const BodyBrackets& memory, ModelPieces& p
 
 bool cut(const BodyPlan& plan, BodyBrackets& memory, int level) {
   if (memory.cuts[slotOf(level)] == LevelCut::None) {
-    const bool isKnown = memory.levels[slotOf(level)].cut(plan.avatar.skeleton(), memory.part,
-                                                          memory.model, 1 << level);
+    const bool isKnown = memory.levels[slotOf(level)].cut(
+        plan.avatar, memory.part, memory.model, {1 << level, memory.isMoved, memory.places});
     memory.cuts[slotOf(level)] = isKnown ? LevelCut::Known : LevelCut::Unknown;
   }
   return memory.cuts[slotOf(level)] == LevelCut::Known;

@@ -9,9 +9,11 @@ namespace foretouch::internal {
 namespace {
 
 /// Adds up what the joints of each chain stray (bracket.md 3); false if that is any amount.
-bool addStrays(const Skeleton& skeleton, const ModelMotion& model, ModelPiece& piece) {
+bool addStrays(const Skeleton& skeleton, const ModelMotion& model,
+               const std::vector<std::uint8_t>& isMoved, ModelPiece& piece) {
   bool isFinite = true;
   for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
+    if (isMoved[slotOf(joint)] == 0) continue;
     const JointStray own = model.strayOf(joint, piece.stepBegin, piece.stepEnd);
     LinkStray& stray = piece.strays[slotOf(joint)];
     stray = {own.turn, own.shift};
@@ -41,7 +43,10 @@ void ModelPieces::resize(int count) {
     piece(k).begin = static_cast<double>(k) / count;
     piece(k).end = static_cast<double>(k + 1) / count;
   }
-  for (Placed& placed : at_) placed.isKnown = false;
+  for (Placed& placed : at_) {
+    placed.isGiven = false;
+    placed.known = nullptr;
+  }
 }
 
 int ModelPieces::at(double t) const {
@@ -55,34 +60,40 @@ void ModelPieces::setPiece(int k, const Skeleton& skeleton) {
   now.strays.assign(countOf(skeleton.numJoints()), {});
 }
 
-const std::vector<LinkState>& ModelPieces::places(const Skeleton& skeleton, int k) {
+const std::vector<LinkState>& ModelPieces::places(const Avatar& avatar, int k) {
   Placed& placed = at_[slotOf(k)];
-  if (!placed.isKnown) placesAt(skeleton, placed.pose, placed.places);
-  placed.isKnown = true;
-  return placed.places;
+  if (placed.known != nullptr) return *placed.known;
+  if (!placed.isGiven) placesAt(avatar.skeleton(), placed.pose, placed.places);
+  placed.known = placed.isGiven ? &places_->at(avatar, placed.pose) : &placed.places;
+  return *placed.known;
 }
 
-void ModelPieces::poseAt(double t, const ModelMotion& model, Pose& pose) const {
+void ModelPieces::poseAt(double t, const ModelMotion& model, const PieceCut& cut,
+                         Pose& pose) const {
   const bool isInside = t != 0.0 && t != 1.0;
   if (model.isConstantRate() && isInside) return whole_.poseAt(t, pose);
-  model.poseAt(t, pose);
+  model.poseAt(t, cut.isMoved, pose);
 }
 
-bool ModelPieces::cut(const Skeleton& skeleton, const AskedPart& part, const ModelMotion& model,
-                      int count) {
-  resize(count);
+bool ModelPieces::cut(const Avatar& avatar, const AskedPart& part, const ModelMotion& model,
+                      const PieceCut& cut) {
+  resize(cut.count);
+  places_ = &cut.places;
+  const Skeleton& skeleton = avatar.skeleton();
   const bool isWhole = part.begin == 0.0 && part.end == 1.0;
-  const bool strays = !model.isConstantRate() || !isWhole || count > 1;
+  const bool strays = !model.isConstantRate() || !isWhole || count_ > 1;
   if (model.isConstantRate() && strays) whole_.assign(skeleton, *part.step.from, *part.step.to);
   bool isFinite = true;
-  poseAt(part.begin, model, at_[0].pose);
-  for (int k = 0; k < count; ++k) {
+  poseAt(part.begin, model, cut, at_[0].pose);
+  at_[0].isGiven = part.begin == 0.0;
+  at_[slotOf(count_)].isGiven = part.end == 1.0;
+  for (int k = 0; k < count_; ++k) {
     ModelPiece& now = piece(k);
     now.stepBegin = part.at(now.begin);
     now.stepEnd = part.at(now.end);
-    poseAt(now.stepEnd, model, at_[slotOf(k) + 1].pose);
+    poseAt(now.stepEnd, model, cut, at_[slotOf(k) + 1].pose);
     setPiece(k, skeleton);
-    if (strays) isFinite = addStrays(skeleton, model, now) && isFinite;
+    if (strays) isFinite = addStrays(skeleton, model, cut.isMoved, now) && isFinite;
   }
   return isFinite;
 }

@@ -2,12 +2,15 @@
 // link may be from the model in each. Not installed.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "articulated/avatar.h"
 #include "articulated/motion.h"
 #include "articulated/motion_model.h"
 #include "articulated/skeleton.h"
 #include "lss/index.h"
+#include "middleware/bracket/known_places.h"
 
 namespace foretouch::internal {
 
@@ -33,6 +36,14 @@ struct AskedPart {
   [[nodiscard]] double at(double t) const { return t == 1.0 ? end : begin + t * (end - begin); }
 };
 
+/// So many equal pieces, in which these joints are moved: others stay as the step begins, and no
+/// link that hangs on them is asked.
+struct PieceCut {
+  int count;
+  const std::vector<std::uint8_t>& isMoved;  ///< Per joint; of a moved one its parent is, too.
+  KnownPlaces& places;                       ///< Both outlive the pieces.
+};
+
 /// One cut of a step. For one thread; keeps its memory.
 class ModelPieces {
  public:
@@ -42,8 +53,9 @@ class ModelPieces {
   ModelPieces(const ModelPieces&) = delete;  // evaluators refer to their pieces' motions
   ModelPieces& operator=(const ModelPieces&) = delete;
 
-  /// Equal pieces of a part of the model's step. False: a link may stray by any amount in one.
-  bool cut(const Skeleton& skeleton, const AskedPart& part, const ModelMotion& model, int count);
+  /// Of a part of the model's step. False: a link may stray by any amount in a piece.
+  bool cut(const Avatar& avatar, const AskedPart& part, const ModelMotion& model,
+           const PieceCut& cut);
   /// The first half of the step stands as at its begin, the second half as at its end.
   void stand(const Skeleton& skeleton, const PosedStep& step);
   /// Goes on as it went in the step, in pieces that grow: what may be touched soon is found before
@@ -53,20 +65,20 @@ class ModelPieces {
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] ModelPiece& piece(int k) { return pieces_[slotOf(k)]; }
   /// Where the links are at a piece's begin and at its end.
-  [[nodiscard]] const std::vector<LinkState>& placesAtBegin(const Skeleton& skeleton, int k) {
-    return places(skeleton, k);
+  [[nodiscard]] const std::vector<LinkState>& placesAtBegin(const Avatar& avatar, int k) {
+    return places(avatar, k);
   }
-  [[nodiscard]] const std::vector<LinkState>& placesAtEnd(const Skeleton& skeleton, int k) {
-    return places(skeleton, isContinuous_ ? k + 1 : k);
+  [[nodiscard]] const std::vector<LinkState>& placesAtEnd(const Avatar& avatar, int k) {
+    return places(avatar, isContinuous_ ? k + 1 : k);
   }
   /// The piece that holds an instant of the step.
   [[nodiscard]] int at(double t) const;
 
  private:
   void resize(int count);
-  void poseAt(double t, const ModelMotion& model, Pose& pose) const;
+  void poseAt(double t, const ModelMotion& model, const PieceCut& cut, Pose& pose) const;
   void setPiece(int k, const Skeleton& skeleton);
-  const std::vector<LinkState>& places(const Skeleton& skeleton, int k);
+  const std::vector<LinkState>& places(const Avatar& avatar, int k);
 
   std::vector<ModelPiece> pieces_;
   int count_ = 0;
@@ -75,9 +87,11 @@ class ModelPieces {
   struct Placed {
     Pose pose;
     std::vector<LinkState> places;
-    bool isKnown = false;
+    bool isGiven = false;                           // one of the step's own poses
+    const std::vector<LinkState>* known = nullptr;  // once they are
   };
   std::vector<Placed> at_;  // where pieces begin and end
+  KnownPlaces* places_ = nullptr;
   std::vector<Pose> ends_;
   std::vector<double> endsS_;
 };

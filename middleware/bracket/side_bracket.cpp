@@ -15,9 +15,8 @@ constexpr double kFirstSpan = 0.25;
 struct Levels {
   double resolution, enter, floor;
 };
-Levels levelsOf(const Growth& growth, double resolution, bool isGrown) {
+Levels levelsOf(double resolution, bool isGrown) {
   // The shrunk body steps through its surface by the resolution at most, so that it is inside then.
-  resolution = std::max(resolution, kResolutionShare * growth.most());
   return {resolution, isGrown ? resolution : 0.0, isGrown ? kFloorShare * resolution : -resolution};
 }
 
@@ -45,7 +44,7 @@ void set(MovingSides& sides, const Growth& growth, const BracketSearch& search) 
 bool SideBracketer::isFound(MovingSides& sides, const Growth& growth, double resolution,
                             const BracketSearch& search, double at, const SidesPair& witness) {
   set(sides, growth, search);
-  const Levels levels = levelsOf(growth, resolution, search.body == BracketSearch::Body::Grown);
+  const Levels levels = levelsOf(resolution, search.body == BracketSearch::Body::Grown);
   const double t = search.way == BracketSearch::Way::Backward ? 1.0 - at : at;
   return isWithin(sides, witness, t, levels.enter);
 }
@@ -56,7 +55,7 @@ std::optional<double> SideBracketer::find(MovingSides& sides, const Growth& grow
   const bool isGrown = search.body == BracketSearch::Body::Grown;
   const bool isBackward = search.way == BracketSearch::Way::Backward;
   set(sides, growth, search);
-  const Levels levels = levelsOf(growth, resolution, isGrown);
+  const Levels levels = levelsOf(resolution, isGrown);
   const double begin = isBackward ? 1.0 - from : from;
   if (isSoonFound(sides, begin, levels.enter, witness)) return from;
   const IntervalTracer::Search found =

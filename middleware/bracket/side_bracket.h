@@ -15,9 +15,6 @@ namespace foretouch::internal {
 /// Up to here (m) what is near in a step is few.
 inline constexpr double kSmallGrowth = 5e-3;
 
-/// Of a growth: what a bracket is wide anyway need not be told to its last digit.
-inline constexpr double kResolutionShare = 1.0 / 1024.0;
-
 /// Which body, and from which end of the piece.
 struct BracketSearch {
   enum class Body : std::uint8_t { Grown, Shrunk };

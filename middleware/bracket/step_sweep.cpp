@@ -48,8 +48,8 @@ bool StepSweep::sweepLink(std::size_t body, LinkId link) {
     const double margin = marginIn(piece, body, link);
     // What would bound nothing at these coordinates.
     if (!(margin <= kMaxCoordinate)) return false;
-    const LinkState& begin = pieces.placesAtBegin(skeletonOf(body), k)[i];
-    const LinkState& end = pieces.placesAtEnd(skeletonOf(body), k)[i];
+    const LinkState& begin = pieces.placesAtBegin(avatarOf(body), k)[i];
+    const LinkState& end = pieces.placesAtEnd(avatarOf(body), k)[i];
     for (const Lss& lss : lssOf(body, link)) {
       own.boxes[i].add(sweptBox(lss, axisBounds(lss, bounds), axisEnds(lss, begin),
                                 axisEnds(lss, end), 1.0, margin));
@@ -70,8 +70,8 @@ void StepSweep::clearTubes() {
 void StepSweep::setTubes(int k, LinkId link) {
   if (memory_.tubesOf == std::make_pair(link, k)) return;
   ModelPieces& pieces = base(0);
-  setTubes(pieces.piece(k), link, pieces.placesAtBegin(skeletonOf(0), k),
-           pieces.placesAtEnd(skeletonOf(0), k), 1.0, marginIn(pieces.piece(k), 0, link));
+  setTubes(pieces.piece(k), link, pieces.placesAtBegin(avatarOf(0), k),
+           pieces.placesAtEnd(avatarOf(0), k), 1.0, marginIn(pieces.piece(k), 0, link));
   memory_.tubesOf = {link, k};
 }
 
@@ -87,6 +87,9 @@ void StepSweep::setTubes(const ModelPiece& piece, LinkId link, const std::vector
 
 void StepSweep::refine(bool isSaid) {
   clearTubes();  // of another level
+  for (std::size_t body = 0; isSaid && body < plan_.bodies.size(); ++body) {
+    memory_.bodies[body].moveOpen(avatarOf(body).skeleton());
+  }
   if (!cutBase(plan_, memory_)) {
     for (BodyBrackets& body : memory_.bodies) body.begin(body.growths.size());
     return;
@@ -179,7 +182,7 @@ SidesPair StepSweep::nearestAt(int k, BracketSearch::Way way, LinkId link) {
   const ModelPiece& piece = pieces.piece(k);
   const bool isBegin = way == BracketSearch::Way::Forward;
   const auto& places =
-      isBegin ? pieces.placesAtBegin(skeletonOf(0), k) : pieces.placesAtEnd(skeletonOf(0), k);
+      isBegin ? pieces.placesAtBegin(avatarOf(0), k) : pieces.placesAtEnd(avatarOf(0), k);
   const double margin = ask_.growths.of(piece, 0, link).at(isBegin ? 0.0 : 1.0);
   setTubes(piece, link, places, places, 0.0, margin + plan_.resolution);
   return LinkLeaves::nearest(*plan_.scene, memory_.tubes, memory_.leaves[slotOf(k)]);

@@ -29,9 +29,7 @@ class StepSweep {
   [[nodiscard]] LinkId numLinks(std::size_t body) const {
     return plan_.bodies[body].avatar.numLinks();
   }
-  [[nodiscard]] const Skeleton& skeletonOf(std::size_t body) const {
-    return plan_.bodies[body].avatar.skeleton();
-  }
+  [[nodiscard]] const Avatar& avatarOf(std::size_t body) const { return plan_.bodies[body].avatar; }
   [[nodiscard]] const std::vector<Lss>& lssOf(std::size_t body, LinkId link) const {
     return plan_.bodies[body].avatar.lss(link);
   }

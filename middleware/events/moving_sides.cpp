@@ -141,6 +141,10 @@ void MovingSides::grow(MovingHull& one, double t) const {
   one.radiusBend = growthSign_ * growth_.bend();
 }
 
+void MovingSides::addBoxes(std::size_t count) {
+  work += kBoxWork * count;
+}
+
 void MovingSides::collect(double from, double to, double reach, std::vector<SidesPair>& pairs) {
   FORETOUCH_ASSERT(from <= to);
   if (limited_ != nullptr && areNear_) {

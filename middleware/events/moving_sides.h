@@ -112,6 +112,8 @@ class MovingSides {
   /// In the units of QueryOptions::workBudget: done, and beyond which nothing more is looked at.
   std::uint64_t work = 0, mostWork = std::numeric_limits<std::uint64_t>::max();
   [[nodiscard]] bool isSpent() const { return work >= mostWork; }
+  /// Work of whoever looks among boxes instead.
+  void addBoxes(std::size_t count);
 
  private:
   struct States {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include <Eigen/Core>
@@ -45,10 +47,7 @@ class SweptTube {
     Eigen::Vector3d centre;
     double radius;
   };
-  [[nodiscard]] bool mayMeet(const Ball& ball) const {
-    const double most = (reach_ + ball.radius) * kInflation;
-    return distanceTo(ball) <= most + kTubeRounding * (extent_ + ball.centre.lpNorm<1>());
-  }
+  [[nodiscard]] bool mayMeet(const Ball& ball) const { return isNear(ball, distanceTo(ball)); }
   /// Of its centre from the tube's axis, as computed.
   [[nodiscard]] double distanceTo(const Ball& ball) const {
     const Eigen::Vector3d from = ball.centre - a_;
@@ -63,14 +62,19 @@ class SweptTube {
     box.grow(reach_ * kInflation + kTubeRounding * extent_);
     return box;
   }
-  /// Nothing: no point of the triangle is in the tube. Else how far it is from the tube's axis, or
-  /// its ball's centre is: a triangle whose ball is thicker than the tube is looked at itself.
+  /// Nothing: no point of the triangle is in the tube. Else about how far it is from the tube's
+  /// axis, or its ball's centre is: a triangle whose ball is thicker than the tube is looked at
+  /// itself.
   [[nodiscard]] std::optional<double> distanceTo(const Triangle& triangle) const {
     const Ball ball = ballOf(triangle);
-    if (!mayMeet(ball)) return std::nullopt;
-    if (ball.radius <= reach_) return distanceTo(ball);
+    const double fromBall = distanceTo(ball);
+    if (!isNear(ball, fromBall)) return std::nullopt;
+    if (ball.radius <= reach_) return fromBall;
+    const double extent = extent_ + ball.centre.lpNorm<1>() + 2.0 * ball.radius;
+    const double most = reach_ * kInflation + kTubeRounding * extent;
+    if (apartAlongNormals(triangle) > most) return std::nullopt;
     const Separation apart = separation(Hull::segment(a_, a_ + axis_), Hull::of(triangle));
-    if (apart.lower() > reach_ * kInflation + kTubeRounding * extent_) return std::nullopt;
+    if (apart.lower() > most) return std::nullopt;
     return apart.distance;
   }
 
@@ -79,11 +83,39 @@ class SweptTube {
   /// coordinates involved: fewer than 32 of them.
   static constexpr double kTubeRounding = 32.0 * kUnitRoundoff;
 
+  [[nodiscard]] bool isNear(const Ball& ball, double distance) const {
+    const double most = (reach_ + ball.radius) * kInflation;
+    return distance <= most + kTubeRounding * (extent_ + ball.centre.lpNorm<1>());
+  }
   [[nodiscard]] static Ball ballOf(const Triangle& triangle) {
     const auto& [u, v, w] = triangle.vertices;
     const Eigen::Vector3d centre = (u + v + w) * (1.0 / 3.0);
     return {centre, std::sqrt(std::max({(u - centre).squaredNorm(), (v - centre).squaredNorm(),
                                         (w - centre).squaredNorm()}))};
+  }
+
+  /// How far the axis and the triangle are apart along the triangle's normal, or along that of an
+  /// edge in its plane, as computed: never more than they are. Whatever those directions are, to
+  /// rounding: all corners are looked at.
+  [[nodiscard]] double apartAlongNormals(const Triangle& triangle) const {
+    const auto& [u, v, w] = triangle.vertices;
+    const std::array<Eigen::Vector3d, 3> corners{u - a_, v - a_, w - a_};
+    const Eigen::Vector3d normal = (v - u).cross(w - u);
+    double most = apartAlong(normal, corners);
+    for (std::size_t i = 0; i < 3; ++i) {
+      most = std::max(most, apartAlong((corners[(i + 1) % 3] - corners[i]).cross(normal), corners));
+    }
+    return most;
+  }
+  /// Corners from a_; not above 0 if they are not.
+  [[nodiscard]] double apartAlong(const Eigen::Vector3d& direction,
+                                  const std::array<Eigen::Vector3d, 3>& corners) const {
+    const double u = direction.dot(corners[0]), v = direction.dot(corners[1]);
+    const double w = direction.dot(corners[2]), end = direction.dot(axis_);
+    const double gap = std::max(std::min({u, v, w}) - std::max(0.0, end),
+                                std::min(0.0, end) - std::max({u, v, w}));
+    const double squared = direction.squaredNorm();
+    return gap > 0.0 && squared > 0.0 ? gap / std::sqrt(squared) : 0.0;
   }
 
   Eigen::Vector3d a_, axis_;

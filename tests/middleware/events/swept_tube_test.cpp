@@ -20,7 +20,7 @@ using test::Random;
 constexpr int kCases = 300, kTriangles = 60, kInstants = 12;
 
 struct TubeTally {
-  int near = 0, kept = 0, inBoxes = 0, all = 0;
+  int near = 0, kept = 0, inBoxes = 0, held = 0, measured = 0, all = 0;
 };
 
 Triangle randomTriangle(Random& random, const Vector3d& place) {
@@ -62,10 +62,15 @@ void judge(int i, TubeTally& tally) {
     }
     const bool isKept = tube.mayMeet(triangle);
     EXPECT_TRUE(isKept || !isNear) << "case " << i << ", triangle " << k;
+    const bool isMeasured = tube.distanceTo(triangle).has_value();
+    EXPECT_TRUE(isMeasured || !isNear) << "case " << i << ", triangle " << k;
+    EXPECT_TRUE(isKept || !isMeasured) << "case " << i << ", triangle " << k;
     const bool isInBox = box.overlaps(boxOf(triangle));
     tally.near += isNear ? 1 : 0;
     tally.inBoxes += isInBox ? 1 : 0;
     tally.kept += isInBox && isKept ? 1 : 0;
+    tally.measured += isMeasured ? 1 : 0;
+    tally.held += isKept ? 1 : 0;
     ++tally.all;
   }
 }
@@ -76,6 +81,7 @@ TEST(SweptTube, HoldsWhateverComesNearOnTheWay) {
   EXPECT_GT(tally.near, tally.all / 20);
   EXPECT_LT(tally.near, tally.all / 2);
   EXPECT_LT(tally.kept, tally.inBoxes * 9 / 10);
+  EXPECT_LT(tally.measured, tally.held * 9 / 10);
 }
 
 // The ball of a triangle that only just touches the tube is kept, and one that is a little farther
