@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "lss/rounding.h"
+#include "middleware/depth/pair_depth.h"
 
 namespace foretouch::internal {
 namespace {
@@ -16,10 +17,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMostLooks = 300;
-/// Of a plane's height over the origin, relative to its edges' lengths and the extent; and of the
-/// normal, relative to the edges. Counted in depth.md 3 and 6: halving the first breaks the proof.
-constexpr double kFacetRounding = 32.0 * kUnitRoundoff;
-constexpr double kNormalRounding = 16.0 * kUnitRoundoff;
 /// Of a support point, its difference and a height of it, relative to the extent.
 constexpr double kSupportRounding = 32.0 * kUnitRoundoff;
 /// Edges of a first body that are shorter than this share of the extent make a flat one.
@@ -46,10 +43,11 @@ Farthest farthest(const RoundHull& hull, const Vector3d& nhat) {
   return {hull.centres[best] + hull.radii[best] * nhat, most};
 }
 
+/// Bounds the sum of magnitudes of any point, as a unit vector has one of less than 2.
 double extentOf(const RoundHull& hull) {
   double most = 0.0;
   for (std::size_t i = 0; i < hull.centres.size(); ++i) {
-    most = std::max(most, hull.centres[i].lpNorm<1>() + hull.radii[i]);
+    most = std::max(most, hull.centres[i].lpNorm<1>() + 2.0 * hull.radii[i]);
   }
   return most;
 }
@@ -207,9 +205,7 @@ class Difference {
       const Vector3d one = points_[facet.at[1]] - p, other = points_[facet.at[2]] - p;
       const Vector3d normal = one.cross(other);
       const double size = one.lpNorm<1>() * other.lpNorm<1>();
-      const double height = normal.dot(p) - kFacetRounding * size * extent_ - kUnderflow;
-      const double length = (normal.norm() + kNormalRounding * size + kUnderflow) * kInflation;
-      least = std::min(least, height / length);
+      least = std::min(least, facetHeight(normal, size, normal.dot(p), extent_));
     }
     return std::max(0.0, least / kInflation - unsure_);
   }

@@ -37,6 +37,15 @@ Vector3d acrossOf(const Vector3d& along) {
   return length > 0.0 && std::isfinite(length) ? Vector3d(across / length) : axis;
 }
 
+}  // namespace
+
+double facetHeight(const Vector3d& normal, double size, double height, double extent) {
+  const double slack = kFacetRounding * size * extent + kUnderflow;
+  return (height - slack) / ((normal.norm() + kNormalRounding * size + kUnderflow) * kInflation);
+}
+
+namespace {
+
 /// An axis less a triangle: the polytope that the origin leaves. Its facets are the triangle's own,
 /// twice, and the parallelograms of the axis and each edge, twice.
 class AxisLessTriangle {
@@ -67,10 +76,8 @@ class AxisLessTriangle {
         most = std::max(most, height);
         fewest = std::min(fewest, height);
       }
-      const double slack = kFacetRounding * sizes_[f] * extent_ + kUnderflow;
-      const double length =
-          (normals_[f].norm() + kNormalRounding * sizes_[f] + kUnderflow) * kInflation;
-      least = std::min(least, (std::min(most, -fewest) - slack) / length);
+      least =
+          std::min(least, facetHeight(normals_[f], sizes_[f], std::min(most, -fewest), extent_));
     }
     return least > 0.0 ? least / kInflation : 0.0;
   }

@@ -29,6 +29,12 @@ struct PairDepth {
 
 namespace internal {
 
+/// Not above the height over the origin of a plane through p: `normal`, the product of two edges,
+/// has the computed `height` normal.p, and `size` is the product of their 1-norms. `extent` bounds
+/// the 1-norms of p and of what it is the difference of.
+[[nodiscard]] double facetHeight(const Eigen::Vector3d& normal, double size, double height,
+                                 double extent);
+
 /// Two pieces without their radii, and the sum of these with all uncertainty on either side.
 struct ConvexPair {
   Hull one, other;     ///< `one` has two points.

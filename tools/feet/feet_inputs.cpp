@@ -14,8 +14,8 @@
 #include "assets/import/scene_import.h"
 #include "lss/index.h"
 #include "tools/console.h"
-#include "tools/feet/in_place.h"
 #include "tools/floor/heels.h"
+#include "tools/floor/in_place.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/first_pose.h"
 
@@ -128,6 +128,11 @@ Result<Done> addHeels(FeetInputs& inputs) {
   return Done{};
 }
 
+bool isInPlace(const FeetInputs& inputs) {
+  const auto poses = [&](std::int64_t step) { return inputs.poseAt(step); };
+  return walksInPlace(inputs.body, inputs.steps(), inputs.stepS(), poses).has_value();
+}
+
 /// Moves the clip until its own floor lies on the ground.
 Result<Done> fitGround(FeetInputs& inputs) {
   const std::string& clip = inputs.request.motionPath;
@@ -135,7 +140,7 @@ Result<Done> fitGround(FeetInputs& inputs) {
   const auto named = [&](Error error) {
     error.file = "--ground fit";
     error.message = clip + ": " + error.message;
-    if (walksInPlace(inputs)) error.message += "; it walks in place, so each foot slides";
+    if (isInPlace(inputs)) error.message += "; it walks in place, so each foot slides";
     return error;
   };
   FORETOUCH_TRY_OR(named, const FloorFit fit, fitFloor(rests));

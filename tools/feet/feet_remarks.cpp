@@ -9,7 +9,7 @@
 #include "assets/bvh/bvh_reader.h"
 #include "lss/index.h"
 #include "tools/feet/feet_inputs.h"
-#include "tools/feet/in_place.h"
+#include "tools/floor/in_place.h"
 #include "tools/inputs/first_pose.h"
 #include "tools/inputs/t_pose.h"
 #include "tools/settings/plain_figures.h"
@@ -87,7 +87,8 @@ std::optional<std::string> remarkOnJumps(const FeetInputs& inputs) {
 }
 
 std::optional<std::string> remarkOnPlace(const FeetInputs& inputs) {
-  const auto speed = walksInPlace(inputs);
+  const auto poses = [&](std::int64_t step) { return inputs.poseAt(step); };
+  const auto speed = walksInPlace(inputs.body, inputs.steps(), inputs.stepS(), poses);
   if (!speed) return std::nullopt;
   return fmt::format(
       "{}: it walks in place, for something else to move it: each foot that bears slides, on "

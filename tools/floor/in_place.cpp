@@ -1,4 +1,4 @@
-#include "tools/feet/in_place.h"
+#include "tools/floor/in_place.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -54,9 +54,8 @@ Vector3d middleOfFeet(const RestingBody& body, const std::vector<LinkState>& sta
 
 }  // namespace
 
-std::optional<double> walksInPlace(const FeetInputs& inputs) {
-  const std::int64_t steps = inputs.steps();
-  const double stepS = inputs.stepS();
+std::optional<double> walksInPlace(const RestingBody& body, std::int64_t steps, double stepS,
+                                   const RestingPoses& poses) {
   if (static_cast<double>(steps) * stepS < kLeastWalkS) return std::nullopt;
   const std::int64_t looks = std::min(steps, kMostLooks);
   std::vector<LinkState> from, to;
@@ -64,17 +63,17 @@ std::optional<double> walksInPlace(const FeetInputs& inputs) {
   double way = 0.0;
   for (std::int64_t i = 0; i < looks; ++i) {
     const std::int64_t step = i * steps / looks;
-    const auto one = inputs.poseAt(step), next = inputs.poseAt(step + 1);
+    const auto one = poses(step), next = poses(step + 1);
     if (!one.ok() || !next.ok()) return std::nullopt;
-    placeLinks(inputs.body.avatar.skeleton(), one.value(), from);
-    placeLinks(inputs.body.avatar.skeleton(), next.value(), to);
-    const PartCorner* const low = bearing(inputs.body, from);
+    placeLinks(body.avatar.skeleton(), one.value(), from);
+    placeLinks(body.avatar.skeleton(), next.value(), to);
+    const PartCorner* const low = bearing(body, from);
     if (low == nullptr) return std::nullopt;
     const Vector3d moved = levelled(to[slotOf(low->link)].pointAt(low->center_L) -
                                     from[slotOf(low->link)].pointAt(low->center_L));
     sum += moved;
     way += moved.norm();
-    const Vector3d middle = middleOfFeet(inputs.body, from);
+    const Vector3d middle = middleOfFeet(body, from);
     least = i == 0 ? middle : Vector3d(least.cwiseMin(middle));
     most = i == 0 ? middle : Vector3d(most.cwiseMax(middle));
   }
