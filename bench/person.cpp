@@ -102,6 +102,8 @@ class PersonTable {
                 {"undecided_percent", "undecided %", 2},
                 {"fresh", "began"},
                 {"missed_by_poses", "of them no pose shows"},
+                {"missed_between", "missed by the constant rate"},
+                {"invented_between", "invented by it"},
                 {"certain_percent", "certain %", 1},
                 {"passed", "passed a surface"},
                 {"width_p50_ms", "bracket p50 ms", 2},
@@ -115,12 +117,12 @@ class PersonTable {
     const Percentiles widths = percentilesOf(t.widthsMs), growths = percentilesOf(t.growthsMm);
     const auto& [asked, rateHz, model] = kind;
     const double steps = static_cast<double>(std::max<std::uint64_t>(t.steps, 1));
-    table_.rows.push_back({std::string(toString(asked)), rateHz, std::string(toString(model)),
-                           cell(t.intervals), cell(t.missed), cell(t.lied),
-                           percent(t.possible, t.intervals), cell(t.fresh), cell(t.missedByPoses),
-                           percent(t.freshCertain, t.fresh), cell(t.passed), widths.p50, widths.p90,
-                           growths.p50, static_cast<double>(t.pieces) / steps,
-                           t.plainUs > 0.0 ? t.bracketUs / t.plainUs : 0.0});
+    table_.rows.push_back(
+        {std::string(toString(asked)), rateHz, std::string(toString(model)), cell(t.intervals),
+         cell(t.missed), cell(t.lied), percent(t.possible, t.intervals), cell(t.fresh),
+         cell(t.missedByPoses), cell(t.missedBetween), cell(t.inventedBetween),
+         percent(t.freshCertain, t.fresh), cell(t.passed), widths.p50, widths.p90, growths.p50,
+         static_cast<double>(t.pieces) / steps, t.plainUs > 0.0 ? t.bracketUs / t.plainUs : 0.0});
   }
   [[nodiscard]] const BenchTable& table() const { return table_; }
 

@@ -31,15 +31,25 @@ struct Preset {
   double errorM;                   // of a pose; of 0 the speed at the last pose is known, too
   std::vector<const char*> parts;  // empty: all
   const char* source;
+  double quantile = 1.0;  // at which the error holds, as the source has it
 };
 
-const std::array<Preset, 3>& presets() {
-  static const std::array<Preset, 3> all{
+const std::array<Preset, 5>& presets() {
+  static const std::array<Preset, 5> all{
       {{"sara-shield", 0.0, {}, "motion: Thumm et al. 2025, SaRA-shield's configuration"},
        {"optical",
         0.002,
         {},
         "poses: Merriaux et al. 2017, moving markers; motion: Thumm et al. 2025"},
+       {"markerless",
+        0.04,
+        {},
+        "poses: Nakano et al. 2020, nine of ten mean errors of joints; motion: Thumm et al. 2025",
+        0.9},
+       {"inertial-suit",
+        0.07,
+        {"arm", "hand"},
+        "poses: Filippeschi et al. 2017, twice the mean of an arm; motion: Thumm et al. 2025"},
        {"vr-trackers",
         0.042,
         {"head", "hand"},
@@ -63,6 +73,7 @@ BoundsFile fileOf(const Preset& preset) {
     entry.part = part;
     entry.model = MotionModel::ConstantRate;
     entry.bound.error = preset.errorM;
+    entry.quantile = preset.quantile;
     entry.bound.acceleration = kOfBoth * acceleration;
     entry.bound.speed = kSpeed;
     if (preset.errorM == 0.0) {

@@ -38,7 +38,27 @@ BoundedPerson::BoundedPerson(const SolidStage& stage, const SolidActor& actor,
           std::max(1.0, std::round(1.0 / (trial.rateHz * actor.clip.frameTimeS))))),
       seconds_(static_cast<double>(every_) * actor.clip.frameTimeS),
       held_(stage.judged, plainBody(actor.avatar), plainOf(frames_)),
-      bounds_(trial.bounds.empty() ? learn() : trial.bounds) {}
+      bounds_(trial.bounds.empty() ? learn() : trial.bounds) {
+  giveFrames();
+  for (LinkBound& bound : bounds_) {
+    if (trial.claimsPoseError) bound.error += kBetween * trial.poseErrorM;
+  }
+}
+
+/// Errors change from pose to pose, so that they do not cancel.
+void BoundedPerson::giveFrames() {
+  given_ = frames_;
+  for (std::size_t i = 0; i < given_.size(); ++i) {
+    const double turn = 2.4 * static_cast<double>(i);
+    const Eigen::Vector3d aside(std::cos(turn), std::sin(turn), 0.0);
+    given_[i].translations.front() += trial_.poseErrorM * aside;
+  }
+  around_ = given_;
+  if (!trial_.hasWrongSlopes) return;
+  for (Pose& pose : around_) {
+    std::rotate(pose.rotations.begin(), pose.rotations.begin() + 1, pose.rotations.end());
+  }
+}
 
 /// The largest distance of each link's axes, person from model.
 void BoundedPerson::distances(const HeldBackStep& step, double u, std::vector<double>& distances) {
@@ -114,10 +134,10 @@ std::vector<LinkBound> BoundedPerson::learn() {
 PosedStep BoundedPerson::posed(const HeldBackStep& step) const {
   const bool isLate = trial_.model == MotionModel::CubicLate;
   PosedStep posed;
-  posed.before = step.before != step.from ? &frames_[step.before] : nullptr;
-  posed.from = &frames_[step.from];
-  posed.to = &frames_[step.to];
-  posed.after = step.after != step.to && isLate ? &frames_[step.after] : nullptr;
+  posed.before = step.before != step.from ? &around_[step.before] : nullptr;
+  posed.from = &given_[step.from];
+  posed.to = &given_[step.to];
+  posed.after = step.after != step.to && isLate ? &around_[step.after] : nullptr;
   posed.secondsBefore = posed.seconds = posed.secondsAfter = seconds_;
   return posed;
 }

@@ -20,6 +20,9 @@ struct PersonTrial {
   double boundShare = 1.0;             ///< Of the bounds that hold: below 1 for planted faults.
   int instants = 4;                    ///< That are looked at per frame of the clip.
   std::vector<LinkBound> bounds = {};  ///< One per link; empty: those that hold on the clip.
+  double poseErrorM = 0.0;             ///< Given poses are off by so much, each another way.
+  bool claimsPoseError = true;         ///< False is a planted fault, and so is the next.
+  bool hasWrongSlopes = false;  ///< Poses around the step have each joint's turn at the next.
 };
 
 /// For one thread.
@@ -46,9 +49,10 @@ class BoundedPerson {
   void distances(const HeldBackStep& step, double u, std::vector<double>& distances);
   void bendsOf(const HeldBackStep& step, std::vector<double>& bends);
   [[nodiscard]] std::vector<LinkBound> learn();
+  void giveFrames();
 
   const PersonTrial& trial_;
-  std::vector<Pose> frames_;
+  std::vector<Pose> frames_, given_, around_;  // as they truly were, and as the library has them
   std::size_t every_;
   double seconds_;
   HeldBack held_;

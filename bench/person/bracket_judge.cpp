@@ -50,7 +50,7 @@ void checkCertain(const LinkBracket& bracket, const JudgedSides& sides, PersonTa
 
 }  // namespace
 
-void judge(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& tally) {
+bool judge(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& tally) {
   ++tally.intervals;
   std::uint64_t* const counts[] = {&tally.unclaimed, &tally.excluded, &tally.possible,
                                    &tally.certain};
@@ -69,12 +69,13 @@ void judge(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& ta
     find(fmt::format("missed: {} at {:.6f}", sides.name, t), tally);
   }
   if (bracket.verdict == BracketVerdict::Certain) checkCertain(bracket, sides, tally);
-  if (!hasTouched || touchesFirst) return;
+  if (!hasTouched || touchesFirst) return hasTouched;
   ++tally.fresh;
   if (!touchesLast) ++tally.missedByPoses;
-  if (bracket.verdict != BracketVerdict::Certain) return;
+  if (bracket.verdict != BracketVerdict::Certain) return true;
   ++tally.freshCertain;
   tally.widthsMs.push_back(1e3 * sides.seconds * (bracket.certainFrom - bracket.possibleFrom));
+  return true;
 }
 
 }  // namespace foretouch::tools

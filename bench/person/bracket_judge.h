@@ -17,6 +17,7 @@ struct JudgedSides {
   std::function<double(double t)> apartAt;
 };
 
-void judge(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& tally);
+/// Whether the two touched at an instant that is looked at.
+bool judge(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& tally);
 
 }  // namespace foretouch::tools

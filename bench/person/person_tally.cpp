@@ -14,6 +14,8 @@ void PersonTally::add(const PersonTally& o) {
   fresh += o.fresh;
   freshCertain += o.freshCertain;
   missedByPoses += o.missedByPoses;
+  missedBetween += o.missedBetween;
+  inventedBetween += o.inventedBetween;
   widthsMs.insert(widthsMs.end(), o.widthsMs.begin(), o.widthsMs.end());
   growthsMm.insert(growthsMm.end(), o.growthsMm.begin(), o.growthsMm.end());
   bracketUs += o.bracketUs;

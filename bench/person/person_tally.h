@@ -14,7 +14,9 @@ struct PersonTally {
   std::uint64_t passed = 0;  ///< Certain ones, as they went through a surface.
   std::uint64_t fresh = 0;   ///< That touch in truth, and not at the earlier pose.
   std::uint64_t freshCertain = 0;
-  std::uint64_t missedByPoses = 0;        ///< Fresh ones that no given pose shows.
+  std::uint64_t missedByPoses = 0;  ///< Fresh ones that no given pose shows.
+  /// Of the scene, by who takes the constant rate for what the person did, at a millimetre.
+  std::uint64_t missedBetween = 0, inventedBetween = 0;
   std::vector<double> widthsMs;           ///< Of certain fresh touches: from possible to certain.
   std::vector<double> growthsMm;          ///< Largest, per interval.
   double bracketUs = 0.0, plainUs = 0.0;  ///< Of all steps, bracketed and plain.

@@ -82,8 +82,13 @@ class Trial {
       }
       return;
     }
+    askPlainly(step);
     for (const LinkBracket& bracket : brackets_.links) {
-      if (!avatar_.lss(bracket.link).empty()) judgeBracket(step, bracket, bracket.link, -1);
+      if (avatar_.lss(bracket.link).empty()) continue;
+      const bool hasTouched = judgeBracket(step, bracket, bracket.link, -1);
+      const Verdict plain = contacts_.links[slotOf(bracket.link)].verdict;
+      tally_.missedBetween += hasTouched && plain == Verdict::Clear ? 1 : 0;
+      tally_.inventedBetween += !hasTouched && plain != Verdict::Clear ? 1 : 0;
     }
   }
 
@@ -92,12 +97,12 @@ class Trial {
                      : person_.held().fromLink(axes, link, other);
   }
 
-  void judgeBracket(const HeldBackStep& step, const LinkBracket& bracket, int link, int other) {
+  bool judgeBracket(const HeldBackStep& step, const LinkBracket& bracket, int link, int other) {
     const JudgedSides sides{
         fmt::format("link {} {} step {}", link, other, step.from), person_.stepS(), person_.looks(),
         [&](int i) { return separation(truths_[slotOf(i)], link, other); },
         [&](double t) { return separation(person_.held().truthAt(step, t), link, other); }};
-    foretouch::tools::judge(bracket, sides, tally_);
+    return foretouch::tools::judge(bracket, sides, tally_);
   }
 
   const PersonTrial& trial_;

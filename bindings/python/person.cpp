@@ -255,8 +255,8 @@ void bindPerson(py::module_& module) {
   verdictType = addIntEnum(module, "BracketVerdict", membersOf<BracketVerdict>(4));
   module.def("read_bounds", &readBounds, py::arg("path"), py::arg("avatar"), py::kw_only(),
              py::arg("between"), py::arg("rate_hz"),
-             "The bounds of a file (foretouch bounds learn), or of 'preset:sara-shield',\n"
-             "'preset:optical' or 'preset:vr-trackers': a list of LinkBound, one per link, for\n"
+             "The bounds of a file (foretouch bounds learn), or of a preset of docs/person.md,\n"
+             "as 'preset:optical': a list of LinkBound, one per link, for\n"
              "poses of this rate with 'constant-rate', 'cubic' or 'cubic-late' between them.");
   py::class_<PythonBracketQuery>(
       module, "BracketQuery",

@@ -156,20 +156,34 @@ TEST(BoundPresets, ClaimNothingOfWhatIsNotTracked) {
   EXPECT_EQ(bounds.bounds[0].acceleration, LinkBound::kNone);
   EXPECT_EQ(bounds.entryOf[4], -1);
   EXPECT_EQ(readBounds("preset:optical").value().entries.back().bound.error, 0.002);
+  const auto suit = readBounds("preset:inertial-suit");
+  ASSERT_TRUE(suit.ok());
+  const auto arms = boundsOf(suit.value(), person(), MotionModel::ConstantRate, 60.0).value();
+  EXPECT_EQ(arms.bounds[2].error, 0.07);
+  EXPECT_EQ(arms.bounds[0].acceleration, LinkBound::kNone);
+}
+
+TEST(BoundPresets, SayAtWhatQuantileTheirErrorHolds) {
+  for (const BoundEntry& entry : readBounds("preset:markerless").value().entries) {
+    EXPECT_EQ(entry.quantile, 0.9);
+    EXPECT_EQ(entry.bound.error, 0.04);
+  }
 }
 
 TEST(BoundPresets, AreRefusedByNameWithThoseThatThereAre) {
   const auto none = readBounds("preset:optcal");
   ASSERT_FALSE(none.ok());
   const std::string said = describe(none.error());
-  for (const char* const word : {"preset:sara-shield", "preset:optical", "preset:vr-trackers",
-                                 "'preset:optcal'", "did you mean"}) {
+  for (const char* const word :
+       {"preset:sara-shield", "preset:optical", "preset:markerless", "preset:inertial-suit",
+        "preset:vr-trackers", "'preset:optcal'", "did you mean"}) {
     EXPECT_NE(said.find(word), std::string::npos) << said;
   }
 }
 
 TEST(BoundPresets, SurviveWriting) {
-  for (const char* const name : {"preset:sara-shield", "preset:optical", "preset:vr-trackers"}) {
+  for (const char* const name : {"preset:sara-shield", "preset:optical", "preset:markerless",
+                                 "preset:inertial-suit", "preset:vr-trackers"}) {
     const BoundsFile preset = readBounds(name).value();
     const std::string text = formatBounds(preset);
     const auto read = parseBounds(text, name);

@@ -71,6 +71,45 @@ TEST_F(DancerHeldBack, BoundsThatAreTooSmallAreFoundOut) {
   EXPECT_GT(judge(trial).missed, 0U);
 }
 
+// Faults as the library could have them, each found out: half a bound, a growth without the error
+// of poses at its ends, and slopes of the wrong joint.
+TEST_F(DancerHeldBack, HalfABoundIsFoundOut) {
+  PersonTally tally;
+  for (const double rate : {15.0, 10.0, 5.0}) {
+    for (const MotionModel model : {MotionModel::ConstantRate, MotionModel::CubicLate}) {
+      PersonTrial trial;
+      trial.rateHz = rate;
+      trial.model = model;
+      trial.boundShare = 0.5;
+      tally.add(judge(trial));
+    }
+  }
+  EXPECT_GT(tally.missed + tally.lied, 0U);
+}
+
+TEST_F(DancerHeldBack, AnErrorOfPosesBelongsToTheGrowthAtTheEnds) {
+  PersonTrial trial;
+  trial.rateHz = 5.0;
+  trial.model = MotionModel::ConstantRate;  // errors bend a cubic, too
+  trial.poseErrorM = 0.02;
+  PersonTally tally = judge(trial);
+  for (const std::string& finding : tally.findings) ADD_FAILURE() << finding;
+  EXPECT_EQ(tally.missed + tally.lied, 0U);
+  trial.claimsPoseError = false;
+  tally = judge(trial);
+  EXPECT_GT(tally.missed + tally.lied, 0U);
+}
+
+TEST_F(DancerHeldBack, SlopesOfTheWrongJointAreFoundOut) {
+  PersonTrial trial;
+  trial.rateHz = 15.0;
+  trial.isFollowed = false;
+  EXPECT_EQ(judge(trial).missed, 0U);
+  trial.hasWrongSlopes = true;
+  const PersonTally tally = judge(trial);
+  EXPECT_GT(tally.missed + tally.lied, 0U);
+}
+
 /// A better model needs smaller bounds, and leaves less open.
 TEST_F(DancerHeldBack, ACubicLeavesLessOpen) {
   PersonTrial trial;

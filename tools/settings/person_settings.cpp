@@ -25,7 +25,8 @@ void addPersonSettings(Settings& settings, PersonRequest& request) {
       .path("--bounds", "FILE", request.boundsPath,
             "Also what the person surely touched, perhaps, or not at all, within these bounds on "
             "how far they are from the motion between two poses (foretouch bounds), or "
-            "preset:sara-shield, preset:optical or preset:vr-trackers")
+            "preset:sara-shield, preset:optical, preset:markerless, preset:inertial-suit or "
+            "preset:vr-trackers")
       .files("json")
       .in(kPersonGroup)
       .inConfig("person", "bounds");

@@ -33,8 +33,8 @@ typedef struct ft_link_bound {
 
 /* Claims nothing, and no error. */
 FT_API ft_status ft_link_bound_init(ft_link_bound* bound);
-/* One per link, from a file of format "foretouch-bounds", or of "preset:sara-shield", ":optical" or
- * ":vr-trackers" (docs/person.md), for one way between poses of this rate.
+/* One per link, from a file of format "foretouch-bounds", or of a preset of docs/person.md, as
+ * "preset:optical", for one way between poses of this rate.
  * Errors: those of the file; a name that is no link; no entry for them. */
 FT_API ft_status ft_bounds_read(const char* path, const ft_avatar* avatar, int32_t between,
                                 double rate_hz, ft_link_bound* bounds, size_t capacity,

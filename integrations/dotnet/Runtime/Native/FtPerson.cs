@@ -156,9 +156,9 @@ namespace Foretouch {
   public static unsafe partial class FtNative {
     /// <summary>Claims nothing, and no error.</summary>
     [DllImport(Library)] public static extern int ft_link_bound_init(FtLinkBound* bound);
-    /// <summary>One per link, from a file of format "foretouch-bounds", or of "preset:sara-shield",
-    /// ":optical" or ":vr-trackers" (docs/person.md), for one way between poses of this rate. Errors: those
-    /// of the file; a name that is no link; no entry for them.</summary>
+    /// <summary>One per link, from a file of format "foretouch-bounds", or of a preset of docs/person.md,
+    /// as "preset:optical", for one way between poses of this rate. Errors: those of the file; a name that
+    /// is no link; no entry for them.</summary>
     [DllImport(Library)] public static extern int ft_bounds_read(byte* path, FtAvatar avatar, int between, double rateHz, FtLinkBound* bounds, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_bracket_options_init(FtBracketOptions* options, ulong size);
     /// <summary>`options` may be NULL. For one thread; keeps scene and avatar alive, the rules are
