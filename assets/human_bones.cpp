@@ -123,6 +123,21 @@ bool isHumanBone(std::string_view name) {
   return names().bones.count(name) != 0;
 }
 
+std::string thumbOf(const std::string& bone) {
+  for (const std::string side : {"left", "right"}) {
+    if (bone == side + "ThumbProximal") return side + "ThumbMetacarpal";
+    if (bone == side + "ThumbIntermediate") return side + "ThumbProximal";
+  }
+  return bone;
+}
+
+std::string humanBoneOfUnity(std::string_view name) {
+  std::string bone(name);
+  if (bone.empty() || bone[0] < 'A' || bone[0] > 'Z') return {};
+  bone[0] = static_cast<char>(bone[0] - 'A' + 'a');
+  return thumbOf(bone);
+}
+
 bool isHumanoid(const Skeleton& skeleton) {
   return std::all_of(kRequiredHumanBones.begin(), kRequiredHumanBones.end(),
                      [&](std::string_view bone) { return skeleton.find(bone).has_value(); });

@@ -15,6 +15,14 @@ namespace foretouch {
 /// Of VRM 1.0's 55: "leftUpperArm" and so on.
 [[nodiscard]] bool isHumanBone(std::string_view name);
 
+/// VRM 1.0 moved the names of the thumb's bones down by one: what VRM 0.x and Unity call proximal
+/// ("leftThumbProximal") is its metacarpal. Other names stay.
+[[nodiscard]] std::string thumbOf(const std::string& bone);
+
+/// VRM 1.0's name of a bone of Unity's HumanBodyBones, which VMC uses: "LeftThumbProximal" is
+/// "leftThumbMetacarpal". Of another text something that is no bone.
+[[nodiscard]] std::string humanBoneOfUnity(std::string_view name);
+
 /// What VRM 1.0 requires of every avatar.
 inline constexpr std::array<std::string_view, 15> kRequiredHumanBones{
     "hips",          "spine",         "head",          "leftUpperArm", "rightUpperArm",
