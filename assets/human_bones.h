@@ -35,7 +35,8 @@ inline constexpr std::array<std::string_view, 15> kRequiredHumanBones{
 
 /// The joints that are human bones, by VRM's names: by these names themselves, or those of
 /// Unity and VMC, MotionBuilder and Mixamo ("LeftForeArm"), Bandai ("LowerArm_L") or Biovision
-/// ("LeftElbow"), in any case and behind any namespace ("mixamorig:"). Only one scheme counts: the
+/// ("LeftElbow"), Xsens ("RightForeArm" with "Pelvis"), CMU in ASF ("lhumerus") or SMPL
+/// ("left_elbow"), in any case and behind any namespace ("mixamorig:"). Only one scheme counts: the
 /// first by which hips, head, arms, hands, legs and feet are all there; empty if there is none.
 [[nodiscard]] std::map<std::string_view, JointId> humanBonesOf(const Skeleton& skeleton);
 

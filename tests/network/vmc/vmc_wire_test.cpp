@@ -160,7 +160,8 @@ TEST_F(VmcWire, ThreeEncodersSayTheSame) {
   const std::string here = FORETOUCH_VMC_ENCODERS;
   const std::map<std::string, std::string> encoders{
       {"node-osc", "test -d " + here + "/node_modules/node-osc && node " + here + "/send_osc.mjs "},
-      {"liblo", "python3 -c 'import liblo' 2>/dev/null && python3 " + here + "/send_osc.py "}};
+      {"liblo", "/usr/bin/python3 -c 'import liblo' 2>/dev/null && /usr/bin/python3 " + here +
+                    "/send_osc.py "}};
   const std::vector<PoseMessage> expected = expectedOf(kFrames);
   ASSERT_EQ(expected.size(), static_cast<std::size_t>(kFrames));
   std::string absent;
