@@ -40,7 +40,9 @@ std::optional<double> recordedRateOf(const std::string& path, const Model& model
 
 Result<ClipFile> readAcclaim(const std::string& path, const ClipFileOptions& options) {
   std::string skeleton = options.skeleton;
-  if (skeleton.empty()) FORETOUCH_TRY(skeleton, skeletonBeside(path));
+  if (skeleton.empty()) {
+    FORETOUCH_TRY(skeleton, skeletonBeside(path));
+  }
   FORETOUCH_TRY(const auto asf, readWholeFile(skeleton, kMaxJointTableBytes));
   FORETOUCH_TRY(const auto amc, readWholeFile(path, kMaxBvhFileBytes));
   ClipFile file;
