@@ -86,10 +86,11 @@ def volume(a, b, ra, rb):
     return cone + cap(ra, ra * (1 + s)) + cap(rb, rb * (1 - s))
 
 
-def fit(points, tapers):
+def fit(points, begin=None):
     """The smallest that the search finds, as (a, b, ra, rb): each is an upper bound."""
+    tapers = begin is not None  # from the best capsule on, with either end the thicker one
     middle = points.mean(axis=0)
-    _, spread, axes = np.linalg.svd(points - middle, full_matrices=False)
+    _, _, axes = np.linalg.svd(points - middle, full_matrices=False)
     size = np.ptp(points, axis=0).max()
 
     def shape(x):
@@ -99,14 +100,19 @@ def fit(points, tapers):
         grow = distance(points, a, b, ra, rb).max()
         return a, b, ra + max(grow, 0.0), rb + max(grow, 0.0)
 
-    best = None
+    starts = []
     for axis in axes:
         along = (points - middle) @ axis
         lo, hi = along.min() + 0.2 * np.ptp(along), along.max() - 0.2 * np.ptp(along)
-        x = np.concatenate([middle + lo * axis, middle + hi * axis, [0.0] if tapers else []])
+        starts.append(np.concatenate([middle + lo * axis, middle + hi * axis]))
+    if tapers:
+        a, b, r, _ = begin
+        starts = [np.concatenate([a, b, [d * r]]) for d in (-0.5, 0.5)]
+    best = None
+    for x in starts:
         for _ in range(2):
             found = minimize(lambda y: volume(*shape(y)), x, method="Nelder-Mead",
-                             options={"maxiter": 250, "xatol": 1e-4 * size, "fatol": 0})
+                             options={"maxiter": 400, "xatol": 1e-4 * size, "fatol": 0})
             x = found.x
         if best is None or found.fun < best[0]:
             best = (found.fun, shape(x))
@@ -205,7 +211,8 @@ def main():
                 continue
             hull = ConvexHull(points)
             points = points[hull.vertices]
-            both = [fit(points, tapers) for tapers in (False, True)]
+            both = [fit(points)]
+            both.append(fit(points, both[0]))
             sums += [hull.volume] + [min(volume(*one), volume(*both[0])) for one in both]
             bones += 1
             size = np.ptp(points, axis=0).max()
