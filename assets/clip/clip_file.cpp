@@ -67,6 +67,10 @@ Result<ClipFile> readModel(const std::string& path, const ClipFileOptions& optio
   FORETOUCH_TRY(const auto model, importModel(path, import));
   const double rateHz = recordedRateOf(path, model).value_or(options.rateHz);
   FORETOUCH_TRY(auto clip, inFile(clipFromModel(model, {options.animation, rateHz}), path));
+  // Of other models who makes an avatar of them tells the notes.
+  if (endingOf(path) == ".mvnx") {
+    clip.notes.insert(clip.notes.begin(), model.notes.begin(), model.notes.end());
+  }
   return ClipFile{std::move(clip), true, model.frame};
 }
 

@@ -29,9 +29,8 @@ constexpr double kNotedGap = 2.5;
 
 Error wrong(const std::string& message, ErrorCode code = ErrorCode::Syntax,
             std::int64_t frame = -1) {
-  Error error = Error::of(code, message);
-  error.index = frame;
-  return error;
+  const std::string place = frame < 0 ? "" : "frame " + std::to_string(frame) + ": ";
+  return {code, "", -1, frame, place + message};
 }
 
 RigidPose operator*(const RigidPose& outer, const RigidPose& inner) {
@@ -303,13 +302,13 @@ class SessionReader {
   }
 
   void addNotes(Clip& clip) const {
-    double longest = 0.0;
+    std::vector<double> spacings;
     for (std::size_t k = 1; k < instants_.size(); ++k) {
-      longest = std::max(longest, instants_[k].timeS - instants_[k - 1].timeS);
+      spacings.push_back(instants_[k].timeS - instants_[k - 1].timeS);
     }
-    const double mean = (instants_.back().timeS - instants_.front().timeS) /
-                        static_cast<double>(instants_.size() - 1);
-    if (longest > kNotedGap * mean) {
+    std::sort(spacings.begin(), spacings.end());
+    const double longest = spacings.back(), usual = spacings[spacings.size() / 2];
+    if (longest > kNotedGap * usual) {
       clip.notes.push_back("there are " + inDigits(longest, 3) +
                            " s between two of its frames; what happened there is not recorded");
     }

@@ -144,7 +144,7 @@ TEST(Acclaim, NamesFileLineAndExpectation) {
     const char *from, *to, *expected;
   };
   const std::vector<Case> cases{
-      {true, ":root", ":boot", "s.asf:45: expected a section ':root'"},
+      {true, ":root", ":boot", "s.asf:47: expected a section ':root'"},
       {true, ":hierarchy", ":heritage", "expected a section ':hierarchy'"},
       {true, "length 0.5", "length 0", "s.asf:6: expected a length above 0"},
       {true, "length 0.5", "length x", "s.asf:6: expected a number, found 'x'"},
@@ -157,7 +157,7 @@ TEST(Acclaim, NamesFileLineAndExpectation) {
       {true, "thigh shin", "thigh chin", "s.asf:46: no bone is called 'chin'"},
       {true, "thigh shin", "thigh plate", "s.asf:46: bone 'plate' has a parent already"},
       {true, "thigh shin", "shin thigh", "s.asf:46: bone 'thigh' has a parent already"},
-      {true, " plate\n", "\n", "s.asf:36: bone 'plate' does not hang on the root"},
+      {true, "thigh plate\n", "thigh\n", "s.asf:36: bone 'plate' does not hang on the root"},
       {false, "thigh 40 50 60", "thigh 40 50",
        "s.amc:6: expected 3 numbers for bone 'thigh', found 2"},
       {false, "thigh 40 50 60\n", "", "s.amc:4: the frame says nothing of bone 'thigh'"},
@@ -180,13 +180,13 @@ TEST(Acclaim, BreaksOffAnywhereWithAnErrorOrAClip) {
   int clips = 0;
   for (std::size_t n = 0; n < kAsf.size(); ++n) {
     const auto read = parseAcclaim(kAsf.substr(0, n), "s.asf", kAmc, "s.amc");
-    if (!read.ok()) EXPECT_FALSE(read.error().message.empty());
+    EXPECT_TRUE(read.ok() || !read.error().message.empty());
     clips += read.ok() ? 1 : 0;
   }
   EXPECT_GT(clips, 0);  // without the last 'end'
   for (std::size_t n = 0; n < kAmc.size(); ++n) {
     const auto read = parseAcclaim(kAsf, "s.asf", kAmc.substr(0, n), "s.amc");
-    if (!read.ok()) EXPECT_EQ(read.error().file, "s.amc");
+    EXPECT_TRUE(read.ok() || read.error().file == "s.amc");
   }
 }
 
