@@ -28,10 +28,11 @@ struct Scheme {
 };
 
 // The names of VRM, Unity and VMC in small letters; MotionBuilder's and Mixamo's; Bandai's;
-// Biovision's, which call a bone by the joint that it begins with. What two schemes share (hips)
+// Biovision's, which call a bone by the joint that it begins with; Xsens' segments; CMU's bones in
+// ASF; and SMPL's joints. What two schemes share (hips)
 // may mean the same bone in both; what means another one in the other (shoulder) is why only one
 // counts.
-constexpr std::array<Scheme, 4> kSchemes{{
+constexpr std::array<Scheme, 7> kSchemes{{
     {"left",
      "right",
      false,
@@ -60,6 +61,25 @@ constexpr std::array<Scheme, 4> kSchemes{{
      {"hips", "chest", "chest2", "chest3", "neck", "head", ""},
      {"collar", "shoulder", "elbow", "wrist", "", "hip", "knee", "ankle", "toe"},
      {}},
+    {"left",
+     "right",
+     false,
+     {"pelvis", "l3", "t12", "t8", "neck", "head", ""},
+     {"shoulder", "upperarm", "forearm", "hand", "", "upperleg", "lowerleg", "foot", "toe"},
+     {}},
+    {"l",
+     "r",
+     false,
+     {"root", "lowerback", "upperback", "thorax", "lowerneck", "head", ""},
+     {"clavicle", "humerus", "radius", "hand", "", "femur", "tibia", "foot", "toes"},
+     {}},
+    {"left",
+     "right",
+     false,
+     {"pelvis", "spine1", "spine2", "spine3", "neck", "head", "jaw"},
+     {"collar", "shoulder", "elbow", "wrist", "eye", "hip", "knee", "ankle", "foot"},
+     {"thumb1", "thumb2", "thumb3", "index1", "index2", "index3", "middle1", "middle2", "middle3",
+      "ring1", "ring2", "ring3", "pinky1", "pinky2", "pinky3"}},
 }};
 
 /// In small letters and digits, without a namespace.
@@ -121,6 +141,21 @@ const Names& names() {
 
 bool isHumanBone(std::string_view name) {
   return names().bones.count(name) != 0;
+}
+
+std::string thumbOf(const std::string& bone) {
+  for (const std::string side : {"left", "right"}) {
+    if (bone == side + "ThumbProximal") return side + "ThumbMetacarpal";
+    if (bone == side + "ThumbIntermediate") return side + "ThumbProximal";
+  }
+  return bone;
+}
+
+std::string humanBoneOfUnity(std::string_view name) {
+  std::string bone(name);
+  if (bone.empty() || bone[0] < 'A' || bone[0] > 'Z') return {};
+  bone[0] = static_cast<char>(bone[0] - 'A' + 'a');
+  return thumbOf(bone);
 }
 
 bool isHumanoid(const Skeleton& skeleton) {

@@ -15,6 +15,14 @@ namespace foretouch {
 /// Of VRM 1.0's 55: "leftUpperArm" and so on.
 [[nodiscard]] bool isHumanBone(std::string_view name);
 
+/// VRM 1.0 moved the names of the thumb's bones down by one: what VRM 0.x and Unity call proximal
+/// ("leftThumbProximal") is its metacarpal. Other names stay.
+[[nodiscard]] std::string thumbOf(const std::string& bone);
+
+/// VRM 1.0's name of a bone of Unity's HumanBodyBones, which VMC uses: "LeftThumbProximal" is
+/// "leftThumbMetacarpal". Of another text something that is no bone.
+[[nodiscard]] std::string humanBoneOfUnity(std::string_view name);
+
 /// What VRM 1.0 requires of every avatar.
 inline constexpr std::array<std::string_view, 15> kRequiredHumanBones{
     "hips",          "spine",         "head",          "leftUpperArm", "rightUpperArm",
@@ -27,7 +35,8 @@ inline constexpr std::array<std::string_view, 15> kRequiredHumanBones{
 
 /// The joints that are human bones, by VRM's names: by these names themselves, or those of
 /// Unity and VMC, MotionBuilder and Mixamo ("LeftForeArm"), Bandai ("LowerArm_L") or Biovision
-/// ("LeftElbow"), in any case and behind any namespace ("mixamorig:"). Only one scheme counts: the
+/// ("LeftElbow"), Xsens ("RightForeArm" with "Pelvis"), CMU in ASF ("lhumerus") or SMPL
+/// ("left_elbow"), in any case and behind any namespace ("mixamorig:"). Only one scheme counts: the
 /// first by which hips, head, arms, hands, legs and feet are all there; empty if there is none.
 [[nodiscard]] std::map<std::string_view, JointId> humanBonesOf(const Skeleton& skeleton);
 

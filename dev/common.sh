@@ -61,8 +61,10 @@ install_viewer_packages() {
   npm ci --no-audit --no-fund --silent
 }
 
-install_gltf_packages() (
-  cd tests/assets/gltf_oracle
+install_gltf_packages() { install_npm_packages tests/assets/gltf_oracle; }
+
+install_npm_packages() (  # install_npm_packages FOLDER
+  cd "$1"
   [ ! package-lock.json -nt node_modules/.package-lock.json ] || npm ci --ignore-scripts --no-audit --no-fund --silent
 )
 
@@ -75,6 +77,9 @@ prepare_browser_tests() {
   fi
   if command -v npm >/dev/null && ! install_gltf_packages; then
     echo "run: npm's registry is out of reach: the test of glTF by other programs will be skipped" >&2
+  fi
+  if command -v npm >/dev/null && ! install_npm_packages tests/network/vmc; then
+    echo "run: npm's registry is out of reach: the test of VMC by node-osc will be skipped" >&2
   fi
 }
 

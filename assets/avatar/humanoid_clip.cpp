@@ -1,15 +1,14 @@
 #include "assets/avatar/humanoid_clip.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include "articulated/motion.h"
 #include "articulated/quoted.h"
 #include "articulated/try.h"
+#include "assets/avatar/humanoid_rest.h"
 #include "assets/human_bones.h"
 #include "lss/index.h"
 
@@ -17,84 +16,13 @@ namespace foretouch {
 namespace {
 
 using Eigen::Matrix3d;
-using Eigen::Vector3d;
-using Bones = std::map<std::string_view, JointId>;
+using Bones = HumanoidRest::Bones;
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
-/// A T-pose is drawn by hand: arms that slope by less are taken as level, and the note says so. An
-/// A-pose has 35 degrees and more. Twice as much would take one for the other.
-constexpr double kMostTiltDeg = 30.0, kNotedTiltDeg = 5.0;
+constexpr double kNotedTiltDeg = 5.0;
 /// Of a rotation (rad): what files round.
 constexpr double kSameRest = 1e-5;
 /// Legs differ from person to person by less.
 constexpr double kNotedLegs = 0.1;
-
-/// Both ends of the bones whose direction at rest says which pose it is.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kRestingLimbs{
-    {{"leftUpperArm", "leftLowerArm"},
-     {"leftLowerArm", "leftHand"},
-     {"rightUpperArm", "rightLowerArm"},
-     {"rightLowerArm", "rightHand"},
-     {"leftUpperLeg", "leftLowerLeg"},
-     {"leftLowerLeg", "leftFoot"},
-     {"rightUpperLeg", "rightLowerLeg"},
-     {"rightLowerLeg", "rightFoot"}}};
-
-/// Of every joint in the world.
-std::vector<RigidPose> placesIn(const Skeleton& skeleton, const Pose& pose) {
-  std::vector<LinkState> states;
-  ChainMotion(skeleton, pose, pose).statesAt(0.0, states);
-  std::vector<RigidPose> places;
-  for (const LinkState& state : states) {
-    places.push_back({Quaternion(Matrix3d(state.R_WL)), state.p_WL});
-  }
-  return places;
-}
-
-/// A skeleton at rest, by its bones.
-struct RestingBody {
-  Bones bones;
-  std::vector<RigidPose> places;
-
-  RestingBody(const Skeleton& skeleton, Bones found)
-      : bones(std::move(found)), places(placesIn(skeleton, restPose(skeleton))) {}
-
-  [[nodiscard]] const Vector3d& at(std::string_view bone) const {
-    return places[slotOf(bones.at(bone))].translation;
-  }
-  [[nodiscard]] Vector3d between(std::string_view from, std::string_view to) const {
-    return at(to) - at(from);
-  }
-  [[nodiscard]] double legs() const {
-    return between("leftUpperLeg", "leftLowerLeg").norm() +
-           between("leftLowerLeg", "leftFoot").norm();
-  }
-};
-
-/// The axis, with its sign, that v is nearest to; zero if that is more than kMostTiltDeg off.
-Vector3d axisOf(const Vector3d& v) {
-  Eigen::Index largest = 0;
-  v.cwiseAbs().maxCoeff(&largest);
-  Vector3d axis = Vector3d::Zero();
-  if (!(std::abs(v[largest]) > std::cos(kMostTiltDeg / kDegrees) * v.norm())) return axis;
-  axis[largest] = v[largest] > 0.0 ? 1.0 : -1.0;
-  return axis;
-}
-
-/// The body's left, up and front; zero if it does not stand along the axes.
-Matrix3d frameOf(const RestingBody& body) {
-  const Vector3d left = axisOf(body.between("rightUpperLeg", "leftUpperLeg") +
-                               body.between("rightUpperArm", "leftUpperArm"));
-  const Vector3d up = axisOf(body.between("leftFoot", "head") + body.between("rightFoot", "head"));
-  Matrix3d frame = Matrix3d::Zero();
-  if (left.isZero() || up.isZero() || left.dot(up) != 0.0) return frame;
-  frame << left, up, left.cross(up);
-  return frame;
-}
-
-double angleDeg(const Vector3d& a, const Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
-}
 
 Error restsOtherwise(const std::string& what) {
   return Error::of(ErrorCode::Mismatch,
@@ -123,10 +51,10 @@ class Retargeting {
         to_(avatar, ownBones(avatar)),
         from_(clip.skeleton, humanBonesOf(clip.skeleton)) {}
 
-  [[nodiscard]] bool isBetweenHumanoids() const { return !from_.bones.empty(); }
+  [[nodiscard]] bool isBetweenHumanoids() const { return !from_.bones().empty(); }
 
   Result<Done> settle() {
-    const Matrix3d own = frameOf(to_), other = frameOf(from_);
+    const Matrix3d own = to_.frame(), other = from_.frame();
     if (own.isZero() || other.isZero()) {
       return restsOtherwise(std::string("the ") + (own.isZero() ? "avatar" : "clip") +
                             " does not stand along the axes");
@@ -134,16 +62,16 @@ class Retargeting {
     turn_ = Quaternion(Matrix3d(other * own.transpose()));
     for (const auto& [begin, end] : kRestingLimbs) {
       const double tilt = angleDeg(turn_ * to_.between(begin, end), from_.between(begin, end));
-      if (!(tilt <= kMostTiltDeg)) {
-        return restsOtherwise("joint " + inQuotes(clip_.skeleton.name(from_.bones.at(begin))) +
+      if (!(tilt <= kMostTPoseTiltDeg)) {
+        return restsOtherwise("joint " + inQuotes(clip_.skeleton.name(from_.bones().at(begin))) +
                               " is " + inDigits(tilt, 3) + " degrees off");
       }
       if (tilt > tilt_) tilt_ = tilt;
     }
     source_.assign(countOf(avatar_.numJoints()), kNoParent);
-    for (const auto& [bone, joint] : to_.bones) {
-      const auto found = from_.bones.find(bone);
-      if (found != from_.bones.end()) source_[slotOf(joint)] = found->second;
+    for (const auto& [bone, joint] : to_.bones()) {
+      const auto found = from_.bones().find(bone);
+      if (found != from_.bones().end()) source_[slotOf(joint)] = found->second;
     }
     return Done{};
   }
@@ -157,8 +85,8 @@ class Retargeting {
       const RigidPose above = parent == kNoParent ? RigidPose{} : placed[slotOf(parent)];
       if (source_[j] != kNoParent) {
         const auto s = slotOf(source_[j]);
-        const Quaternion since = moved[s].rotation * from_.places[s].rotation.conjugate();
-        const Quaternion world = since * turn_ * to_.places[j].rotation;
+        const Quaternion since = moved[s].rotation * from_.place(source_[j]).rotation.conjugate();
+        const Quaternion world = since * turn_ * to_.place(static_cast<JointId>(j)).rotation;
         pose.rotations[j] = (above.rotation.conjugate() * world).normalized();
         if (isHips(j)) {
           pose.translations[j] =
@@ -203,7 +131,7 @@ class Retargeting {
   void addNotes(std::vector<std::string>& notes) const {
     const auto count =
         source_.size() - countOf(std::count(source_.begin(), source_.end(), kNoParent));
-    const JointId arm = from_.bones.at("leftUpperArm");
+    const JointId arm = from_.bones().at("leftUpperArm");
     std::string note = std::to_string(count) + " of the avatar's " +
                        std::to_string(source_.size()) +
                        " joints follow it by their part of the body, such as 'leftUpperArm' " +
@@ -212,7 +140,7 @@ class Retargeting {
       note += "; its limbs at rest are up to " + inDigits(tilt_, 2) + " degrees off the avatar's";
     }
     notes.push_back(std::move(note));
-    const double ratio = from_.legs() / to_.legs();
+    const double ratio = from_.legLength() / to_.legLength();
     if (std::abs(ratio - 1.0) <= kNotedLegs) return;
     notes.push_back("its legs are " + inDigits(ratio, 3) +
                     " times as long as the avatar's, whose feet do not stand where its do");
@@ -220,7 +148,7 @@ class Retargeting {
 
   const Skeleton& avatar_;
   const Clip& clip_;
-  RestingBody to_, from_;
+  HumanoidRest to_, from_;
   Quaternion turn_ = Quaternion::Identity();  ///< The avatar at rest, to face as the clip at rest.
   double tilt_ = 0.0;                         ///< Degrees: the most that limbs differ at rest.
   std::vector<JointId> source_;               ///< Per joint of the avatar.

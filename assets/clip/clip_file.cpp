@@ -4,10 +4,14 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "articulated/try.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/bvh/bvh_reader.h"
+#include "assets/clip/acclaim.h"
+#include "assets/clip/webxr_session.h"
 #include "assets/import/model_import.h"
 #include "assets/model/model_avatar.h"
 #include "assets/text_file.h"
@@ -23,11 +27,50 @@ std::string endingOf(const std::string& path) {
   return extension;
 }
 
+/// Of MVNX, which has a key for every frame: its own, so that each pose is one of the file's.
+std::optional<double> recordedRateOf(const std::string& path, const Model& model) {
+  if (endingOf(path) != ".mvnx" || model.animations.empty()) return std::nullopt;
+  const auto& keys = model.animations.front().tracks.front().positions;
+  double shortest = keys[1].timeS - keys[0].timeS;
+  for (std::size_t i = 2; i < keys.size(); ++i) {
+    shortest = std::min(shortest, keys[i].timeS - keys[i - 1].timeS);
+  }
+  return 1.0 / shortest;
+}
+
+Result<ClipFile> readAcclaim(const std::string& path, const ClipFileOptions& options) {
+  std::string skeleton = options.skeleton;
+  if (skeleton.empty()) {
+    FORETOUCH_TRY(skeleton, skeletonBeside(path));
+  }
+  FORETOUCH_TRY(const auto asf, readWholeFile(skeleton, kMaxJointTableBytes));
+  FORETOUCH_TRY(const auto amc, readWholeFile(path, kMaxBvhFileBytes));
+  ClipFile file;
+  static_cast<void>(internal::settleFrame(options.import.scale, options.import.up, file.frame));
+  FORETOUCH_TRY(file.clip, parseAcclaim(asf, skeleton, amc, path,
+                                        {options.import.scale, options.table.rateHz}));
+  return file;
+}
+
+Result<ClipFile> readWebXr(const std::string& path, const ClipFileOptions& options) {
+  FORETOUCH_TRY(const auto text, readWholeFile(path, kMaxSessionBytes));
+  ClipFile file;
+  file.isUpright = true;
+  file.frame.declared = {1.0, UpAxis::Y, true};
+  FORETOUCH_TRY(file.clip, parseWebXrSession(text, path, options.table.rateHz));
+  return file;
+}
+
 Result<ClipFile> readModel(const std::string& path, const ClipFileOptions& options) {
   ModelImportOptions import;
   import.import = options.import;
   FORETOUCH_TRY(const auto model, importModel(path, import));
-  FORETOUCH_TRY(auto clip, inFile(clipFromModel(model, {options.animation, options.rateHz}), path));
+  const double rateHz = recordedRateOf(path, model).value_or(options.rateHz);
+  FORETOUCH_TRY(auto clip, inFile(clipFromModel(model, {options.animation, rateHz}), path));
+  // Of other models who makes an avatar of them tells the notes.
+  if (endingOf(path) == ".mvnx") {
+    clip.notes.insert(clip.notes.begin(), model.notes.begin(), model.notes.end());
+  }
   return ClipFile{std::move(clip), true, model.frame};
 }
 
@@ -56,10 +99,12 @@ Result<Model> readRobotModel(const ClipFileOptions& options) {
 
 ClipFormat clipFormatOf(const std::string& path) {
   const std::string extension = endingOf(path);
-  constexpr std::array kModels = {".glb", ".gltf", ".vrm", ".fbx", ".dae", ".x"};
+  constexpr std::array kModels = {".glb", ".gltf", ".vrm", ".fbx", ".dae", ".x", ".mvnx"};
   if (std::find(kModels.begin(), kModels.end(), extension) != kModels.end()) {
     return ClipFormat::Model;
   }
+  if (extension == ".amc") return ClipFormat::Acclaim;
+  if (extension == ".json") return ClipFormat::WebXr;
   return extension == ".csv" || extension == ".npz" ? ClipFormat::JointTable : ClipFormat::Bvh;
 }
 
@@ -78,6 +123,8 @@ Result<ClipFile> readClipFile(const std::string& path, const ClipFileOptions& op
                          "joint positions are about a robot: expected its URDF");
       }
       return readTable(path, options);
+    case ClipFormat::Acclaim: return readAcclaim(path, options);
+    case ClipFormat::WebXr: return readWebXr(path, options);
     case ClipFormat::Bvh: break;
   }
   ClipFile file;

@@ -1,5 +1,6 @@
-// assets/clip/clip_file.h: clips from whatever file has one: BVH, an animated model, or a table of
-// a robot's joint positions. The file's extension decides (docs/formats.md).
+// assets/clip/clip_file.h: clips from whatever file has one: BVH, AMC, MVNX, an animated model, a
+// session of WebXR, or a table of a robot's joint positions. The file's extension decides
+// (docs/formats.md).
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,8 @@ namespace foretouch {
 
 inline constexpr std::size_t kMaxJointTableBytes = std::size_t{256} << 20;
 
-enum class ClipFormat : std::uint8_t { Bvh, Model, JointTable };
+/// Model: MVNX as well, whose segments are its nodes. WebXr: a session as iwer records it (.json).
+enum class ClipFormat : std::uint8_t { Bvh, Model, JointTable, Acclaim, WebXr };
 
 /// A table in numpy's format (.npz) counts as JointTable, but readClipFile() reads only CSV.
 /// Every other file that is neither a table nor a model format with animations counts as BVH, whose
@@ -31,8 +33,9 @@ struct ClipFileOptions {
   std::string animation;                  ///< The one of a model to take; empty: its first.
   double rateHz = 30.0;                   ///< Sampling rate of a model's animation.
   std::string robot;                      ///< The URDF whose joints a table is about.
+  std::string skeleton;                   ///< The ASF of an AMC; empty: the one beside it.
   std::vector<std::string> packagePaths;  ///< Folders of that URDF's packages.
-  JointTableOptions table;                ///< What a table does not say itself.
+  JointTableOptions table;  ///< What a table does not say itself; of AMC and WebXR the rate alone.
 };
 
 struct ClipFile {

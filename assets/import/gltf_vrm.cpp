@@ -83,15 +83,6 @@ class VrmReader {
                                   "], which is " + inQuotes(found->second) + " already");
   }
 
-  /// VRM 1.0 moved the names of the thumb's bones down by one: its metacarpal was called proximal.
-  static std::string thumbOf(const std::string& bone) {
-    for (const std::string side : {"left", "right"}) {
-      if (bone == side + "ThumbProximal") return side + "ThumbMetacarpal";
-      if (bone == side + "ThumbIntermediate") return side + "ThumbProximal";
-    }
-    return bone;
-  }
-
   void addBones(const json& bones) {
     // A beta of 1.0 had the old names of the thumb.
     const bool isBeta =

@@ -38,6 +38,7 @@ bool writeAll(int fd, std::string_view bytes) {
 
 Model read(const ModelQuestion& question) {
   if (lowerExtensionOf(question.path) == ".urdf") return readUrdf(question);
+  if (lowerExtensionOf(question.path) == ".mvnx") return readMvnx(question);
   if (isGltf(question.path)) return readGltf(question);
   if (!isMjcf(question.path)) return readModel(question);
 #ifdef FORETOUCH_HAS_MUJOCO

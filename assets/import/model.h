@@ -47,6 +47,7 @@ class ModelBuilder {
 [[nodiscard]] Model readModel(const ModelQuestion& question);
 [[nodiscard]] Model readGltf(const ModelQuestion& question);
 [[nodiscard]] Model readUrdf(const ModelQuestion& question);
+[[nodiscard]] Model readMvnx(const ModelQuestion& question);
 /// Where the program is built with libmujoco.
 [[nodiscard]] Model readMjcf(const ModelQuestion& question);
 

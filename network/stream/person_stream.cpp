@@ -221,8 +221,10 @@ void PersonStream::sayStep(const StreamStep& step, int newer) {
 void PersonStream::sayGap(const StreamStep& step) {
   const PersonClock::time_point start = PersonClock::now();
   const Kept &from = *back(1), &to = *back(0);
-  const PosedStep posed = between(from, to);
+  PosedStep posed = between(from, to);
+  if (to.sequence >= kFirstUncounted) posed.seconds += kUncountedClockUs / kPersonUsPerS;
   const auto& bounds = claimed(rateOf(from.utimeUs, to.utimeUs, stepsAcross(step)), {&to});
+  if (to.sequence >= kFirstUntimed) claimed_.assign(claimed_.size(), LinkBound{});
   checkGap(posed, bounds);
   PersonMessage& message = begin(step, StepKind::AcrossGap, from, to);
   if (query_.answerGap(posed, bounds, scratch_, brackets_).ok()) take(brackets_, message);

@@ -38,7 +38,8 @@ PosePlace StreamTimeline::place(const PoseStamp& stamp, Beginning beginning) {
     place.from = stamp;
   } else {
     place.lost = numBetween(last_.sequence, stamp.sequence);
-    place.kind = place.lost > 0 || isContradicted_ ? StepKind::AcrossGap : StepKind::Consecutive;
+    const bool mayMiss = place.lost > 0 || isContradicted_ || stamp.sequence >= kFirstUncounted;
+    place.kind = mayMiss ? StepKind::AcrossGap : StepKind::Consecutive;
     place.from = last_;
   }
   accept(stamp);

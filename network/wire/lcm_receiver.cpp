@@ -60,6 +60,7 @@ class LcmReceiver : public Receiver {
   }
 
   [[nodiscard]] WireCounts counts() const override { return counts_; }
+  [[nodiscard]] int readableFd() const override { return lcm_get_fileno(lcm_.get()); }
 
  private:
   static void handle(const lcm_recv_buf_t* buffer, const char* channel, void* receiver) {

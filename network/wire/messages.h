@@ -112,6 +112,15 @@ struct PoseTranslation {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
 };
 
+/// Sequences from here on are a receiver's own count, for a sender that numbers nothing (VMC): that
+/// no pose was lost between two of them cannot be known, and no step is Consecutive.
+inline constexpr std::int64_t kFirstUncounted = std::int64_t{1} << 61;
+/// From here on it does not say when poses were captured, either: their times are of receipt, and
+/// no claim may rest on the time between them.
+inline constexpr std::int64_t kFirstUntimed = kFirstUncounted + (std::int64_t{1} << 60);
+/// Times of capture of uncounted poses are off by at most half of this (us).
+inline constexpr std::int64_t kUncountedClockUs = 4000;
+
 struct PoseMessage {
   std::int32_t avatar = 0;
   std::int64_t session = 0;

@@ -104,6 +104,7 @@ const char* toString(DatagramFault fault) {
     case DatagramFault::Conflict: return "conflict";
     case DatagramFault::Repeated: return "repeated";
     case DatagramFault::Incomplete: return "incomplete";
+    case DatagramFault::Osc: return "osc";
   }
   return "none";
 }

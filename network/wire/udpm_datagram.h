@@ -33,9 +33,10 @@ enum class DatagramFault : std::uint8_t {
   Conflict,    ///< Disagrees with other fragments of the same message.
   Repeated,    ///< A fragment that came before.
   Incomplete,  ///< A message dropped before its missing fragments came.
+  Osc,         ///< Of a VMC port: no whole OSC packet.
 };
 inline constexpr std::size_t kNumDatagramFaults =
-    static_cast<std::size_t>(DatagramFault::Incomplete) + 1;
+    static_cast<std::size_t>(DatagramFault::Osc) + 1;
 [[nodiscard]] const char* toString(DatagramFault fault);
 
 /// The content of a datagram; views into it.

@@ -31,6 +31,12 @@ SenderFilter::SenderFilter(const UdpmUrl& url, std::vector<Network> networks)
       takesUnnamed_(!contains(kLinkLocalGroups, ntohl(addressOf(url).sin_addr.s_addr))),
       networks_(std::move(networks)) {}
 
+SenderFilter SenderFilter::ofUnicast(const UdpmUrl& url, std::vector<Network> networks) {
+  SenderFilter filter(url, std::move(networks));
+  filter.takesUnnamed_ = false;
+  return filter;
+}
+
 bool SenderFilter::isOwn(std::uint32_t address) const {
   return contains(kLoopback, address) || (address == INADDR_ANY && takesUnnamed_) ||
          std::binary_search(own_.begin(), own_.end(), address);

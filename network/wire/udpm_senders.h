@@ -21,6 +21,8 @@ class SenderFilter {
   /// A ttl of 0 means this machine alone; `networks` replace that, and this machine is always among
   /// them. A ttl above 0 without `networks`: everybody.
   SenderFilter(const UdpmUrl& url, std::vector<Network> networks);
+  /// The same at a port that no group leads to: there 0.0.0.0 is not this machine.
+  static SenderFilter ofUnicast(const UdpmUrl& url, std::vector<Network> networks);
 
   using Time = std::chrono::steady_clock::time_point;
   /// Whether to take a datagram from here. Asks the system for its own addresses every ten seconds,

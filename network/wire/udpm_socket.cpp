@@ -72,6 +72,13 @@ int joinGroup(int fd, const UdpmUrl& url) {
   return join();
 }
 
+void prepareToListen(int fd, std::size_t bufferBytes) {
+  const std::size_t most = std::numeric_limits<int>::max();
+  setBuffer(fd, SO_RCVBUFFORCE, SO_RCVBUF, static_cast<int>(std::min(bufferBytes, most)));
+  switchOn(fd, SO_TIMESTAMPNS);
+  switchOn(fd, SO_RXQ_OVFL);
+}
+
 Result<Descriptor> openListeningSocket(const UdpmUrl& url) {
   Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   const int fd = socket.get();
@@ -80,14 +87,10 @@ Result<Descriptor> openListeningSocket(const UdpmUrl& url) {
   if (url.port != 0 && !switchOn(fd, SO_REUSEADDR)) {
     return socketError(url, "cannot share the port", errno);
   }
-  const std::size_t most = std::numeric_limits<int>::max();
-  setBuffer(fd, SO_RCVBUFFORCE, SO_RCVBUF,
-            static_cast<int>(std::min(url.receiveBufferBytes, most)));
+  prepareToListen(fd, url.receiveBufferBytes);
   // Else Linux delivers the groups that any program on this machine has joined on this port.
   const int off = 0;
   setsockopt(fd, IPPROTO_IP, IP_MULTICAST_ALL, &off, sizeof off);
-  switchOn(fd, SO_TIMESTAMPNS);
-  switchOn(fd, SO_RXQ_OVFL);
   // To the group, not to any address: datagrams to this machine alone are not for us.
   const sockaddr_in address = addressOf(url);
   if (bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {

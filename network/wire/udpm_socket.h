@@ -1,6 +1,7 @@
 // network/wire/udpm_socket.h: the sockets of LCM's UDP multicast. Not installed.
 #pragma once
 
+#include <cstddef>
 #include <netinet/in.h>
 #include <string>
 
@@ -16,6 +17,9 @@ namespace foretouch {
 
 /// The text of errno, and the command to type if a multicast route is missing.
 [[nodiscard]] Error socketError(const UdpmUrl& url, const std::string& what, int errorNumber);
+
+/// Asks for a buffer of so many bytes, for stamps, and for counts of what is dropped.
+void prepareToListen(int fd, std::size_t bufferBytes);
 
 /// Non-blocking. Bound to the group on `url.port` (0: any free one, not shared) and joined.
 [[nodiscard]] Result<Descriptor> openListeningSocket(const UdpmUrl& url);

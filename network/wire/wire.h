@@ -78,6 +78,8 @@ class Receiver {
   [[nodiscard]] virtual WireCounts counts() const = 0;
   /// What the system gave of UdpmUrl::receiveBufferBytes; 0: not known.
   [[nodiscard]] virtual std::size_t receiveBufferBytes() const { return 0; }
+  /// Becomes readable when something came, for who waits for more than one receiver; -1: none.
+  [[nodiscard]] virtual int readableFd() const { return -1; }
 };
 
 /// Limits on unfinished messages and on their bytes together, bookkeeping included.

@@ -76,6 +76,7 @@ const std::map<std::string, Rooms> kRooms = {
     {"network",
      {{"wire", {}},
       {"log", {"wire"}},
+      {"vmc", {"wire"}},
       {"stream", {"wire"}},
       {"world_stream", {"stream", "wire"}},
       {"service", {"world_stream", "stream", "log", "wire"}},

@@ -20,6 +20,7 @@
 #include "network/service/metrics_server.h"
 #include "network/service/metrics_text.h"
 #include "network/service/service.h"
+#include "network/vmc/vmc_receiver.h"
 #include "tools/settings/channel_names.h"
 #include "tools/stream/serve_config.h"
 #include "tools/stream/served_world.h"
@@ -59,6 +60,36 @@ Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
   FORETOUCH_TRY(auto publisher, inFile(openUdpmPublisher(url), config.url));
   parts.receiver = std::move(receiver);
   parts.publisher = std::move(publisher);
+  return Done{};
+}
+
+/// The avatars that VMC moves are among those that are served.
+Result<Done> addVmc(const ServeConfig& config, const ServedWorld& world, ServiceParts& parts) {
+  if (config.vmc.empty()) return Done{};
+  if (!config.keyPath.empty()) {
+    return Error::in(
+        "--vmc", ErrorCode::Mismatch,
+        "VMC has no signatures, and --key refuses what has none; expected one of them");
+  }
+  std::vector<VmcPort> ports;
+  for (const NumberedPort& each : config.vmc) {
+    const auto served =
+        std::find_if(world.avatars.begin(), world.avatars.end(),
+                     [&](const StreamSolver& avatar) { return avatar.id() == each.avatar; });
+    if (served == world.avatars.end()) {
+      return Error::in("--vmc", ErrorCode::UnknownName,
+                       fmt::format("expected an avatar that is served, found {}", each.avatar));
+    }
+    FORETOUCH_TRY(auto body,
+                  inFile(VmcBody::make(each.avatar, served->avatar().skeleton(), config.vmcBones),
+                         fmt::format("--vmc: avatar {}", each.avatar)));
+    ports.push_back({each.port, std::move(body)});
+  }
+  FORETOUCH_TRY(const auto url, inFile(parseUdpmUrl(config.url), "--url"));
+  FORETOUCH_TRY(parts.receiver,
+                inFile(openVmcReceiver(std::move(parts.receiver), std::move(ports),
+                                       {url, config.senders, config.service.suffix}),
+                       "--vmc"));
   return Done{};
 }
 
@@ -129,6 +160,9 @@ std::string describe(const ServeConfig& config, const ServedWorld& world) {
   }
   if (!config.service.suffix.empty()) text += ", suffix " + config.service.suffix;
   if (!config.worldPath.empty()) text += ", a moving world " + config.worldPath;
+  for (const NumberedPort& each : config.vmc) {
+    text += fmt::format(", VMC for avatar {} on port {}", each.avatar, each.port);
+  }
   if (!config.log.empty()) text += ", log " + config.log;
   if (!config.http.empty()) text += ", metrics on " + config.http;
   if (!config.view.empty()) text += ", to be watched at http://" + config.view + "/";
@@ -258,6 +292,7 @@ constexpr char kServeExamples[] = R"(Examples:
   foretouch serve --scene kitchen.ply --scene-up z --avatar 1=anna.json --avatar 2=ben.json \
       --workers 2 --log today.lcmlog --http 127.0.0.1:9464
   foretouch serve --scene room.obj --avatar dancer.avatar.json --view
+  foretouch serve --scene room.obj --avatar vtuber.avatar.json --vmc 39539 --view
   foretouch serve --world stage.toml --view
   foretouch serve --world stage.toml --solid --world-solid ben
   foretouch serve --config service.toml --workers 4
@@ -276,6 +311,7 @@ Result<Done> serve(const ServeConfig& given) {
   parts.world = std::move(world.world);
   parts.persons = std::move(world.persons);
   FORETOUCH_CHECK(openWire(config, parts));
+  FORETOUCH_CHECK(addVmc(config, world, parts));
   FORETOUCH_CHECK(openLog(config, parts));
 
   std::optional<ServeView> view = prepareView(config, world);

@@ -162,7 +162,7 @@ bool isEventLog(const std::string& path) {
 Result<FileRole> roleOfFile(const std::string& path) {
   constexpr std::array kScenes{".obj"sv, ".ply"sv, ".stl"sv, ".off"sv, ".3ds"sv, ".iqm"sv};
   constexpr std::array kModels{".glb"sv, ".gltf"sv, ".vrm"sv, ".fbx"sv, ".dae"sv, ".x"sv};
-  constexpr std::array kMotions{".bvh"sv, ".csv"sv, ".npz"sv, ".lcmlog"sv};
+  constexpr std::array kMotions{".bvh"sv, ".amc"sv, ".mvnx"sv, ".csv"sv, ".npz"sv, ".lcmlog"sv};
   const std::string extension = lowerExtensionOf(path);
   const auto isOneOf = [&](const auto& extensions) {
     return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();

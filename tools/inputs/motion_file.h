@@ -18,6 +18,7 @@ struct MotionRequest {
   std::string animation;                  ///< Of a model; empty: its first.
   double rateHz = 30.0;                   ///< Sampling rate of a model's animation.
   std::string robot;                      ///< The URDF whose joints a table is about.
+  std::string skeleton;                   ///< The ASF of an AMC, or SMPL's body model.
   std::vector<std::string> packagePaths;  ///< Folders of that URDF's packages.
   JointTableOptions table;                ///< What that table does not say itself.
 };

@@ -170,8 +170,8 @@ std::vector<std::string> textsIn(std::string_view data, std::size_t width, bool 
 
 /// "<f8": how many bytes a value has; 0: not one of the types that are read.
 std::size_t widthOf(const std::string& type) {
-  if (type == "<f8" || type == "<i8") return 8;
-  if (type == "<f4" || type == "<i4") return 4;
+  if (type == "<f8" || type == "<i8" || type == "<u8") return 8;
+  if (type == "<f4" || type == "<i4" || type == "<u4") return 4;
   std::size_t size = 0;
   const bool isText = type.size() > 2 && (isAt(type, 0, "|S") || isAt(type, 0, "<U"));
   if (!isText) return 0;
@@ -212,6 +212,8 @@ Result<NpzArray> decoded(const std::string& content) {
   if (header.type == "<f4") array.numbers = numbersIn<float>(data, header, *count);
   if (header.type == "<i8") array.numbers = numbersIn<std::int64_t>(data, header, *count);
   if (header.type == "<i4") array.numbers = numbersIn<std::int32_t>(data, header, *count);
+  if (header.type == "<u8") array.numbers = numbersIn<std::uint64_t>(data, header, *count);
+  if (header.type == "<u4") array.numbers = numbersIn<std::uint32_t>(data, header, *count);
   const auto odd = std::find_if_not(array.numbers.begin(), array.numbers.end(),
                                     [](double number) { return std::isfinite(number); });
   if (odd == array.numbers.end()) return array;

@@ -171,6 +171,15 @@ void addSourceSettings(Settings& settings, ClipRequest& request) {
       .inHeader("robot")
       .inReport("robot")
       .namedIf([&request] { return !request.robotPath.empty(); });
+  settings
+      .path("--skeleton", "FILE", request.skeletonPath,
+            "What a motion is about: the ASF of an AMC, or the body model (npz) of one of SMPL")
+      .files("asf npz")
+      .in(kInputGroup)
+      .inConfig("clip", "skeleton")
+      .inHeader("skeleton")
+      .inReport("skeleton")
+      .namedIf([&request] { return !request.skeletonPath.empty(); });
   addTableSettings(settings, request.table);
   settings
       .path("--map", "FILE", request.mapPath,

@@ -34,6 +34,7 @@ struct ClipRequest {
   std::optional<UpAxis> motionUp;         ///< In place of what the clip says.
   std::string animation;                  ///< For a motion that is a model.
   std::string robotPath;                  ///< For a motion that is a table of joint positions.
+  std::string skeletonPath;               ///< For a motion in AMC, or of SMPL.
   std::vector<std::string> packagePaths;  ///< Folders of that robot's packages.
   JointTableOptions table;                ///< What that table does not say itself.
   Placement placement;                    ///< The option sets its motionUpZ too, for BVH.
@@ -41,9 +42,10 @@ struct ClipRequest {
 };
 
 /// What readMotion() reads, for a shell that completes files.
-inline constexpr char kClipEndings[] = "bvh glb gltf fbx dae x csv npz";
+inline constexpr char kClipEndings[] = "bvh amc mvnx glb gltf fbx dae x csv npz json";
 inline constexpr char kClipHelp[] =
-    "BVH clip, animated model (glb, gltf, fbx, dae, x) or joint positions (csv, npz)";
+    "Clip (bvh, amc, mvnx), animated model (glb, gltf, fbx, dae, x), joint positions (csv, npz), "
+    "motion of SMPL (npz) or session of WebXR (json)";
 
 /// "x,y,z" or "x,y,z,yaw": metres within kMaxCoordinate, and degrees. Errors name no option.
 [[nodiscard]] Result<Placement> placementFrom(const std::string& text);

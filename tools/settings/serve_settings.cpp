@@ -1,5 +1,7 @@
 #include "tools/settings/serve_settings.h"
 
+#include <charconv>
+#include <system_error>
 #include <utility>
 
 #include "articulated/try.h"
@@ -50,6 +52,42 @@ Result<Done> takeSenders(const std::vector<std::string>& texts, ServeConfig& con
   return Done{};
 }
 
+Result<Done> takeVmc(const std::vector<std::string>& texts, ServeConfig& config) {
+  constexpr int kMostPort = 65535;
+  FORETOUCH_TRY(const auto numbered, parseNumberedAvatars("--vmc", texts));
+  std::vector<NumberedPort> ports;
+  for (const NumberedAvatar& each : numbered) {
+    int port = 0;
+    const char* const end = each.path.data() + each.path.size();
+    const auto [rest, problem] = std::from_chars(each.path.data(), end, port);
+    if (problem != std::errc() || rest != end || port < 1 || port > kMostPort) {
+      return Error::in("--vmc", ErrorCode::OutOfRange,
+                       "expected a UDP port of 1 to 65535, found " + inQuotes(each.path));
+    }
+    ports.push_back({each.id, static_cast<std::uint16_t>(port)});
+  }
+  config.vmc = std::move(ports);
+  config.vmcTexts = texts;
+  return Done{};
+}
+
+void addVmcSettings(Settings& settings, ServeConfig& config) {
+  Setting& vmc = settings.list("--vmc", "[ID=]PORT", config.vmcTexts,
+                               "UDP port at which a performer of VMC moves the avatar ID (1 if not "
+                               "given), whose joints are a "
+                               "humanoid's; may be repeated");
+  vmc.take = [&config](const GivenValue& given) { return takeVmc(given.texts, config); };
+  vmc.in(kNetworkGroup).inConfig("service", "vmc");
+  settings
+      .word<VmcBones>(
+          "--vmc-bones", "original|normalized", config.vmcBones,
+          {{"original", VmcBones::Original}, {"normalized", VmcBones::Normalized}},
+          "What VMC's rotations are relative to: the bones as the avatar's own model has "
+          "them, or bones that a T-pose does not turn")
+      .in(kNetworkGroup)
+      .inConfig("service", "vmc_bones");
+}
+
 void addNetworkSettings(Settings& settings, ServeConfig& config) {
   settings
       .text(
@@ -73,6 +111,7 @@ void addNetworkSettings(Settings& settings, ServeConfig& config) {
       "By default this machine at a ttl of 0, else everybody");
   senders.take = [&config](const GivenValue& given) { return takeSenders(given.texts, config); };
   senders.in(kNetworkGroup).inConfig("service", "senders");
+  addVmcSettings(settings, config);
   addKeySetting(
       settings, config.keyPath,
       "Key of 32 hexadecimal digits: refuse messages that are not signed with it, and sign "

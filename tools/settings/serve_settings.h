@@ -9,6 +9,7 @@
 #include "articulated/result.h"
 #include "network/service/service.h"
 #include "network/stream/stream_policy.h"
+#include "network/vmc/vmc_body.h"
 #include "network/wire/wire.h"
 #include "network/world_stream/world_setup.h"
 #include "tools/settings/numbered_avatars.h"
@@ -23,6 +24,12 @@ inline constexpr std::size_t kMaxServeAvatars = 4096;
 /// The address of `--view` without a value.
 inline constexpr char kDefaultView[] = "127.0.0.1:9465";
 
+/// The UDP port at which an avatar's poses come by VMC.
+struct NumberedPort {
+  std::int32_t avatar = 1;
+  std::uint16_t port = 0;
+};
+
 enum class ReceiverKind : std::uint8_t {
   Own,     ///< Our bounded reader: for any network.
   Liblcm,  ///< For trusted networks.
@@ -35,6 +42,9 @@ struct ServeConfig {
   /// Whose datagrams are taken; empty: see openUdpmReceiver().
   std::vector<Network> senders;
   std::vector<std::string> senderTexts;
+  std::vector<NumberedPort> vmc;  ///< Where avatars are moved by VMC.
+  std::vector<std::string> vmcTexts;
+  VmcBones vmcBones = VmcBones::Original;
   std::string keyPath;     ///< Of the key that messages are signed with.
   ServiceOptions service;  ///< Workers, queue, suffix and takeover.
   std::string log;         ///< The file that records events.

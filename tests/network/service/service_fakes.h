@@ -207,7 +207,7 @@ class FakeSink final : public JournalSink {
 };
 
 /// Advances one microsecond per call.
-class FakeClock final : public Clock {
+class FakeClock final : public foretouch::Clock {
  public:
   [[nodiscard]] std::int64_t utimeUs() const override { return ++now_; }
 

@@ -212,6 +212,29 @@ TEST_F(PersonStreams, KnowAnEndOfAWaitThatWasRecorded) {
   EXPECT_FALSE(person_->isEndOfWait(ended));
 }
 
+TEST_F(PersonStreams, AskTheClockOfUncountedPosesWithItsError) {
+  begin(MotionModel::Cubic);
+  // 100 us at 3 m/s are nothing, and with 4 ms of a clock that is off 12 mm.
+  constexpr double kFar = 0.015, kNear = 0.011;
+  const auto at = [](double x, std::int64_t sequence, std::int64_t us) {
+    PoseMessage message = hipsAt(x, sequence);
+    message.utimeUs = us;
+    return message;
+  };
+  follow(at(0.0, kFirstUncounted, 1000));
+  follow(at(kNear, kFirstUncounted + 1, 1100));
+  EXPECT_EQ(last().kind, StepKind::AcrossGap);
+  EXPECT_EQ(last().verdicts[0], BracketVerdict::Excluded);
+  EXPECT_TRUE(last().broken.empty());
+  follow(at(kNear + kFar, kFirstUncounted + 2, 1200));
+  EXPECT_FALSE(last().broken.empty());
+  // Without a clock nothing is claimed, and so nothing is broken.
+  follow(at(-1.0, kFirstUntimed, 1300));
+  EXPECT_EQ(last().kind, StepKind::AcrossGap);
+  EXPECT_EQ(last().verdicts[0], BracketVerdict::Unclaimed);
+  EXPECT_TRUE(last().broken.empty());
+}
+
 TEST_F(PersonStreams, ExcludeAcrossAGapWhatTheSpeedExcludes) {
   begin(MotionModel::Cubic);
   follow(hipsAt(0.0, 1));
