@@ -240,15 +240,18 @@ class MostRoom {
  public:
   MostRoom(const Room& roomAt, const Aabb& box) : roomAt_(roomAt), box_(box) {}
 
-  double find() {
+  /// `met`: a point where they meet, if one is known.
+  double find(const std::optional<Vector3d>& met) {
     const Vector3d size = box_.max - box_.min;
     if (!(size.minCoeff() > 0.0)) return 0.0;
     for (int i = 0; i < kGrid * kGrid * kGrid; ++i) {
       const Vector3d share(i % kGrid, (i / kGrid) % kGrid, i / (kGrid * kGrid));
       offer(box_.min + size.cwiseProduct((share + Vector3d::Constant(0.5)) / kGrid));
     }
+    const double first = size.norm() / (2.0 * kGrid);
+    for (double step = first; met && step > kLeastShare * first; step *= 0.5) around(*met, step);
     if (!(most_ > 0.0)) return 0.0;
-    for (double step = size.norm() / (2.0 * kGrid); step > kLeastStep * most_; step *= 0.5) {
+    for (double step = first; step > kLeastStep * most_; step *= 0.5) {
       for (int k = 0; k < kMostMoves && move(step); ++k) continue;
     }
     return most_;
@@ -256,7 +259,7 @@ class MostRoom {
 
  private:
   static constexpr int kGrid = 4, kMostMoves = 8;
-  static constexpr double kLeastStep = 1e-3;
+  static constexpr double kLeastStep = 1e-3, kLeastShare = 1e-3;
 
   bool offer(const Vector3d& p) {
     const double room = roomAt_(p);
@@ -267,8 +270,9 @@ class MostRoom {
   }
 
   /// To a corner, a face or an edge of the cube around the best.
-  bool move(double step) {
-    const Vector3d from = at_;
+  bool move(double step) { return around(Vector3d(at_), step); }
+
+  bool around(const Vector3d& from, double step) {
     bool isBetter = false;
     for (int i = 0; i < 27; ++i) {
       const Vector3d way(i % 3 - 1, (i / 3) % 3 - 1, i / 9 - 1);
@@ -315,7 +319,8 @@ bool LinkDepths::hasInside(LinkId link) const {
   return solid(link).hasInside();
 }
 
-LinkDepth LinkDepths::at(const ChainMotion& motion, double t, LinkId a, LinkId b) const {
+LinkDepth LinkDepths::at(const ChainMotion& motion, double t, LinkId a, LinkId b,
+                         const Vector3d* met_W) const {
   const Solid &one = solid(a), &other = solid(b);
   const LinkState A = motion.stateAt(a, t), B = motion.stateAt(b, t);
   // Everything is seen from a.
@@ -349,7 +354,9 @@ LinkDepth LinkDepths::at(const ChainMotion& motion, double t, LinkId a, LinkId b
     const double ofOther = other.roomAt(back.at(p), around);
     return ofOther > 0.0 ? ofOne + ofOther : 0.0;
   };
-  const double room = MostRoom(roomAt, shared).find() - 4.0 * rounding;
+  std::optional<Vector3d> met;
+  if (met_W != nullptr) met = A.R_WL.transpose() * (*met_W - A.p_WL);
+  const double room = MostRoom(roomAt, shared).find(met) - 4.0 * rounding;
   depth.lower = std::max(depth.lower, room / internal::kInflation);
   return depth;
 }

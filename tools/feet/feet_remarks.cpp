@@ -13,6 +13,7 @@
 #include "tools/inputs/first_pose.h"
 #include "tools/inputs/t_pose.h"
 #include "tools/settings/plain_figures.h"
+#include "tools/setup/body_offer.h"
 
 namespace foretouch::tools {
 namespace {
@@ -25,10 +26,16 @@ constexpr double kShortest = 0.5, kTallest = 3.0;
 std::optional<std::string> remarkOnStature(const FeetInputs& inputs) {
   const auto stature = statureOf(inputs.played.avatar.skeleton());
   if (!stature || (*stature >= kShortest && *stature <= kTallest)) return std::nullopt;
+  const FeetRequest& request = inputs.request;
+  std::string unit = "is the unit (--clip-scale) right?";
+  const double read = request.motionScale.value_or(1.0);
+  const Offer<double> offer = unitOf(inputs.played.clip, false, read);
+  if (request.isMadeOfBones() && offer.isSure) {
+    unit = fmt::format("{} (--clip-scale {})", offer.reason, plainFigures(read * offer.value));
+  }
   return fmt::format(
-      "{}: the body is {} m tall, by the length of its legs, and all thresholds are for people: is "
-      "the unit (--clip-scale) right?",
-      inputs.request.motionPath, plainFigures(*stature));
+      "{}: the body is {} m tall, by the length of its legs, and all thresholds are for people: {}",
+      request.motionPath, plainFigures(*stature), unit);
 }
 
 /// Nobody moves by more than this (m) and faster than this (m/s).

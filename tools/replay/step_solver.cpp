@@ -84,7 +84,7 @@ void StepSolver::findDepths(const ChainMotion& motion, StepAnswer& answer) const
   if (depths_ == nullptr) return;
   for (PairContact& pair : answer.pairs) {
     if (pair.verdict != Verdict::StartsInContact || pair.penetration > 0.0) continue;
-    const LinkDepth depth = depths_->at(motion, 0.0, pair.link, pair.other);
+    const LinkDepth depth = depths_->at(motion, 0.0, pair.link, pair.other, &pair.p_WScene);
     pair.penetration = depth.lower;
     pair.penetrationAtMost = depth.upper;
   }

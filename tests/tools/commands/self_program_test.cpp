@@ -312,7 +312,7 @@ TEST(SelfReplay, TellsHowDeepMeshesBeginInEachOther) {
   std::vector<double> deep;
   for (std::string line; std::getline(stream, line);) {
     const json read = json::parse(line);
-    if (read.count("touch") != 0) {
+    if (read.count("touch") != 0 && read["touch"].count("other") != 0) {
       EXPECT_NEAR(read["touch"]["penetration"].get<double>(), 0.06, 1e-6);
     }
     if (read.count("pairs") == 0) continue;

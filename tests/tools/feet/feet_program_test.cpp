@@ -225,6 +225,10 @@ TEST(FeetProgram, FitsAWalkAndRefusesASprint) {
   const Ended sprints = runForetouch({"feet", *dash, "--clip-scale", "0.01", "--ground", "fit"});
   EXPECT_EQ(sprints.exitCode, 2);
   EXPECT_NE(sprints.err.find("no foot rests"), std::string::npos) << sprints.err;
+  const Ended giant = runForetouch({"feet", *dash});
+  EXPECT_NE(giant.err.find("thresholds are for people: centimetres make it 1."), std::string::npos)
+      << giant.err;
+  EXPECT_NE(giant.err.find("(--clip-scale 0.01)"), std::string::npos) << giant.err;
 }
 
 TEST(FeetProgram, NamesWhatIsWrong) {

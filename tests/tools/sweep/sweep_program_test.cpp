@@ -149,7 +149,8 @@ TEST(SweepProgram, LeavesOutATPoseWhenAsked) {
     }
     return std::pair{most, ended.err};
   };
-  const auto all = highest({}), cut = highest({"--skip-t-pose"}), named = highest({"--from", "5f"});
+  const auto all = highest({}), cut = highest({"--skip-t-pose"}),
+             named = highest({"--from", "0.05"});
   EXPECT_NE(cut.second.find("--skip-t-pose: left out a T-pose, the first 5 frames"),
             std::string::npos)
       << cut.second;
