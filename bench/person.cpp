@@ -234,12 +234,19 @@ class PersonRuns {
       for (const double rateHz : request_.ratesHz) {
         if (rateHz * actor.clip.frameTimeS > kMostRateShare) continue;
         for (const MotionModel model : request_.models) {
+          std::vector<LinkBound> bounds;
+          if (strangers) {
+            bounds = strangers->of(model, rateHz);
+            if (bounds.empty()) continue;
+          }
           for (const Asked asked : {Asked::Scene, Asked::OwnLinks}) {
-            const PersonTrial trial{
+            PersonTrial trial{
                 rateHz,           model, true, asked == Asked::OwnLinks, request_.boundShare,
                 request_.instants};
+            trial.bounds = bounds;
             tallies[{asked, -rateHz, model}].add(judgePerson(stage_, part, place.placement, trial));
           }
+          if (strangers) continue;
           addPair({part, place.placement, {}}, next, rateHz, model, tallies);
         }
       }

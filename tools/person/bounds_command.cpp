@@ -14,6 +14,7 @@
 #include "tools/console.h"
 #include "tools/inputs/file_roles.h"
 #include "tools/inputs/motion_file.h"
+#include "tools/inputs/played_clip.h"
 #include "tools/person/learn_bounds.h"
 #include "tools/program.h"
 #include "tools/results_output.h"
@@ -31,6 +32,7 @@ struct BoundsJob {
   std::vector<std::string> clips, models{"cubic-late"};
   double quantile = 0.999, scale = 0.0;
   std::string name, output;
+  std::string avatar;  ///< Empty: a body is made for each clip.
 };
 
 /// The clip at a person's size, unless the user says its units.
@@ -46,13 +48,40 @@ Result<Clip> readAtSize(const std::string& path, double scale) {
   return std::move(sized.clip);
 }
 
+void learnFrom(const Clip& clip, const Avatar& avatar, const std::string& path,
+               BoundsLearner& learner) {
+  if (learner.learn(clip, avatar) > 0) return;
+  printNote(fmt::format("{}: {:.4g} poses per second are too few for these rates; left out", path,
+                        1.0 / clip.frameTimeS));
+}
+
+/// Of a body that is made for the clip.
 Result<Done> learnFrom(const std::string& path, double scale, BoundsLearner& learner) {
   FORETOUCH_TRY(const Clip clip, readAtSize(path, scale));
   FORETOUCH_TRY(const Avatar avatar, inFile(avatarFromClip(clip), path));
-  if (learner.learn(clip, avatar) == 0) {
-    printNote(fmt::format("{}: {:.4g} poses per second are too few for these rates; left out", path,
-                          1.0 / clip.frameTimeS));
+  learnFrom(clip, avatar, path, learner);
+  return Done{};
+}
+
+/// Of the axes that `replay` asks about, moved as it moves them.
+Result<Done> learnFrom(const std::string& path, const BoundsJob& job, BoundsLearner& learner) {
+  ClipRequest request;
+  request.avatarPath = job.avatar;
+  request.motionPath = path;
+  if (job.scale > 0.0) request.motionScale = job.scale;
+  FORETOUCH_TRY(auto played, loadPlayedClip(request));
+  const Skeleton& skeleton = played.avatar.skeleton();
+  Clip onAvatar = played.clip;
+  onAvatar.skeleton = skeleton;
+  onAvatar.frames.clear();
+  for (std::size_t frame = 0; frame < played.clip.frames.size(); ++frame) {
+    FORETOUCH_TRY(
+        auto pose,
+        inFile(validatedPose(skeleton, poseOfAvatar(skeleton, played.clip, played.match, frame)),
+               path));
+    onAvatar.frames.push_back(std::move(pose));
   }
+  learnFrom(onAvatar, played.avatar, path, learner);
   return Done{};
 }
 
@@ -78,7 +107,8 @@ Result<Done> runLearn(BoundsJob& job) {
   job.learn.quantile = job.quantile;
   BoundsLearner learner(job.learn);
   for (const std::string& path : job.clips) {
-    FORETOUCH_CHECK(learnFrom(path, job.scale, learner));
+    FORETOUCH_CHECK(job.avatar.empty() ? learnFrom(path, job.scale, learner)
+                                       : learnFrom(path, job, learner));
   }
   BoundsFile file = learner.bounds();
   if (file.entries.empty()) {
@@ -110,8 +140,14 @@ Command learnCommand() {
   settings.number("--quantile", "Q", job->quantile, NumberRange{0.0, 1.0},
                   "Share of steps that the bounds hold at; 1: all");
   settings.number("--error", "M", job->learn.errorM, kZeroOrAbove, "What a pose is off by (m)");
+  settings
+      .text("--avatar", "FILE", job->avatar,
+            "The body whose links the bounds are about, as replay takes it; one is made for each "
+            "clip if not given")
+      .files("json");
   settings.number("--clip-scale", "S", job->scale, kZeroOrAbove,
-                  "Metres per unit; 0: such that a person is 1.7 m tall");
+                  "Metres per unit; 0: as the clip says with --avatar, else such that a person is "
+                  "1.7 m tall");
   settings.flag("--by-link", job->learn.isByLink, "One bound per link, not per part of the body");
   settings.text("--name", "TEXT", job->name, "Written into the file, for people");
   Command command{
