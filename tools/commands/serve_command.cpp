@@ -13,6 +13,7 @@
 #include <sys/prctl.h>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -64,14 +65,13 @@ Result<Done> openWire(const ServeConfig& config, ServiceParts& parts) {
 }
 
 /// The avatars that VMC moves are among those that are served.
-Result<Done> addVmc(const ServeConfig& config, const ServedWorld& world, ServiceParts& parts) {
-  if (config.vmc.empty()) return Done{};
-  if (!config.keyPath.empty()) {
+Result<std::vector<VmcPort>> vmcPorts(const ServeConfig& config, const ServedWorld& world) {
+  std::vector<VmcPort> ports;
+  if (!config.vmc.empty() && !config.keyPath.empty()) {
     return Error::in(
         "--vmc", ErrorCode::Mismatch,
         "VMC has no signatures, and --key refuses what has none; expected one of them");
   }
-  std::vector<VmcPort> ports;
   for (const NumberedPort& each : config.vmc) {
     const auto served =
         std::find_if(world.avatars.begin(), world.avatars.end(),
@@ -85,6 +85,11 @@ Result<Done> addVmc(const ServeConfig& config, const ServedWorld& world, Service
                          fmt::format("--vmc: avatar {}", each.avatar)));
     ports.push_back({each.port, std::move(body)});
   }
+  return ports;
+}
+
+Result<Done> openVmc(const ServeConfig& config, std::vector<VmcPort> ports, ServiceParts& parts) {
+  if (ports.empty()) return Done{};
   FORETOUCH_TRY(const auto url, inFile(parseUdpmUrl(config.url), "--url"));
   FORETOUCH_TRY(parts.receiver,
                 inFile(openVmcReceiver(std::move(parts.receiver), std::move(ports),
@@ -310,8 +315,9 @@ Result<Done> serve(const ServeConfig& given) {
   ServiceParts parts;
   parts.world = std::move(world.world);
   parts.persons = std::move(world.persons);
+  FORETOUCH_TRY(auto vmc, vmcPorts(config, world));
   FORETOUCH_CHECK(openWire(config, parts));
-  FORETOUCH_CHECK(addVmc(config, world, parts));
+  FORETOUCH_CHECK(openVmc(config, std::move(vmc), parts));
   FORETOUCH_CHECK(openLog(config, parts));
 
   std::optional<ServeView> view = prepareView(config, world);

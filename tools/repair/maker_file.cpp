@@ -85,13 +85,16 @@ void BvhFile::addKnobs(JointId joint, const BvhJointChannels& channels) {
 }  // namespace
 
 Result<std::unique_ptr<MakerFile>> MakerFile::open(const ClipRequest& request, const Clip& clip) {
-  Result<std::unique_ptr<MakerFile>> file = Error::in(
-      request.motionPath, ErrorCode::Mismatch,
-      "expected a BVH clip, or a robot's table (.csv, .npz): a model's animation is not mended");
+  Result<std::unique_ptr<MakerFile>> file =
+      Error::in(request.motionPath, ErrorCode::Mismatch,
+                "expected a BVH clip, or a robot's table (.csv, .npz): clips of other formats are "
+                "not mended");
   switch (clipFormatOf(request.motionPath)) {
     case ClipFormat::Bvh: file = BvhFile::open(request, clip); break;
     case ClipFormat::JointTable: file = openTable(request); break;
-    case ClipFormat::Model: break;
+    case ClipFormat::Model:
+    case ClipFormat::Acclaim:
+    case ClipFormat::WebXr: break;
   }
   return file;
 }

@@ -186,6 +186,12 @@ TEST(ServeProgram, RefusesBadOptionsByName) {
       {{"--takeover", "-1"}, "--takeover: expected"},
       {{"--key", world.folder / "none.key"}, "none.key"},
       {{"--log-files", "0"}, "--log-files: expected"},
+      {{"--vmc", "0"}, "--vmc: expected a UDP port of 1 to 65535, found '0'"},
+      {{"--vmc", "VMC"}, "--vmc: expected a UDP port of 1 to 65535, found 'VMC'"},
+      {{"--vmc", "9=39539"}, "--vmc: expected an avatar that is served, found 9"},
+      {{"--vmc", "3=39539"}, "--vmc: avatar 3: is no humanoid"},
+      {{"--vmc", "3=39539", "--key", world.folder / "none.key"}, "--vmc: VMC has no signatures"},
+      {{"--vmc-bones", "theirs"}, "--vmc-bones: expected original or normalized"},
       {{"--config", world.folder / "none.toml"}, "none.toml"},
   };
   for (const auto& [options, expected] : trials) {
