@@ -259,6 +259,32 @@ void Robot::poseAt(const double* q, Pose& pose) const {
   }
 }
 
+void Robot::slopeAt(const double* q, const std::vector<LinkState>& states, LinkId link,
+                    const Vector3d& p_W, const Vector3d& along_W, double* slope) const {
+  std::fill(slope, slope + coordinates_.size(), 0.0);
+  for (JointId j = link; j != kNoParent; j = avatar_.skeleton().parent(j)) {
+    const RobotJoint& joint = joints_[slotOf(j)];
+    if (joint.kind == RobotJointKind::Fixed) continue;
+    const LinkState& state = states[slotOf(j)];
+    const Vector3d axis_W = state.R_WL * joint.axis;
+    double* const own = slope + firstCoordinate_[slotOf(j)];
+    const double turn = along_W.dot(axis_W.cross(p_W - state.p_WL));
+    if (joint.kind == RobotJointKind::Planar) {
+      // The plane does not turn with the joint.
+      const double angle = q[firstCoordinate_[slotOf(j)] + 2];
+      const Eigen::Matrix3d R_WPlane =
+          state.R_WL * Eigen::AngleAxisd(-angle, joint.axis).toRotationMatrix();
+      const auto [x, y] = planeAcross(joint.axis);
+      own[0] += along_W.dot(R_WPlane * x);
+      own[1] += along_W.dot(R_WPlane * y);
+      own[2] += turn;
+      continue;
+    }
+    const double factor = joint.mimicOf == kNoParent ? 1.0 : joint.mimicFactor;
+    *own += factor * (turns(joint.kind) ? turn : along_W.dot(axis_W));
+  }
+}
+
 double Robot::largestTurn(const double* q0, const double* q1) const {
   double largest = 0.0;
   for (std::size_t i = 0; i < joints_.size(); ++i) {

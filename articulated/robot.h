@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include "articulated/avatar.h"
+#include "articulated/motion.h"
 #include "articulated/result.h"
 #include "articulated/skeleton.h"
 
@@ -120,6 +121,12 @@ class Robot {
                                                        std::uint64_t seed) const;
   /// The number that a joint moves by: its own, or what it gets from the joint that it follows.
   [[nodiscard]] double valueOf(JointId joint, const double* q) const;
+
+  /// By how much a point of a link at p_W moves along `along_W` per unit of each coordinate, at
+  /// configuration q (m per rad or m, times the length of `along_W`). `states`: of all links there.
+  /// O(depth of the link). Precondition: checked(); `slope` has numCoordinates() numbers.
+  void slopeAt(const double* q, const std::vector<LinkState>& states, LinkId link,
+               const Eigen::Vector3d& p_W, const Eigen::Vector3d& along_W, double* slope) const;
 
   /// No point of a link's LSS is farther from where exact arithmetic puts it (m), in poseAt() and
   /// on the shorter arc between two of them that lie at most kMostTurn apart, whatever the

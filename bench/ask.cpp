@@ -9,6 +9,7 @@
 
 #include "articulated/result.h"
 #include "articulated/try.h"
+#include "bench/ask/clearances.h"
 #include "bench/ask/player_shots.h"
 #include "bench/ask/ray_crowd.h"
 #include "bench/ask/ray_scene.h"
@@ -23,7 +24,7 @@
 namespace foretouch::tools {
 namespace {
 
-constexpr const char* kAskParts[] = {"crowd", "players", "scene", "shots"};
+constexpr const char* kAskParts[] = {"clearances", "crowd", "players", "scene", "shots"};
 
 struct AskBenchRequest {
   std::string dataFolder;          ///< With mocap/; without clips in it, the bundled dancer.
@@ -56,6 +57,11 @@ Result<JudgedReport> measureAsk(const AskBenchRequest& request) {
     FORETOUCH_TRY(auto table, raySceneTable(request.triangles, request.questions, request.seed));
     report.tables.push_back(std::move(table));
   }
+  if (isAsked(request.parts, "clearances")) {
+    FORETOUCH_TRY(auto table, clearancesTable(request.dataFolder, request.triangles,
+                                              request.questions, request.seed));
+    bench.add(std::move(table));
+  }
   if (isAsked(request.parts, "shots")) {
     bench.add(shotsTable(cast, request.shots, request.seed));
   }
@@ -65,6 +71,8 @@ Result<JudgedReport> measureAsk(const AskBenchRequest& request) {
       "to "
       "60 m away. One instant: all questions at the same instant between two poses. Own instants: "
       "each at another one of the second. Own instants of bodies: each body at another one, too.",
+      "clearances: edges between free configurations, as one list on one thread; judged at 64 "
+      "instants by kinematics and distances of the judge's own.",
       "players: what the world takes per second of poses, by the heap's own count; the replay is a "
       "second world of the same poses.",
       "shots: a person goes through a clip and runs 3 m/s, captured 120 times per second; the "
@@ -90,14 +98,16 @@ Command askBenchCommand() {
   addData(settings, request.dataFolder, "With mocap/; $FORETOUCH_DATA says another");
   addWords(settings, "--clips", "NAME,...", request.clips, {},
            "Of mocap/, or paths; six if not given, or the bundled dancer where these are absent");
-  addWords(
-      settings, "--parts", "NAME,...", request.parts, {std::begin(kAskParts), std::end(kAskParts)},
-      "crowd, players (of a server), scene (beside Embree), shots (at who is seen late); all if "
-      "not given");
+  addWords(settings, "--parts", "NAME,...", request.parts,
+           {std::begin(kAskParts), std::end(kAskParts)},
+           "clearances (of a robot's edges), crowd, players (of a server), scene (beside Embree), "
+           "shots (at who is seen late); all if "
+           "not given");
   addCounts(settings, "--avatars", "N,...", request.avatars, kMostAvatars, "Of each crowd");
   settings.whole("--questions", "N", request.questions, 1, kMost, "Of each kind");
   settings.whole("--shots", "N", request.shots, 1, kMost, "Per row");
-  settings.whole("--triangles", "N", request.triangles, 1, kMost, "Of the room of rays");
+  settings.whole("--triangles", "N", request.triangles, 1, kMost,
+                 "Of the room of rays and of clearances");
   settings.whole("--seed", "N", request.seed, 1, kMostSeed, "Of the questions");
   addFigures(settings, request.figures, "Also write the first table to a file");
   Command command{

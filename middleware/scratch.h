@@ -23,6 +23,7 @@ enum class ScratchKind : std::uint8_t {
   StepList,
   EdgeList,
   Ask,
+  Clearance,
   Count
 };
 

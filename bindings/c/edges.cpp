@@ -28,6 +28,8 @@ ft_edge_options defaultEdgeOptions() {
   options.threads = 1;
   options.tolerance = defaults.tolerance;
   options.clearance = defaults.clearance;
+  options.clearance_tolerance = defaults.clearanceTolerance;
+  options.clearance_within = defaults.clearanceWithin;
   return options;
 }
 
@@ -53,6 +55,8 @@ ft_status readProps(const ft_edge_options& given, EdgeOptions& options) {
 ft_status readEdgeOptions(const ft_edge_options& given, EdgeOptions& options) {
   options.tolerance = given.tolerance;
   options.clearance = given.clearance;
+  options.clearanceTolerance = given.clearance_tolerance;
+  options.clearanceWithin = given.clearance_within;
   if (given.self != nullptr) {
     if (const auto s = checked(given.self); s != FT_OK) return s;
     options.self = given.self->rules;
@@ -73,6 +77,22 @@ ft_edge edgeOf(const EdgeAnswer& answer) {
   c.free_until = answer.freeUntil;
   c.breach_at_0 = answer.breachAt0.joint;
   c.breach_at_1 = answer.breachAt1.joint;
+  return c;
+}
+
+ft_clearance clearanceOf(const EdgeClearance& answer) {
+  ft_clearance c{};
+  c.link = answer.link;
+  c.lss = answer.lss;
+  c.triangle = answer.triangle;
+  c.prop = answer.prop;
+  c.is_alone = answer.isAlone ? 1 : 0;
+  c.lower = answer.lower;
+  c.upper = answer.upper;
+  c.t = answer.t;
+  Eigen::Map<Eigen::Vector3d>(c.point_on_link) = answer.p_WLink;
+  Eigen::Map<Eigen::Vector3d>(c.point_on_scene) = answer.p_WScene;
+  Eigen::Map<Eigen::Vector3d>(c.normal) = answer.nhat_SL_W;
   return c;
 }
 
@@ -134,6 +154,7 @@ ft_status ft_edges_create(const ft_robot* robot, const ft_scene* scene,
                           std::move(question),
                           std::move(pool),
                           {},
+                          {},
                           false};
     return FT_OK;
   });
@@ -154,6 +175,25 @@ ft_status ft_edges_answer(ft_edges* edges, const double* q0, const double* q1, s
     if (count == 0) return FT_OK;
     const auto at = [&](std::size_t i) { return edgeOf(edges->answers[i]); };
     return writeStructs("ft_edge", count, at, answers);
+  });
+}
+
+ft_status ft_edges_clearance(ft_edges* edges, const double* q0, const double* q1, size_t count,
+                             size_t coordinate_count, ft_clearance* clearances, double* slopes0,
+                             double* slopes1) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(edges); s != FT_OK) return s;
+    if (const auto s = checkedCounts(*edges, count, coordinate_count); s != FT_OK) return s;
+    if (const auto s = neededArray(q0, count, kMaxEdges, "q0"); s != FT_OK) return s;
+    if (const auto s = neededArray(q1, count, kMaxEdges, "q1"); s != FT_OK) return s;
+    if (const auto s = neededArray(clearances, count, kMaxEdges, "clearances"); s != FT_OK) {
+      return s;
+    }
+    FORETOUCH_CHECK_OR(failure, edges->question.clearanceAll(q0, q1, count, edges->pool,
+                                                             edges->clearances, slopes0, slopes1));
+    if (count == 0) return FT_OK;
+    const auto at = [&](std::size_t i) { return clearanceOf(edges->clearances[i]); };
+    return writeStructs("ft_clearance", count, at, clearances);
   });
 }
 

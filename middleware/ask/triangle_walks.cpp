@@ -7,26 +7,10 @@
 #include "lss/index.h"
 #include "middleware/ask/piece_asker.h"
 #include "middleware/ask/way_boxes.h"
+#include "middleware/scene/nearest_walk.h"
 
 namespace foretouch::internal {
 namespace {
-
-/// What waits: a child of a node, and how near it can be.
-template <typename Child>
-struct Waiting {
-  double bound;
-  Child child;
-};
-
-/// The last `count` of a stack, the nearest one last.
-template <typename Child>
-void sortLast(Waiting<Child>* first, Waiting<Child>* last) {
-  for (Waiting<Child>* next = first; next != last; ++next) {
-    for (Waiting<Child>* at = next; at != first && (at - 1)->bound < at->bound; --at) {
-      std::swap(at[-1], at[0]);
-    }
-  }
-}
 
 /// Of all places in the tree, from its origin.
 double extentOf(const SceneParts& scene) {
@@ -51,37 +35,18 @@ class SceneWalk {
         isRay_(asker.shape().isRay()),
         side_(side) {}
 
-  void walk() {
-    waiting_[size_++] = {0.0, 0};
-    while (size_ > 0) {
-      const Waiting<std::uint32_t> next = waiting_[--size_];
-      if (next.bound > asker_.limit()) continue;
-      if ((next.child & BvhNode::kLeafFlag) != 0) {
-        askLeaf(scene_.bvh.leaf(next.child & BvhNode::kLeafMask));
-      } else {
-        expand(scene_.bvh.node(next.child));
-      }
-    }
-  }
+  void walk() { walkNearestFirst(scene_.bvh, *this); }
 
- private:
-  void expand(const BvhNode& node) {
+  // What the walk asks.
+  [[nodiscard]] double limit() const { return asker_.limit(); }
+  void bounds(const BvhNode& node, double (&bounds)[kBvhWidth]) const {
     const float *const lower[3] = {node.lower[0], node.lower[1], node.lower[2]}, *const upper[3] = {
                                                                                      node.upper[0],
                                                                                      node.upper[1],
                                                                                      node.upper[2]};
-    double bounds[kBvhWidth];
     boxes_.nearest(kBvhWidth, lower, upper, bounds);
-    const double limit = asker_.limit();
-    const int first = size_;
-    FORETOUCH_ASSERT(first + kBvhWidth <= kRoom);
-    for (int i = 0; i < kBvhWidth; ++i) {
-      if (bounds[i] <= limit) waiting_[size_++] = {bounds[i], node.child[i]};
-    }
-    sortLast(waiting_ + first, waiting_ + size_);
   }
-
-  void askLeaf(const BvhLeaf& leaf) {
+  void leaf(const BvhLeaf& leaf) {
     for (int i = 0; i < kBvhWidth && leaf.id[i] >= 0; ++i) {
       const Triangle& triangle = scene_.triangles[slotOf(leaf.id[i])];
       if (!isRay_ && boxes_.nearest(boxFromOrigin(triangle)) > asker_.limit()) continue;
@@ -90,21 +55,18 @@ class SceneWalk {
     }
   }
 
+ private:
   [[nodiscard]] Aabb boxFromOrigin(const Triangle& triangle) const {
     Aabb box;
     for (const Eigen::Vector3d& v : triangle.vertices) box.add(v - scene_.origin);
     return box;
   }
 
-  static constexpr int kRoom = BvhWalk::kNodeRoom + kBvhWidth;
-
   const SceneParts& scene_;
   PieceAsker& asker_;
   const WayBoxes boxes_;
   const bool isRay_;  ///< Then the asker has a quicker way past triangles.
   ContactSide side_;
-  int size_ = 0;
-  Waiting<std::uint32_t> waiting_[kRoom];
 };
 
 /// Triangles are ~index.
@@ -120,7 +82,7 @@ class SurfaceWalk {
   void walk() {
     push(hierarchy_.root(), 0.0);
     while (size_ > 0) {
-      const Waiting<std::int32_t> next = waiting_[slotOf(--size_)];
+      const WaitingChild<std::int32_t> next = waiting_[slotOf(--size_)];
       if (next.bound > asker_.limit()) continue;
       if (next.child < 0) {
         side_.triangle = ~next.child;
@@ -131,7 +93,7 @@ class SurfaceWalk {
       for (const HierarchyChild child : hierarchy_.node(next.child).children) {
         push(child, boundOf(child, next.bound));
       }
-      sortLast(waiting_.data() + first, waiting_.data() + size_);
+      sortNearestLast(waiting_.data() + first, waiting_.data() + size_);
     }
   }
 
@@ -162,7 +124,7 @@ class SurfaceWalk {
   const WayBoxes boxes_;
   ContactSide side_;
   int size_ = 0;
-  std::array<Waiting<std::int32_t>, kRoom> waiting_;
+  std::array<WaitingChild<std::int32_t>, kRoom> waiting_;
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 // The edges of a list: EdgeQuery::answerAll() and answerPath().
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -10,66 +9,13 @@
 
 #include "articulated/try.h"
 #include "middleware/edges/edge_query.h"
-#include "middleware/query/first_failure.h"
+#include "middleware/edges/edge_tasks.h"
 
 namespace foretouch {
-namespace {
 
-/// Edges are taken in groups: adjacent answers share cache lines, and so does the counter.
-constexpr std::size_t kEdgesAtOnce = 8;
+using internal::checkAll;
 
-/// What one thread keeps between lists.
-struct alignas(128) EdgeListMemory : internal::ScratchPart {
-  static constexpr internal::ScratchKind kKind = internal::ScratchKind::EdgeList;
-
-  internal::FirstFailure failure{"edges"};
-  std::vector<EdgeAnswer> ofPath;
-};
-
-/// A list of edges that the threads take from, group by group, in order.
-struct EdgeList {
-  const EdgeQuery& edges;
-  const double* q0;
-  const double* q1;
-  std::size_t count;
-  bool isPath;  // no edge behind one that is not clear is needed
-  std::vector<EdgeAnswer>& answers;
-  std::atomic<std::size_t> next{0}, firstMet{count};
-
-  void takePart(Scratch& scratch) {
-    for (;;) {
-      const std::size_t begin = next.fetch_add(kEdgesAtOnce, std::memory_order_relaxed);
-      const std::size_t end = std::min(begin + kEdgesAtOnce, count);
-      for (std::size_t i = begin; i < end; ++i) {
-        if (isPath && i > firstMet.load(std::memory_order_relaxed)) return;
-        take(i, scratch);
-      }
-      if (end >= count) return;
-    }
-  }
-
-  void take(std::size_t i, Scratch& scratch) {
-    EdgeAnswer& answer = answers[i];
-    const auto ask = [&]() -> Result<Done> {
-      const std::size_t n = edges.robot().numCoordinates();
-      FORETOUCH_TRY(answer, edges.answer(q0 + i * n, q1 + i * n, n, scratch));
-      return Done{};
-    };
-    const auto renew = [&] {
-      scratch.forget(internal::ScratchKind::Edge);
-      scratch.forget(internal::ScratchKind::Query);
-    };
-    answer = {};
-    scratch.of<EdgeListMemory>().failure.attempt(i, ask, renew);
-    if (!isPath || answer.verdict == Verdict::Clear) return;
-    std::size_t first = firstMet.load(std::memory_order_relaxed);
-    while (i < first && !firstMet.compare_exchange_weak(first, i)) {
-    }
-  }
-};
-
-/// All configurations, before any edge is asked.
-Result<Done> checkAll(const Robot& robot, const double* q, std::size_t count) {
+Result<Done> internal::checkAll(const Robot& robot, const double* q, std::size_t count) {
   const std::size_t n = robot.numCoordinates();
   for (std::size_t i = 0; i < count; ++i) {
     auto checked = robot.checked(q + i * n, n);
@@ -82,29 +28,17 @@ Result<Done> checkAll(const Robot& robot, const double* q, std::size_t count) {
   return Done{};
 }
 
-/// On all threads; the path's first edge that is not clear, if asked for.
-Result<std::size_t> run(WorkerPool& pool, EdgeList&& list) {
-  const auto numThreads = static_cast<std::size_t>(pool.threads());
-  for (std::size_t i = 0; i < numThreads; ++i) {
-    pool.scratch(i).of<EdgeListMemory>().failure.clear();
-  }
-  list.answers.resize(list.count);
-  pool.run([&](std::size_t thread) { list.takePart(pool.scratch(thread)); });
-  FORETOUCH_CHECK(internal::FirstFailure::of(
-      numThreads, [&](std::size_t i) -> const auto& {
-        return pool.scratch(i).of<EdgeListMemory>().failure;
-      }));
-  return list.firstMet.load(std::memory_order_relaxed);
-}
-
-}  // namespace
-
 Result<Done> EdgeQuery::answerAll(const double* q0, const double* q1, std::size_t count,
                                   WorkerPool& pool, std::vector<EdgeAnswer>& answers) const {
   FORETOUCH_CHECK(checkAll(robot(), q0, count));
   FORETOUCH_CHECK(checkAll(robot(), q1, count));
-  FORETOUCH_CHECK(run(pool, {*this, q0, q1, count, false, answers}));
-  return Done{};
+  const std::size_t n = robot().numCoordinates();
+  answers.resize(count);
+  return internal::runEdges(pool, count, [&](std::size_t i, Scratch& scratch) -> Result<Done> {
+    answers[i] = {};
+    FORETOUCH_TRY(answers[i], answer(q0 + i * n, q1 + i * n, n, scratch));
+    return Done{};
+  });
 }
 
 Result<PathAnswer> EdgeQuery::answerPath(const double* q, std::size_t count,
@@ -114,12 +48,26 @@ Result<PathAnswer> EdgeQuery::answerPath(const double* q, std::size_t count,
                      "expected at least two configurations, found " + std::to_string(count));
   }
   FORETOUCH_CHECK(checkAll(robot(), q, count));
-  std::vector<EdgeAnswer>& answers = pool.scratch().of<EdgeListMemory>().ofPath;
-  const double* next = q + robot().numCoordinates();
+  const std::size_t n = robot().numCoordinates(), edges = count - 1;
+  std::vector<EdgeAnswer>& answers = pool.scratch().of<internal::EdgeListMemory>().ofPath;
+  answers.resize(edges);
+  std::atomic<std::size_t> firstMet{edges};
+  const auto ask = [&](std::size_t i, Scratch& scratch) -> Result<Done> {
+    // No edge behind one that is not clear is needed.
+    if (i > firstMet.load(std::memory_order_relaxed)) return Done{};
+    answers[i] = {};
+    FORETOUCH_TRY(answers[i], answer(q + i * n, q + (i + 1) * n, n, scratch));
+    if (answers[i].verdict == Verdict::Clear) return Done{};
+    std::size_t first = firstMet.load(std::memory_order_relaxed);
+    while (i < first && !firstMet.compare_exchange_weak(first, i)) {
+    }
+    return Done{};
+  };
+  FORETOUCH_CHECK(internal::runEdges(pool, edges, ask));
   PathAnswer path;
-  FORETOUCH_TRY(path.edge, run(pool, {*this, q, next, count - 1, true, answers}));
-  const bool isFree = path.edge == count - 1;
-  path.answer = answers[isFree ? count - 2 : path.edge];
+  path.edge = firstMet.load(std::memory_order_relaxed);
+  const bool isFree = path.edge == edges;
+  path.answer = answers[isFree ? edges - 1 : path.edge];
   // Rounded down, but at the edge's own begin.
   const double until = isFree ? 0.0 : path.answer.freeUntil;
   path.freeUntil = static_cast<double>(path.edge) + until;

@@ -8,20 +8,14 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
+#include "middleware/edges/edge_memory.h"
 
 namespace foretouch {
 namespace {
 
-/// What questions about edges keep.
-struct EdgeMemory : internal::ScratchPart {
-  static constexpr internal::ScratchKind kKind = internal::ScratchKind::Edge;
-
-  ChainMotion motion;
-  StepContacts step;
-  Pose from, to;
-  Pose propFrom, propTo;  // the same as seen from a prop
-  std::vector<double> q;
-};
+using internal::EdgeMemory;
+using internal::kPropRounding;
+using internal::seenFrom;
 
 /// The same pairs of the grown avatar.
 Result<PairRules> grownRules(const Avatar& avatar, const PairRules& rules, double growth) {
@@ -30,8 +24,9 @@ Result<PairRules> grownRules(const Avatar& avatar, const PairRules& rules, doubl
   return PairRules::leavingOut(avatar, rules.leftOut(), std::move(radii));
 }
 
-/// Of poses seen from a prop, in parts of the distance: articulated/robot.md 3.
-constexpr double kPropRounding = 0x1p-43;
+ClearanceOptions clearanceOptions(const Robot& robot, const EdgeOptions& options) {
+  return {options.clearanceTolerance, options.clearanceWithin, robot.reach(), options.ignored};
+}
 
 /// Keeps the earlier one; of equal ones, the first. False: that is not this one.
 bool take(const PairContact& contact, EdgeAnswer& answer) {
@@ -47,19 +42,6 @@ bool take(const PairContact& contact, EdgeAnswer& answer) {
 /// What is not looked at is so because another link meets something earlier, which is taken.
 bool isMet(const LinkContact& contact) {
   return contact.verdict != Verdict::Clear && contact.reason != UndecidedReason::AfterFirst;
-}
-
-/// The same pose, its roots as seen from the frame P.
-void seenFrom(const RigidPose& X_WP, const Skeleton& skeleton, const Pose& pose, Pose& seen) {
-  seen = pose;
-  const Quaternion R_PW = X_WP.rotation.conjugate();
-  for (JointId joint = 0; joint < skeleton.numJoints(); ++joint) {
-    if (skeleton.parent(joint) != kNoParent) continue;
-    Quaternion& rotation = seen.rotations[slotOf(joint)];
-    Eigen::Vector3d& translation = seen.translations[slotOf(joint)];
-    rotation = (R_PW * rotation).normalized();
-    translation = R_PW * (translation - X_WP.translation);
-  }
 }
 
 void moveToWorld(const RigidPose& X_WP, LinkContact& contact) {
@@ -84,6 +66,8 @@ Result<EdgeQuery> EdgeQuery::build(const Robot& robot, const Scene& scene,
   asked.scope = Scope::FirstOfAvatar;
   FORETOUCH_TRY(const auto whole, robot.avatar().grownBy(options.clearance + robot.poseRounding()));
   FORETOUCH_TRY(edges.scene_, Query::build(whole, scene, asked));
+  FORETOUCH_TRY(edges.clearance_,
+                ClearanceQuery::build(robot.avatar(), scene, clearanceOptions(robot, options)));
   FORETOUCH_CHECK(edges.addProps(options));
   if (!options.self) return edges;
   if (options.self->avatarIdentity() != robot.avatar().identity()) {
@@ -117,7 +101,12 @@ Result<Done> EdgeQuery::addProps(const EdgeOptions& options) {
     const EdgeProp& prop = options.props[i];
     asked.ignored = prop.ignored;
     FORETOUCH_TRY_OR(ofProp, auto query, Query::build(whole, prop.scene, asked));
-    props_.push_back({std::move(query), std::nullopt});
+    ClearanceOptions near = clearanceOptions(*robot_, options);
+    near.reach = 0.0;  // it may be anywhere
+    near.ignored = prop.ignored;
+    FORETOUCH_TRY_OR(ofProp, auto clearance,
+                     ClearanceQuery::build(robot_->avatar(), prop.scene, near));
+    props_.push_back({std::move(query), std::move(clearance), std::nullopt});
     FORETOUCH_CHECK(place(i, prop.X_WP));
   }
   return Done{};

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "articulated/robot.h"
 #include "articulated/skeleton.h"
 #include "middleware/contact.h"
+#include "middleware/near/clearance.h"
 #include "middleware/query/query.h"
 #include "middleware/query_options.h"
 #include "middleware/scene/scene.h"
@@ -22,6 +24,10 @@
 #include "middleware/worker_pool.h"
 
 namespace foretouch {
+
+namespace internal {
+class ClearanceSearch;
+}  // namespace internal
 
 /// A rigid thing in the way whose place may change between questions: EdgeQuery::place().
 struct EdgeProp {
@@ -40,6 +46,9 @@ struct EdgeOptions {
   std::vector<IgnoredPair> ignored;
   /// Obstacles beside the scene, each with a place of its own.
   std::vector<EdgeProp> props;
+  /// Of clearance(): how far its bounds may be apart, and how far it looks (ClearanceOptions).
+  double clearanceTolerance = kDefaultTolerance;
+  double clearanceWithin = std::numeric_limits<double>::infinity();
 };
 
 struct EdgeAnswer {
@@ -60,6 +69,11 @@ struct EdgeAnswer {
   [[nodiscard]] bool isUsable() const {
     return verdict == Verdict::Clear && !breachAt0.isAny() && !breachAt1.isAny();
   }
+};
+
+/// How near an edge comes to the scene and to the props that are there.
+struct EdgeClearance : Clearance {
+  std::int32_t prop = -1;  ///< Whose scene has the triangle; -1: the query's own.
 };
 
 /// How far a path is free: a list of configurations, with an edge from each to the next.
@@ -110,22 +124,43 @@ class EdgeQuery {
   /// the first one that is not Clear, but for those that other threads have begun. Errors as above.
   Result<PathAnswer> answerPath(const double* q, std::size_t count, WorkerPool& pool) const;
 
+  /// How near the edge comes: its separation from the scene and from the props that are there is
+  /// never below `lower`, and at most `upper` at `t`. EdgeOptions::clearance and own links have no
+  /// part in it; what the query ignores has none either. `slope0` and `slope1`: where not null,
+  /// `count` numbers each, how `upper` changes with the coordinates of q0 and q1 (m per rad or m);
+  /// of several ways one, where Clearance::isAlone is false. Errors: as answer(), and an edge of
+  /// more than kMostParts parts.
+  [[nodiscard]] Result<EdgeClearance> clearance(const double* q0, const double* q1,
+                                                std::size_t count, Scratch& scratch,
+                                                double* slope0 = nullptr,
+                                                double* slope1 = nullptr) const;
+  /// Many of them on the pool's threads, as answerAll().
+  Result<Done> clearanceAll(const double* q0, const double* q1, std::size_t count, WorkerPool& pool,
+                            std::vector<EdgeClearance>& answers, double* slopes0 = nullptr,
+                            double* slopes1 = nullptr) const;
+
   /// An edge is cut into at most so many parts, of Robot::kMostTurn each; else it is undecided.
   static constexpr int kMostParts = Robot::kMostParts;
 
  private:
   struct Prop {
     Query query;
+    ClearanceQuery clearance;
     std::optional<RigidPose> X_WP;  // its rotation normalised
   };
   EdgeQuery() = default;
   Result<Done> addProps(const EdgeOptions& options);
   void answerPart(Scratch& scratch, EdgeAnswer& answer, int part, int parts) const;
   void answerProps(Scratch& scratch, EdgeAnswer& answer) const;
+  void lookAt(internal::ClearanceSearch& search, Scratch& scratch, double begin,
+              double share) const;
+  void findSlopes(const EdgeClearance& answer, const double* q0, const double* q1, Scratch& scratch,
+                  double* slope0, double* slope1) const;
 
   std::shared_ptr<const Robot> robot_;
   std::shared_ptr<const EdgeOptions> options_;
   std::vector<Prop> props_;
+  std::optional<ClearanceQuery> clearance_;
   std::optional<Query> scene_, self_;  // own links have other radii with a clearance
 };
 

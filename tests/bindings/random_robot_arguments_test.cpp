@@ -148,6 +148,10 @@ class RobotCaller : public test::RandomCaller {
     ft_other_link other{};
     take(
         ft_edges_contact(edges, static_cast<std::size_t>(index()), maybe(&contact), maybe(&other)));
+    std::array<ft_clearance, kRoom> clearances{};
+    clearances[0].size = sizeOr(sizeof(ft_clearance));
+    take(ft_edges_clearance(edges, maybe(numbers_.data()), maybe(numbers_.data() + kRoom), count(),
+                            width, maybe(clearances.data()), nullptr, nullptr));
     ft_path path{};
     path.size = sizeOr(sizeof path);
     take(ft_edges_answer_path(edges, maybe(numbers_.data()), count(), width, maybe(&path)));

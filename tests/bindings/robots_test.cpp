@@ -190,6 +190,43 @@ TEST_F(CRobots, AnswerEdgesAsCppDoes) {
   EXPECT_LT(clear, 280);
 }
 
+TEST_F(CRobots, SayHowNearEdgesCome) {
+  const auto asked = edges();
+  constexpr std::size_t kEdges = 100;
+  const auto q0 = test::randomConfigurations(11, kEdges),
+             q1 = test::randomConfigurations(12, kEdges);
+  std::vector<ft_clearance> answers(kEdges);
+  answers[0].size = sizeof answers[0];
+  std::vector<double> slopes0(3 * kEdges), slopes1(3 * kEdges);
+  ASSERT_EQ(ft_edges_clearance(asked.get(), q0.data(), q1.data(), kEdges, 3, answers.data(),
+                               slopes0.data(), slopes1.data()),
+            FT_OK)
+      << ft_last_error();
+  const auto cpp = EdgeQuery::build(known_, Scene::build(raw_).value()).value();
+  Scratch scratch;
+  double own0[3], own1[3];
+  for (std::size_t i = 0; i < kEdges; ++i) {
+    const auto expected = cpp.clearance(&q0[3 * i], &q1[3 * i], 3, scratch, own0, own1).value();
+    ASSERT_EQ(answers[i].lower, expected.lower) << i;
+    ASSERT_EQ(answers[i].upper, expected.upper) << i;
+    ASSERT_EQ(answers[i].t, expected.t) << i;
+    ASSERT_EQ(answers[i].link, expected.link) << i;
+    ASSERT_EQ(answers[i].triangle, expected.triangle) << i;
+    ASSERT_EQ(answers[i].is_alone, expected.isAlone ? 1 : 0) << i;
+    ASSERT_EQ(answers[i].normal[1], expected.nhat_SL_W.y()) << i;
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_EQ(slopes0[3 * i + k], own0[k]) << i;
+      ASSERT_EQ(slopes1[3 * i + k], own1[k]) << i;
+    }
+  }
+  EXPECT_EQ(
+      ft_edges_clearance(asked.get(), q0.data(), q1.data(), 1, 2, answers.data(), nullptr, nullptr),
+      FT_ERROR_MISMATCH);
+  EXPECT_EQ(
+      ft_edges_clearance(asked.get(), q0.data(), nullptr, 1, 3, answers.data(), nullptr, nullptr),
+      FT_ERROR_NULL_ARGUMENT);
+}
+
 TEST_F(CRobots, SayHowFarAPathIsFree) {
   const auto asked = edges();
   const double q[12] = {-2.0, 0, 0, -1.7, 0, 0, -1.6, 0, 0, -1.0, 0, 0};

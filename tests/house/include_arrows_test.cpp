@@ -52,7 +52,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"pair", {"", "exact", "surface", "lanes", "scene"}},
       {"near", {"pair", "", "exact", "lanes", "scene"}},
       {"query", {"pair", "", "exact", "surface", "scene"}},
-      {"edges", {"query", "", "scene"}},
+      {"edges", {"query", "near", "", "scene"}},
       {"mechanics", {}},
       {"solid", {"query", "near", "pair", "mechanics", "", "scene"}},
       {"world", {"query", "pair", "", "lanes", "scene", "surface"}},

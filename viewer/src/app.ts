@@ -69,6 +69,7 @@ function initialStore(model: Model): Store {
     follows: model.isLive,
     search: "",
     showsGround: true,
+    ray: null,
     place: null,
     refusal: null,
   });

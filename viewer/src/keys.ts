@@ -38,7 +38,7 @@ export function listenForKeys(model: Model, store: Store, actions: Actions): voi
     l: () => toggleShape(store),
     f: (event) => actions.frame(event.shiftKey ? "everything" : "body"),
     "/": () => document.querySelector<HTMLInputElement>("input.search")?.focus(),
-    Escape: () => store.set({ contact: null, touch: null, link: null, place: null, refusal: null }),
+    Escape: () => store.set({ contact: null, touch: null, link: null, ray: null, place: null, refusal: null }),
     "?": () => actions.help(),
   };
   document.addEventListener("keydown", (event) => {

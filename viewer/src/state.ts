@@ -3,6 +3,7 @@
 
 import type { Contact } from "./contacts/contact.js";
 import type { Touch } from "./contacts/touch.js";
+import type { Vector } from "./data/document.js";
 import type { Place } from "./motion/placing.js";
 
 export type Theme = "light" | "dark";
@@ -11,6 +12,21 @@ export type Shape = "lss" | "mesh";
 export interface LinkChoice {
   readonly avatar: number;
   readonly link: number;
+}
+
+/** What the ray through the last click met at the shown instant. Metres, world. */
+export interface RayHit {
+  /** Of the clip, seconds. */
+  readonly time: number;
+  readonly origin: Vector;
+  /** Unit. */
+  readonly direction: Vector;
+  /** The nearest link, as "Anna's LeftHand"; null: none. */
+  readonly link: string | null;
+  readonly linkDistance: number;
+  /** The first object of the scene; null: none. */
+  readonly object: string | null;
+  readonly objectDistance: number;
 }
 
 export interface ViewState {
@@ -22,6 +38,8 @@ export interface ViewState {
   /** A row of the touch; null where the document carries none of them. */
   contact: Contact | null;
   link: LinkChoice | null;
+  /** Null where nothing was met, or something else is chosen. */
+  ray: RayHit | null;
   /** Beside what happened, what a check of the poses alone sees. */
   showsDiscrete: boolean;
   showsGhosts: boolean;

@@ -6,6 +6,7 @@ import test from "node:test";
 import { coarsened } from "../build/scene3d/coarse.js";
 import { palettes } from "../build/scene3d/palette.js";
 import { Pace } from "../build/scene3d/pace.js";
+import { rayToSegment } from "../build/scene3d/picking.js";
 import { BarPainter } from "../build/timeline/bars.js";
 
 test("slow frames are drawn with fewer pixels and triangles, quick ones with more again", () => {
@@ -86,4 +87,37 @@ test("a bar of the person is light where a touch is possible, solid on all of th
   assert.deepEqual(drawn({ from: 1.5, to: 2 }, null), [light, light, "outline", { x: 150, width: 50, colour: solid }]);
   const [, instant, ...more] = drawn({ from: 3, to: 3 });
   assert.ok(instant.width > 0 && instant.x + instant.width <= 300 && more.length === 0, "an instant is seen, within the bar");
+});
+
+/** Of a point from a segment, by the plain formula. */
+function distanceToSegment(p, a, b) {
+  const sub = (x, y) => x.map((v, i) => v - y[i]), dot = (x, y) => x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+  const axis = sub(b, a), square = dot(axis, axis);
+  const share = square > 0 ? Math.min(1, Math.max(0, dot(sub(p, a), axis) / square)) : 0;
+  return Math.hypot(...sub(p, a.map((v, i) => v + share * axis[i])));
+}
+
+test("a ray enters a capsule where its surface is, and not before", () => {
+  let seed = 1, hits = 0, misses = 0;
+  const random = () => 2 * ((seed = (seed * 16807) % 2147483647) / 2147483647) - 1, point = () => [random(), random(), random()];
+  for (let i = 0; i < 2000; ++i) {
+    const a = point(), b = i % 10 === 0 ? a : point(), radius = 0.05 + 0.2 * Math.abs(random());
+    const share = random(), aside = point();
+    const origin = point().map((v) => 3 * v), to = a.map((v, k) => v + share * (b[k] - v) + 0.3 * aside[k]), length = Math.hypot(...to.map((v, k) => v - origin[k]));
+    const direction = to.map((v, k) => (v - origin[k]) / length);
+    const at = (s) => origin.map((v, k) => v + s * direction[k]), depth = (s) => radius - distanceToSegment(at(s), a, b);
+    const told = rayToSegment(origin, direction, a, b, radius);
+    let first = Infinity;
+    for (let s = 0; s < 9 && first === Infinity; s += 0.01) if (depth(s) >= 0) first = s;
+    if (told === null) {
+      assert.ok(first === Infinity, `missed: ${i}`);
+      ++misses;
+      continue;
+    }
+    ++hits;
+    assert.ok(Math.abs(depth(told)) < 1e-9 || told === 0, `not on the surface: ${i}`);
+    assert.ok(told <= first + 1e-9, `late: ${i}`);
+    for (let s = 0; s < told - 1e-6; s += told / 50) assert.ok(depth(s) < 0, `early: ${i}`);
+  }
+  assert.ok(hits > 300 && misses > 300);
 });

@@ -7,7 +7,7 @@ import { transformSize } from "../build/motion/chain.js";
 import { limbsOf, shortNames } from "../build/motion/limbs.js";
 import { carried, placeFrom, placeOption, placeWith, wrapped, yawTowards } from "../build/motion/placing.js";
 import { csvOf } from "../build/panels/csv.js";
-import { linesOfPerson, personOf, placeOf, storyOfTouch } from "../build/panels/words.js";
+import { linesOfPerson, personOf, placeOf, storyOfRay, storyOfTouch } from "../build/panels/words.js";
 
 test("limbs are told by the names of many exporters, and else by the parent", () => {
   const cases = [
@@ -94,4 +94,12 @@ test("of the person it is said between when a touch began and ended, and how sur
   assert.equal(story({ certain: null, goesOn: true }), "Hand may have touched table from 2.314 s on.");
   assert.equal(story({ certain: null, beganBefore: true, goesOn: true }), "Hand may have touched table at any time.");
   assert.deepEqual(linesOfPerson(touch, 10), ["surely touched table", "began between 2.314 and 2.316 s", "ended between 2.500 and 2.520 s"]);
+});
+
+test("a ray through a click is told with what it meets, the nearest first", () => {
+  const ray = { time: 3.25, origin: [0, 0, 0], direction: [0, 0, -1], link: "Anna's Head", linkDistance: 2.5, object: "wall", objectDistance: 4 };
+  assert.equal(storyOfRay(ray, 1), "At 2.250 s the ray through the pointer meets Anna's Head after 2.500 m, and wall after 4.000 m.");
+  assert.equal(storyOfRay({ ...ray, objectDistance: 1 }, 1), "At 2.250 s the ray through the pointer meets wall after 1.000 m, and Anna's Head after 2.500 m behind it.");
+  assert.equal(storyOfRay({ ...ray, link: null }, 1), "At 2.250 s the ray through the pointer meets wall after 4.000 m.");
+  assert.equal(storyOfRay({ ...ray, object: null }, 1), "At 2.250 s the ray through the pointer meets Anna's Head after 2.500 m.");
 });

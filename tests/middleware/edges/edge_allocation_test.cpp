@@ -32,8 +32,13 @@ TEST_P(EdgeAllocations, StopOnceThePoolHasGrown) {
   const auto q0 = test::randomConfigurations(1, kEdges), q1 = test::randomConfigurations(2, kEdges);
   WorkerPool pool = WorkerPool::start(GetParam()).value();
   std::vector<EdgeAnswer> answers;
+  std::vector<EdgeClearance> clearances;
+  std::vector<double> slopes(3 * kEdges);
   const auto ask = [&] {
     ASSERT_TRUE(edges_->answerAll(q0.data(), q1.data(), kEdges, pool, answers).ok());
+    ASSERT_TRUE(
+        edges_->clearanceAll(q0.data(), q1.data(), kEdges, pool, clearances, slopes.data(), nullptr)
+            .ok());
     ASSERT_TRUE(edges_->answerPath(q0.data(), kEdges, pool).ok());
   };
   // Which thread takes which edge is chance: until each has met the largest, memory may grow. So it

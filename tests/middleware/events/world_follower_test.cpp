@@ -506,18 +506,23 @@ TEST(WorldFollower, TellsTheSameForAnyThreadsOrdersAndCalls) {
   }
 }
 
-// Every contact that begins ends once, and so does everything unresolved.
+// Every contact that begins ends once, and so does everything unresolved; and what is open is what
+// has begun and not ended, at any instant to which somebody follows.
 TEST(WorldFollower, EndsWhatItBegins) {
   const World world = lively(true);
   WorldFollower follower = followerFrom(0);
   std::vector<WorldEvent> open;
-  for (std::int64_t untilUs = 10'000; untilUs <= 100'000; untilUs += 10'000) {
+  const auto find = [&](const auto& one) {
+    return std::find_if(open.begin(), open.end(), [&](const WorldEvent& o) {
+      return o.a.body == one.a.body && o.a.link == one.a.link && o.b.body == one.b.body &&
+             o.b.link == one.b.link && o.object == one.object;
+    });
+  };
+  std::size_t most = 0;
+  for (std::int64_t untilUs = 700; untilUs <= 100'000; untilUs += 700 + untilUs % 900) {
     const WorldEvents answer = followed(follower, world, untilUs);
     for (const WorldEvent& event : answer.events) {
-      const auto same = std::find_if(open.begin(), open.end(), [&](const WorldEvent& o) {
-        return o.a.body == event.a.body && o.a.link == event.a.link && o.b.body == event.b.body &&
-               o.b.link == event.b.link && o.object == event.object;
-      });
+      const auto same = find(event);
       const bool isBegin = event.kind == EventKind::Enter || event.kind == EventKind::StartsInside;
       ASSERT_EQ(same == open.end(), isBegin);
       if (isBegin) {
@@ -528,11 +533,19 @@ TEST(WorldFollower, EndsWhatItBegins) {
       EXPECT_TRUE(event.since < event.time);
       open.erase(same);
     }
-    EXPECT_EQ(open.size(), follower.open().size());
+    ASSERT_EQ(open.size(), follower.open().size()) << untilUs;
+    most = std::max(most, open.size());
+    for (const OpenPart& part : follower.open()) {
+      const auto begun = find(part);
+      ASSERT_TRUE(begun != open.end()) << untilUs;
+      EXPECT_TRUE(part.since == begun->time) << untilUs;
+      EXPECT_TRUE(part.a.p_W == begun->a.p_W && part.a.lss == begun->a.lss) << untilUs;
+    }
     EXPECT_EQ(std::count_if(answer.parts.begin(), answer.parts.end(),
                             [](const WorldPart& part) { return part.goesOn; }),
               static_cast<std::ptrdiff_t>(open.size()));
   }
+  EXPECT_GT(most, 3u);
 }
 
 TEST(WorldFollower, RefusesWhatItCannotFollow) {

@@ -5,7 +5,7 @@ import { discreteCount } from "../contacts/discrete.js";
 import type { Model } from "../model.js";
 import type { Store } from "../state.js";
 import { element, setText } from "./dom.js";
-import { count, plural, story, storyOfTouch } from "./words.js";
+import { count, plural, story, storyOfRay, storyOfTouch } from "./words.js";
 
 export class Caption {
   readonly node = element("p", { class: "caption" });
@@ -25,9 +25,10 @@ export class Caption {
   }
 
   private ofInstant(): string {
-    const { contact, touch, time, place, follows, refusal } = this.store.state, { model } = this;
+    const { contact, touch, ray, time, place, follows, refusal } = this.store.state, { model } = this;
     if (contact !== null && (touch === null || touch.rows[0] === contact || !model.knowsTouches)) return story(contact, model.timeZero);
     if (touch !== null) return storyOfTouch(touch, model.timeZero);
+    if (ray !== null && ray.time === time) return storyOfRay(ray, model.timeZero);
     const clip = model.clips[0];
     const isAnswered = clip === undefined || clip.start === clip.end || clip.instantAt(time).step >= 0;
     if (!isAnswered && !model.isLive) return "Not answered: no step covers this instant. The avatar holds its last pose.";
@@ -48,7 +49,7 @@ export class Caption {
   }
 }
 
-const hint = "Choose a touch on the timeline, in the view or in the table; ] goes to the next one.";
+const hint = "Choose a touch on the timeline, in the view or in the table; ] goes to the next one. A click in the view casts a ray.";
 const worldHint = "How the bodies move. `foretouch world replay --report` shows who touches whom.";
 const inspectionHint = "Click a floor to put the body there.";
 const turningHint = "Click where the body is to look; the place to copy is beside the view.";

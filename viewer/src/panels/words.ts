@@ -4,6 +4,7 @@ import type { Contact } from "../contacts/contact.js";
 import { isDeep, isSlide } from "../contacts/feet.js";
 import type { Touch } from "../contacts/touch.js";
 import type { FootStance, PersonTouch, Strength, Vector, Verdict } from "../data/document.js";
+import type { RayHit } from "../state.js";
 
 export function seconds(value: number): string {
   return `${value.toFixed(3)} s`;
@@ -77,6 +78,17 @@ export function story(contact: Contact, timeZero: number): string {
   const isAtPose = at === from || at === to;
   if (isAtPose && (contact.separation ?? 0) > 0) return `${nearPose(contact, object, at, at === from)} At both poses, ${from} and ${to}, a gap is left: ${unseen}.`;
   return `${met} At both poses, ${from} and ${to}, it touches nothing: ${unseen}.`;
+}
+
+/** What the ray through a click met, the nearest first. */
+export function storyOfRay(ray: RayHit, timeZero: number): string {
+  const { link, linkDistance, object, objectDistance } = ray;
+  const begin = `At ${seconds(ray.time - timeZero)} the ray through the pointer`;
+  const away = (name: string, distance: number): string => `${name} after ${length(distance)}`;
+  if (link === null) return object === null ? `${begin} meets nothing.` : `${begin} meets ${away(object, objectDistance)}.`;
+  if (object === null) return `${begin} meets ${away(link, linkDistance)}.`;
+  if (linkDistance <= objectDistance) return `${begin} meets ${away(link, linkDistance)}, and ${away(object, objectDistance)}.`;
+  return `${begin} meets ${away(object, objectDistance)}, and ${away(link, linkDistance)} behind it.`;
 }
 
 /** Of a touch over several steps: from when to when. */

@@ -41,15 +41,15 @@ export function contactNear(
   return best;
 }
 
-/** The nearest link that a ray of the world meets. */
-export function linkUnder(performers: readonly Performer[], origin: Vector, direction: Vector): LinkChoice | null {
-  let best: LinkChoice | null = null, nearest = Infinity;
+/** The nearest link that a ray of the world meets, and how far along. */
+export function linkUnder(performers: readonly Performer[], origin: Vector, direction: Vector): (LinkChoice & { distance: number }) | null {
+  let best: (LinkChoice & { distance: number }) | null = null, nearest = Infinity;
   performers.forEach((performer, avatar) => {
     if (!performer.clip.hasPose) return;
     const hit = pickLink(performer.avatar, performer.posture.world, origin, direction);
     if (hit === null || hit.distance >= nearest) return;
     nearest = hit.distance;
-    best = { avatar, link: hit.link };
+    best = { avatar, link: hit.link, distance: hit.distance };
   });
   return best;
 }

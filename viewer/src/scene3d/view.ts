@@ -6,7 +6,7 @@ import { whose } from "../contacts/touch.js";
 import type { Vector } from "../data/document.js";
 import type { Model } from "../model.js";
 import { chooseContact } from "../panels/choosing.js";
-import type { Change, Store } from "../state.js";
+import type { Change, LinkChoice, RayHit, Store } from "../state.js";
 import { ball } from "./bounds.js";
 import { Cutaway } from "./cutaway.js";
 import { Flight } from "./flight.js";
@@ -192,13 +192,26 @@ export class View3D {
     const lit = new Set(this.staging.litContacts());
     const contact = contactNear(this.model.contacts, (one) => lit.has(one) || one === state.contact, (point) => this.screenOf(point), x, y);
     if (contact !== null) return chooseContact(this.store, this.model, contact);
-    const ray = this.stage.rayThrough(x, y);
-    const link = linkUnder(this.staging.performers, this.worldOf(ray.origin), [ray.direction.x, ray.direction.y, ray.direction.z]);
-    if (link === null && this.placing !== null) {
-      const met = pickScene(this.model.document.scene, ray);
-      if (this.placing.click(met === null ? null : { at: this.worldOf(met.at), upwards: met.normal.y })) return;
-    }
-    this.store.set({ link, contact: null, touch: null });
+    const ray = this.stage.rayThrough(x, y), direction: Vector = [ray.direction.x, ray.direction.y, ray.direction.z];
+    const link = linkUnder(this.staging.performers, this.worldOf(ray.origin), direction);
+    const { scene } = this.model.document, met = pickScene(scene, ray);
+    if (link === null && this.placing?.click(met === null ? null : { at: this.worldOf(met.at), upwards: met.normal.y }) === true) return;
+    const hit: RayHit = {
+      time: state.time,
+      origin: this.worldOf(ray.origin),
+      direction,
+      link: link === null ? null : this.nameOf(link),
+      linkDistance: link?.distance ?? Infinity,
+      object: met === null ? null : (scene.objects.find(({ first, count }) => first <= met.triangle && met.triangle < first + count)?.name ?? "the scene"),
+      objectDistance: met === null ? Infinity : met.at.distanceTo(ray.origin),
+    };
+    const choice = link === null ? null : { avatar: link.avatar, link: link.link };
+    this.store.set({ link: choice, contact: null, touch: null, ray: link === null && met === null ? null : hit });
+  }
+
+  private nameOf({ avatar, link }: LinkChoice): string {
+    const { performers } = this.staging, one = performers[avatar].avatar, name = one.links[link].name;
+    return performers.length === 1 ? name : `${one.name}'s ${name}`;
   }
 
   private local(point: Vector): THREE.Vector3 {

@@ -131,6 +131,9 @@ typedef struct ft_edge_options {
   size_t ignored_count;
   const ft_edge_prop* props; /* obstacles beside the scene; default none */
   size_t prop_count;
+  /* Of ft_edges_clearance(), metres: how far its bounds may be apart, default 1e-3; and how far it
+   * looks, default infinity. */
+  double clearance_tolerance, clearance_within;
 } ft_edge_options;
 
 FT_API ft_status ft_edge_options_init(ft_edge_options* options, size_t size);
@@ -160,6 +163,25 @@ typedef struct ft_edge {
  * the robot's, numbers that are not finite or beyond 1,000; the index is the edge's. */
 FT_API ft_status ft_edges_answer(ft_edges* edges, const double* q0, const double* q1, size_t count,
                                  size_t coordinate_count, ft_edge* answers);
+
+/* How near an edge comes to the scene and to the props that are there. Metres, W. */
+typedef struct ft_clearance {
+  uint32_t size;
+  int32_t link, lss, triangle; /* what comes nearest; -1: nothing comes within clearance_within */
+  int32_t prop;                /* whose scene has the triangle; -1: the scene */
+  int32_t is_alone;            /* 1: no other place that was looked at is as near */
+  double lower, upper;         /* never nearer than `lower`; at `t` no farther than `upper` */
+  double t;
+  double point_on_link[3], point_on_scene[3];
+  double normal[3]; /* unit, from the scene to the link; 0: they meet */
+} ft_clearance;
+
+/* As ft_edges_answer(): q0, q1 and what is refused. The clearance of the options and own links have
+ * no part in it. `slopes0` and `slopes1`, which may be NULL, have room for count * coordinate_count
+ * numbers: how `upper` changes with q0 and q1; one way of several where is_alone is 0. */
+FT_API ft_status ft_edges_clearance(ft_edges* edges, const double* q0, const double* q1,
+                                    size_t count, size_t coordinate_count, ft_clearance* clearances,
+                                    double* slopes0, double* slopes1);
 
 typedef struct ft_path {
   uint32_t size;

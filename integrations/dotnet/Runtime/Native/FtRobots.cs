@@ -118,6 +118,12 @@ namespace Foretouch {
     /// <summary>obstacles beside the scene; default none</summary>
     public FtEdgeProp* props;
     public ulong propCount;
+    /// <summary>Of ft_edges_clearance(), metres: how far its bounds may be apart, default 1e-3; and how far
+    /// it looks, default infinity.</summary>
+    public double clearanceTolerance;
+    /// <summary>Of ft_edges_clearance(), metres: how far its bounds may be apart, default 1e-3; and how far
+    /// it looks, default infinity.</summary>
+    public double clearanceWithin;
   }
   /// <summary>Sound: free_until is never late. In arrays, the first element's size applies to
   /// all.</summary>
@@ -136,6 +142,30 @@ namespace Foretouch {
     public int breachAt0;
     /// <summary>a joint beyond its limits at that end; -1: none</summary>
     public int breachAt1;
+  }
+  /// <summary>How near an edge comes to the scene and to the props that are there. Metres, W.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  public partial struct FtClearance {
+    public uint size;
+    /// <summary>what comes nearest; -1: nothing comes within clearance_within</summary>
+    public int link;
+    /// <summary>what comes nearest; -1: nothing comes within clearance_within</summary>
+    public int lss;
+    /// <summary>what comes nearest; -1: nothing comes within clearance_within</summary>
+    public int triangle;
+    /// <summary>whose scene has the triangle; -1: the scene</summary>
+    public int prop;
+    /// <summary>1: no other place that was looked at is as near</summary>
+    public int isAlone;
+    /// <summary>never nearer than `lower`; at `t` no farther than `upper`</summary>
+    public double lower;
+    /// <summary>never nearer than `lower`; at `t` no farther than `upper`</summary>
+    public double upper;
+    public double t;
+    public FtVector pointOnLink;
+    public FtVector pointOnScene;
+    /// <summary>unit, from the scene to the link; 0: they meet</summary>
+    public FtVector normal;
   }
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtPath {
@@ -237,6 +267,11 @@ namespace Foretouch {
     /// the same for any number of threads. Errors, before any edge is asked: a coordinate_count that is not
     /// the robot's, numbers that are not finite or beyond 1,000; the index is the edge's.</summary>
     [DllImport(Library)] public static extern int ft_edges_answer(FtEdges edges, double* q0, double* q1, ulong count, ulong coordinateCount, FtEdge* answers);
+    /// <summary>As ft_edges_answer(): q0, q1 and what is refused. The clearance of the options and own
+    /// links have no part in it. `slopes0` and `slopes1`, which may be NULL, have room for count *
+    /// coordinate_count numbers: how `upper` changes with q0 and q1; one way of several where is_alone is
+    /// 0.</summary>
+    [DllImport(Library)] public static extern int ft_edges_clearance(FtEdges edges, double* q0, double* q1, ulong count, ulong coordinateCount, FtClearance* clearances, double* slopes0, double* slopes1);
     /// <summary>How far the list of `count` configurations is free, at least two, an edge from each to the
     /// next. Asks no edge behind the first that is not clear, but for those that other threads have
     /// begun.</summary>
