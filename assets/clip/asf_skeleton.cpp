@@ -60,10 +60,10 @@ std::string inCapitals(std::string_view word) {
 }
 
 std::optional<AcclaimDof> dofOf(std::string_view word) {
-  constexpr std::array<const char*, 6> kWords{"TX", "TY", "TZ", "RX", "RY", "RZ"};
+  constexpr std::array<const char*, 6> kChannelWords{"TX", "TY", "TZ", "RX", "RY", "RZ"};
   const std::string capitals = inCapitals(word);
-  for (std::size_t i = 0; i < kWords.size(); ++i) {
-    if (capitals == kWords[i]) return static_cast<AcclaimDof>(i);
+  for (std::size_t i = 0; i < kChannelWords.size(); ++i) {
+    if (capitals == kChannelWords[i]) return static_cast<AcclaimDof>(i);
   }
   return std::nullopt;
 }
