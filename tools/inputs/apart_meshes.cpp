@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "articulated/quoted.h"
 #include "lss/index.h"
 #include "middleware/query/query.h"
 #include "tools/inputs/played_clip.h"
@@ -105,11 +104,12 @@ std::optional<std::string> hintOnThickPairs(const Avatar& avatar, const Scene& s
   }
   return fmt::format(
       "--self: {} by LSS in up to {} of {} steps, though their meshes are apart at each of {} "
-      "poses; leave them out: {} --leave-out {} -o own.pairs.json, then --pairs own.pairs.json; or "
+      "poses; leave them out: {} --leave-out '{}' -o own.pairs.json, then --pairs own.pairs.json; "
+      "or "
       "ask the meshes: --fidelity exact",
       counted(thick.size(), "1 pair of own links starts in contact",
               "pairs of own links start in contact"),
-      starts, steps, poses.size(), rules, inQuotes(leftOut));
+      starts, steps, poses.size(), rules, leftOut);
 }
 
 }  // namespace foretouch::tools
