@@ -182,6 +182,39 @@ py::object edgesOf(const std::vector<EdgeAnswer>& answers, const SharedRobot& ro
       points, columnOf<std::int32_t>(answers, [](A a) { return a.prop; }), robot.avatar, scenes);
 }
 
+/// Slopes are None where nobody asked for them.
+py::object clearancesOf(const std::vector<EdgeClearance>& answers, py::object slopes0,
+                        py::object slopes1) {
+  const auto columnOfAll = [&](auto type, const auto& of) {
+    py::array_t<decltype(type)> made(static_cast<py::ssize_t>(answers.size()));
+    auto* to = made.mutable_data();
+    for (const EdgeClearance& answer : answers) *to++ = of(answer);
+    return made;
+  };
+  const auto vectors = [&](const auto& of) {
+    Numbers made({static_cast<py::ssize_t>(answers.size()), py::ssize_t{3}});
+    double* to = made.mutable_data();
+    for (const EdgeClearance& answer : answers) {
+      const Eigen::Vector3d& p = of(answer);
+      to = std::copy(p.data(), p.data() + 3, to);
+    }
+    return made;
+  };
+  using A = const EdgeClearance&;
+  return pythonType("Clearances")(
+      columnOfAll(double{}, [](A a) { return a.lower; }),
+      columnOfAll(double{}, [](A a) { return a.upper; }),
+      columnOfAll(double{}, [](A a) { return a.t; }),
+      columnOfAll(std::int32_t{}, [](A a) { return a.link; }),
+      columnOfAll(std::int32_t{}, [](A a) { return a.triangle; }),
+      columnOfAll(std::int32_t{}, [](A a) { return a.prop; }),
+      columnOfAll(bool{}, [](A a) { return a.isAlone; }),
+      vectors([](A a) -> const Eigen::Vector3d& { return a.p_WLink; }),
+      vectors([](A a) -> const Eigen::Vector3d& { return a.p_WScene; }),
+      vectors([](A a) -> const Eigen::Vector3d& { return a.nhat_SL_W; }), std::move(slopes0),
+      std::move(slopes1));
+}
+
 /// Any number of threads may use one at once: they take turns, each on all its threads.
 class PythonEdgeQuery {
  public:
@@ -218,6 +251,31 @@ class PythonEdgeQuery {
                                   pool_, answers));
     }
     return edgesOf(answers, robot_, scenes_);
+  }
+
+  py::object clearance(const Shown<shown::Array>& q, const Shown<shown::Array>& q1,
+                       bool withSlopes) {
+    const bool isPath = q1.is_none();
+    const Numbers from = configurations(q, isPath ? "q" : "q0");
+    const py::ssize_t n = from.shape(1);
+    if (isPath && from.shape(0) < 2) {
+      refuse(ErrorCode::Empty, "q", "expected at least two configurations");
+    }
+    const Numbers to = isPath ? from : ends(q, q1).second;
+    const py::ssize_t count = from.shape(0) - (isPath ? 1 : 0);
+    const double* const second = to.data() + (isPath ? n : 0);
+    Numbers slopes0({withSlopes ? count : 0, n}), slopes1({withSlopes ? count : 0, n});
+    double *const at0 = withSlopes ? slopes0.mutable_data() : nullptr,
+                  *const at1 = withSlopes ? slopes1.mutable_data() : nullptr;
+    std::vector<EdgeClearance> answers;
+    {
+      const py::gil_scoped_release free;
+      const std::lock_guard<std::mutex> lock(mutex_);
+      valueOf(question_.clearanceAll(from.data(), second, static_cast<std::size_t>(count), pool_,
+                                     answers, at0, at1));
+    }
+    return withSlopes ? clearancesOf(answers, slopes0, slopes1)
+                      : clearancesOf(answers, py::none(), py::none());
   }
 
   py::object certify(const Shown<shown::Array>& q0, const Shown<shown::Array>& q1,
@@ -273,14 +331,16 @@ class PythonEdgeQuery {
   WorkerPool pool_;
 };
 
-std::unique_ptr<PythonEdgeQuery> makeEdges(const SharedRobot& robot, std::shared_ptr<Scene> scene,
-                                           const Shown<shown::Number>& tolerance,
-                                           const Shown<shown::Number>& clearance,
-                                           const Shown<shown::PairRules>& selfPairs,
-                                           const Shown<shown::Items>& ignore,
-                                           const Shown<shown::Integer>& threads,
-                                           const Shown<shown::Items>& props) {
+std::unique_ptr<PythonEdgeQuery> makeEdges(
+    const SharedRobot& robot, std::shared_ptr<Scene> scene, const Shown<shown::Number>& tolerance,
+    const Shown<shown::Number>& clearance, const Shown<shown::PairRules>& selfPairs,
+    const Shown<shown::Items>& ignore, const Shown<shown::Integer>& threads,
+    const Shown<shown::Items>& props, const Shown<shown::Number>& clearanceTolerance,
+    const Shown<shown::Number>& clearanceWithin) {
   EdgeOptions options;
+  options.clearanceTolerance = number(clearanceTolerance, "clearance_tolerance");
+  options.clearanceWithin = clearanceWithin.is_none() ? options.clearanceWithin
+                                                      : number(clearanceWithin, "clearance_within");
   options.tolerance = number(tolerance, "tolerance");
   options.clearance = number(clearance, "clearance");
   if (!selfPairs.is_none()) options.self = rulesFrom(selfPairs, *robot.avatar);
@@ -362,9 +422,13 @@ void bindRobots(py::module_& module) {
           py::arg("tolerance") = usual.tolerance, py::arg("clearance") = usual.clearance,
           py::arg("self_pairs") = py::none(), py::arg("ignore") = py::tuple(),
           py::arg("threads") = 1, py::arg("props") = py::tuple(),
+          py::arg("clearance_tolerance") = usual.clearanceTolerance,
+          py::arg("clearance_within") = py::none(),
           "clearance (m): clear proves that the robot keeps more than this away; self_pairs:\n"
           "PairRules of robot.avatar; ignore: links and pairs (link, object); threads: of a call;\n"
-          "props: scenes, each in a frame of its own, which place() moves; at first that is W.")
+          "props: scenes, each in a frame of its own, which place() moves; at first that is W;\n"
+          "clearance_tolerance, clearance_within (m): how far the bounds of clearance() may be\n"
+          "apart, and how far it looks, which is unlimited if None.")
       .def("place", &PythonEdgeQuery::place, py::arg("prop"), py::arg("pose"),
            "Moves a prop, by its place in props; nothing is built anew. pose: (rotation, "
            "translation),\n"
@@ -372,6 +436,11 @@ void bindRobots(py::module_& module) {
       .def("answer", &PythonEdgeQuery::answer, py::arg("q0"), py::arg("q1"),
            "q0 and q1 (n, coordinates): n edges; an Edges, whose describe() says what they meet.\n"
            "An edge from q to q asks about q.")
+      .def("clearance", &PythonEdgeQuery::clearance, py::arg("q"), py::arg("q1") = py::none(),
+           py::kw_only(), py::arg("slopes") = false,
+           "How near edges come to the scene and to props: bounds, when and where. q (T,\n"
+           "coordinates): a path, whose T - 1 edges are asked; with q1: edges from q to q1.\n"
+           "A Clearances. slopes: also how it changes with both ends.")
       .def("certify", &PythonEdgeQuery::certify, py::arg("q0"), py::arg("q1"), py::arg("folder"),
            "As answer(), and writes why the clear edges are clear into the folder: scene.obj,\n"
            "avatar.json, edges.txt and certificate.txt, for foretouch-verify. A CertifiedEdges.")

@@ -1,5 +1,6 @@
 #include "tools/ask/ask_command.h"
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -20,22 +21,58 @@ namespace {
 constexpr NumberRange kPlaces{-kMaxCoordinate, kMaxCoordinate, "metres", "m", true};
 constexpr NumberRange kDirections{-1e300, 1e300, "", "", true};
 constexpr NumberRange kRadii{0.0, kMaxCoordinate, "metres", "m", true};
+constexpr NumberRange kHalfExtents{0.0, kMaxCoordinate, "metres", "m", true};
+constexpr NumberRange kTurns{-1.0, 1.0, "", "", true};
+/// How far from 1 the length of a quaternion may be that somebody typed in.
+constexpr double kTurnError = 1e-3;
 constexpr NumberRange kReaches{0.0, kMostAskReach, "metres", "m"};
 
 /// The values of all options.
 struct AskedFile {
   std::string path;
   std::optional<std::int64_t> atUs;
-  std::vector<double> from, to, along;
+  std::vector<double> from, to, along, box, turn, hull;
   double radius = 0.0, reach = 1000.0, within = 1.0;
   std::vector<std::string> only, without, seen;
-  bool all = false, asJson = false;
+  bool all = false, solids = false, asJson = false;
 };
 
 Result<Eigen::Vector3d> vectorOf(const std::vector<double>& numbers, const char* option) {
   if (numbers.size() == 3) return Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
   return Error::in(option, ErrorCode::Mismatch,
                    fmt::format("expected three numbers, X,Y,Z, found {}", numbers.size()));
+}
+
+/// The corners of a box or of a hull, from where it begins; empty: neither is asked about.
+Result<std::vector<Eigen::Vector3d>> cornersOf(const AskedFile& asked, const Settings& given) {
+  const bool isBox = given.isGiven("--box"), isHull = given.isGiven("--hull");
+  const char* const option = isBox ? "--box" : "--hull";
+  if ((isBox && isHull) || ((isBox || isHull) && given.isGiven("--to"))) {
+    return Error::in(option, ErrorCode::Mismatch, "expected one of --box, --hull and --to");
+  }
+  if (given.isGiven("--turn") && !isBox) {
+    return Error::in("--turn", ErrorCode::Mismatch, "expected --box beside it");
+  }
+  std::vector<Eigen::Vector3d> corners;
+  if (isBox) {
+    FORETOUCH_TRY(const auto half, vectorOf(asked.box, "--box"));
+    if (!given.isGiven("--turn")) return boxCorners(half);
+    const Eigen::Vector4d turn = Eigen::Map<const Eigen::Vector4d>(asked.turn.data());
+    if (asked.turn.size() != 4 || !(std::abs(turn.norm() - 1.0) < kTurnError)) {
+      return Error::in("--turn", ErrorCode::OutOfRange, "expected a unit quaternion, W,X,Y,Z");
+    }
+    const Eigen::Quaterniond axes(turn[0], turn[1], turn[2], turn[3]);
+    return boxCorners(half, axes.normalized());
+  }
+  if (asked.hull.size() % 3 != 0) {
+    return Error::in("--hull", ErrorCode::Mismatch,
+                     fmt::format("expected three numbers per corner, X,Y,Z,X,Y,Z,..., found {}",
+                                 asked.hull.size()));
+  }
+  for (std::size_t i = 0; i + 2 < asked.hull.size(); i += 3) {
+    corners.emplace_back(asked.hull[i], asked.hull[i + 1], asked.hull[i + 2]);
+  }
+  return corners;
 }
 
 Result<BodyId> bodyNamed(const LoadedWorld& world, const std::string& name, const char* option) {
@@ -100,7 +137,9 @@ Result<WorldQuestion> questionOf(const LoadedWorld& world, const AskedFile& aske
   if (given.isGiven("--to")) {
     FORETOUCH_TRY(question.shape.b, vectorOf(asked.to, "--to"));
   }
+  FORETOUCH_TRY(question.hull, cornersOf(asked, given));
   question.shape.radius = asked.radius;
+  question.solids = asked.solids;
   question.time = {asked.atUs.value_or(world.beginUs), 0.0};
   const bool isCast = given.isGiven("--along"), isNear = given.isGiven("--within");
   if (isCast && isNear) {
@@ -145,7 +184,14 @@ void addShapeSettings(Settings& settings, AskedFile& asked) {
       .required();
   addNumbers(settings, "--to", "X,Y,Z", asked.to, kPlaces,
              "The other end of a capsule's axis; not given: a point, or a sphere");
-  settings.number("--radius", "M", asked.radius, kRadii, "Of the sphere or capsule");
+  addNumbers(settings, "--box", "X,Y,Z", asked.box, kHalfExtents,
+             "A box of these half extents around --from");
+  addNumbers(settings, "--turn", "W,X,Y,Z", asked.turn, kTurns,
+             "Of the box's own axes, as a unit quaternion; not given: those of the world");
+  addNumbers(settings, "--hull", "X,Y,Z,...", asked.hull, kPlaces,
+             "A convex solid: its corners, from --from");
+  settings.number("--radius", "M", asked.radius, kRadii,
+                  "Of the sphere or capsule; around the box or hull");
   addNumbers(settings, "--along", "X,Y,Z", asked.along, kDirections,
              "It moves in this direction: what does it hit? Not given: what does it overlap?");
   settings.number("--reach", "M", asked.reach, kReaches, "How far it moves");
@@ -154,6 +200,8 @@ void addShapeSettings(Settings& settings, AskedFile& asked) {
 }
 
 void addFilterSettings(Settings& settings, AskedFile& asked) {
+  settings.flag("--solids", asked.solids,
+                "Closed objects are solid: what begins inside one touches it");
   settings.flag("--all", asked.all, "All that is hit or near, in order, not the first alone");
   addWords(settings, "--only", "PART,...", asked.only, {},
            "Nothing but these: 'scene', a body, or BODY/LINK");
@@ -177,12 +225,15 @@ Command askCommand() {
   settings.asJson(asked->asJson);
   addShapeSettings(settings, *asked);
   addFilterSettings(settings, *asked);
-  Command command{"ask", "What a ray, a moved shape or a shape meets in a world at an instant",
-                  "Examples:\n"
-                  "  foretouch ask stage.toml --at 1.7 --from 0,1.2,3 --along 0,0,-1\n"
-                  "  foretouch ask stage.toml --at 1.7 --from 0,1.2,0 --radius 0.3\n"
-                  "  foretouch ask stage.toml --at 1.7 --from 0,1.2,0 --within 2 --without scene",
-                  std::move(settings)};
+  Command command{
+      "ask", "What a ray, a moved shape or a shape meets in a world at an instant",
+      "Examples:\n"
+      "  foretouch ask stage.toml --at 1.7 --from 0,1.2,3 --along 0,0,-1\n"
+      "  foretouch ask stage.toml --at 1.7 --from 0,1.2,0 --radius 0.3\n"
+      "  foretouch ask stage.toml --at 1.7 --from 0,1.2,0 --box 0.2,0.1,0.3 --along 0,-1,0\n"
+      "  foretouch ask stage.toml --at 1.7 --from 0,1.2,0 --solids\n"
+      "  foretouch ask stage.toml --at 1.7 --from 0,1.2,0 --within 2 --without scene",
+      std::move(settings)};
   command.run = [asked](const Settings& given) { return run(*asked, given); };
   return command;
 }

@@ -46,6 +46,7 @@ from foretouch._queries import first_contacts, first_contacts_many, touches_at
 from foretouch._types import (
     Brackets,
     CertifiedEdges,
+    Clearances,
     ContactDetails,
     ContactPoint,
     ContactSide,
@@ -91,6 +92,7 @@ __all__ = [
     "BracketVerdict",
     "Brackets",
     "CertifiedEdges",
+    "Clearances",
     "Clip",
     "Contact",
     "ContactDetails",

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from foretouch._types import (
     Brackets,
     CertifiedEdges,
+    Clearances,
     ContactDetails,
     Depth,
     Doubles,
@@ -738,6 +739,8 @@ class EdgeQuery:
         ignore: Iterable[IgnoredLike] = (),
         threads: int = 1,
         props: Sequence[Scene] = (),
+        clearance_tolerance: float = 0.001,
+        clearance_within: Optional[float] = None,
     ) -> None: ...
     def place(self, prop: int, pose: Optional[PoseLike]) -> None: ...
     def answer(self, q0: npt.ArrayLike, q1: npt.ArrayLike) -> Edges: ...
@@ -745,6 +748,9 @@ class EdgeQuery:
         self, q0: npt.ArrayLike, q1: npt.ArrayLike, folder: _Path
     ) -> CertifiedEdges: ...
     def answer_path(self, q: npt.ArrayLike) -> tuple[float, Edges]: ...
+    def clearance(
+        self, q: npt.ArrayLike, q1: Optional[npt.ArrayLike] = None, *, slopes: bool = False
+    ) -> Clearances: ...
     @property
     def robot(self) -> Robot: ...
     @property

@@ -90,6 +90,39 @@ class Edge(NamedTuple):
     """The prop that it meets."""
 
 
+@dataclass(frozen=True, eq=False)
+class Clearances:
+    """How near n edges of a robot come: an array of each part. Metres, world."""
+
+    lower: Doubles
+    """(n,): the edge never comes nearer; 0: it touches, or may."""
+    upper: Doubles
+    """(n,): at t it is no farther; inf: nothing comes within clearance_within."""
+    t: Doubles
+    """(n,): when, in [0, 1] of the edge."""
+    links: npt.NDArray[np.int32]
+    """(n,): what comes nearest; -1: nothing."""
+    triangles: npt.NDArray[np.int32]
+    """(n,): of the scene, or of the prop's; -1: none."""
+    props: npt.NDArray[np.int32]
+    """(n,): the prop that it is nearest to; -1: the scene."""
+    alone: npt.NDArray[np.bool_]
+    """(n,): no other place that was looked at is as near; so the slopes are the only ones."""
+    link_points: Doubles
+    """(n, 3): on the link."""
+    scene_points: Doubles
+    """(n, 3): on the triangle."""
+    normals: Doubles
+    """(n, 3): unit, from the scene to the link; 0: they meet."""
+    slopes0: Optional[Doubles]
+    """(n, coordinates): how upper changes with the edge's begin; None: not asked."""
+    slopes1: Optional[Doubles]
+    """(n, coordinates): how upper changes with its end."""
+
+    def __len__(self) -> int:
+        return len(self.lower)
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Edges(Sequence[Edge]):
     """Answers to n edges of a robot: a sequence of Edge, and an array of each of its parts.

@@ -90,6 +90,7 @@ class RandomArguments(unittest.TestCase):
             lambda v: foretouch.EdgeQuery(robot, scene, tolerance=v(), clearance=v(), ignore=v()),
             lambda v: edges.answer(v(), v()),
             lambda v: edges.answer_path(v()),
+            lambda v: edges.clearance(v(), v()),
             lambda v: foretouch.Scene.from_arrays(v(), v(), v(), v()),
             lambda v: foretouch.Scene.from_arrays(np.eye(3), v()),
             lambda v: foretouch.Scene.from_arrays(np.eye(3), [[0, 1, 2]], v(), v()),

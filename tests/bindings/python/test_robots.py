@@ -64,6 +64,26 @@ class Robots(unittest.TestCase):
         self.assertTrue(expected <= free_until <= expected + first.free_until[expected])
         self.assertEqual(met.verdicts[0], first.verdicts[expected])
 
+    def test_clearances_are_where_sines_say(self):
+        edges = foretouch.EdgeQuery(swinging(), wall(-0.5), clearance_tolerance=1e-5, threads=2)
+        q = np.array([[0.0, 0.0], [0.3, 0.0], [0.6, 0.0], [0.2, 0.0]])
+        near = edges.clearance(q, slopes=True)  # a path of three edges
+        self.assertEqual(len(near), 3)
+        # The tip at 0.6 m, 4 cm thick; it is lowest at the larger angle of each edge.
+        truth = 0.5 - 0.04 - 0.6 * np.sin([0.3, 0.6, 0.6])
+        np.testing.assert_array_less(near.lower, truth + 1e-12)
+        np.testing.assert_array_less(truth - 1e-12, near.upper)
+        np.testing.assert_allclose(near.upper, near.lower, atol=1.1e-5)
+        np.testing.assert_allclose(near.t, [1, 1, 0], atol=1e-4)
+        np.testing.assert_allclose(near.slopes1[:, 0], -0.6 * np.cos([0.3, 0.6, 0.6]) * [1, 1, 0],
+                                   atol=1e-3)
+        np.testing.assert_allclose(near.slopes0[2, 0], -0.6 * np.cos(0.6), atol=1e-3)
+        again = edges.clearance(q[:-1], q[1:])
+        np.testing.assert_array_equal(again.upper, near.upper)
+        self.assertIsNone(again.slopes0)
+        with self.assertRaisesRegex(foretouch.InputError, "at least two"):
+            edges.clearance(q[:1])
+
     def test_clearance_tools_and_own_links(self):
         robot = swinging()
         near = [[np.arcsin(0.255 / 0.6), 0.0]]  # 5 mm from the wall

@@ -63,6 +63,21 @@ TEST_F(AskProgram, OverlapsAndTheNearest) {
       holds(ask({"--at", "1", "--from", "1,0.2,0", "--within", "1"}).out, "0.1500 m: ball"));
 }
 
+TEST_F(AskProgram, CastsBoxesAndHulls) {
+  // The ball's top is at 0.05.
+  const auto toldOf = [&](std::vector<std::string> shape) {
+    std::vector<std::string> all{"--at", "1", "--from", "1,2,0", "--along", "0,-1,0"};
+    all.insert(all.end(), shape.begin(), shape.end());
+    return ask(all).out;
+  };
+  EXPECT_TRUE(holds(toldOf({"--box", "0.5,0.25,0.5"}), "1.7000 m: ball"));
+  // On its edge a box reaches half a diagonal down.
+  EXPECT_TRUE(
+      holds(toldOf({"--box", "0.1,0.1,0.1", "--turn", "0.92388,0,0,0.38268"}), "1.8086 m: ball"));
+  EXPECT_TRUE(holds(toldOf({"--hull", "0,-1,0,1,0,0,-1,0,0,0,0,1"}), "0.9500 m: ball"));
+  EXPECT_TRUE(holds(toldOf({"--hull", "0,-1,0", "--radius", "0.5"}), "0.4500 m: ball"));
+}
+
 TEST_F(AskProgram, RefusesByName) {
   const auto errorOf = [&](const std::vector<std::string>& rest) {
     const Ended ended = ask(rest);
@@ -71,6 +86,11 @@ TEST_F(AskProgram, RefusesByName) {
   };
   EXPECT_TRUE(holds(errorOf({"--from", "0,0"}), "--from: expected three numbers"));
   EXPECT_TRUE(holds(errorOf({"--from", "0,0,0", "--along", "0,0,0"}), "direction"));
+  EXPECT_TRUE(holds(errorOf({"--from", "0,0,0", "--box", "1,1"}), "--box: expected three"));
+  EXPECT_TRUE(holds(errorOf({"--from", "0,0,0", "--box", "1,1,1", "--to", "1,0,0"}), "--to"));
+  EXPECT_TRUE(holds(errorOf({"--from", "0,0,0", "--turn", "1,0,0,0"}), "--box beside it"));
+  EXPECT_TRUE(holds(errorOf({"--from", "0,0,0", "--box", "1,1,1", "--turn", "1,1,0,0"}), "unit"));
+  EXPECT_TRUE(holds(errorOf({"--from", "0,0,0", "--hull", "1,1,1,2"}), "three numbers per corner"));
   EXPECT_TRUE(holds(errorOf({"--from", "0,0,0", "--only", "Bal"}), "expected one of ball"));
   EXPECT_TRUE(holds(errorOf({"--from", "0,0,0", "--seen", "ball"}), "BODY=SECONDS"));
   EXPECT_TRUE(holds(errorOf({"--from", "0,0,0", "--along", "1,0,0", "--within", "1"}), "--within"));
