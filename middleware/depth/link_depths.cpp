@@ -287,6 +287,40 @@ class MostRoom {
   Vector3d at_ = Vector3d::Zero();
 };
 
+/// Of the deepest of the convex pieces.
+double lowerOfCores(const std::vector<RoundHull>& ofOne, const std::vector<RoundHull>& ofOther,
+                    const Place& place, double rounding) {
+  double lower = 0.0;
+  for (const RoundHull& core : ofOther) {
+    const RoundHull other = placed(core, place);
+    for (const RoundHull& one : ofOne) {
+      lower = std::max(lower, internal::depthOf(one, other, rounding).lower);
+    }
+  }
+  return lower;
+}
+
+Aabb sharedBox(Aabb one, const Aabb& other) {
+  one.min = one.min.cwiseMax(other.min);
+  one.max = one.max.cwiseMin(other.max);
+  return one;
+}
+
+/// By the two balls around one point of the box that both links have most room for.
+template <typename Solid>
+double lowerOfRoom(const Solid& one, const Solid& other, const Place& place, const Aabb& box,
+                   const std::optional<Vector3d>& met, double rounding) {
+  internal::ObjectsAround around;
+  const Place back = place.inverse();
+  const auto roomAt = [&](const Vector3d& p) {
+    const double ofOne = one.roomAt(p, around);
+    if (!(ofOne > 0.0)) return 0.0;
+    const double ofOther = other.roomAt(back.at(p), around);
+    return ofOther > 0.0 ? ofOne + ofOther : 0.0;
+  };
+  return (MostRoom(roomAt, box).find(met) - 4.0 * rounding) / internal::kInflation;
+}
+
 /// No point of `b`, seen from `a`, nor of `a`, is farther from where it is computed.
 double roundingOf(const MotionBounds& a, const MotionBounds& b, double reachOfA, double reachOfB,
                   double apart) {
@@ -334,30 +368,13 @@ LinkDepth LinkDepths::at(const ChainMotion& motion, double t, LinkId a, LinkId b
   depth.upper = ofHulls.upper;
   depth.nhat_BA_W = internal::kUnitShrink * (A.R_WL * ofHulls.nhat);
   if (depth.upper == 0.0) return depth;
-  for (const RoundHull& core : other.cores()) {
-    const RoundHull ofOther = placed(core, place);
-    for (const RoundHull& ofOne : one.cores()) {
-      depth.lower = std::max(depth.lower, internal::depthOf(ofOne, ofOther, rounding).lower);
-    }
-  }
+  depth.lower = lowerOfCores(one.cores(), other.cores(), place, rounding);
   if (!one.hasInside() || !other.hasInside()) return depth;
   if (one.isByCores() && other.isByCores()) return depth;
-  Aabb shared = boxOf(one.whole());
-  const Aabb box = boxOf(otherWhole);
-  shared.min = shared.min.cwiseMax(box.min);
-  shared.max = shared.max.cwiseMin(box.max);
-  internal::ObjectsAround around;
-  const Place back = place.inverse();
-  const auto roomAt = [&](const Vector3d& p) {
-    const double ofOne = one.roomAt(p, around);
-    if (!(ofOne > 0.0)) return 0.0;
-    const double ofOther = other.roomAt(back.at(p), around);
-    return ofOther > 0.0 ? ofOne + ofOther : 0.0;
-  };
   std::optional<Vector3d> met;
   if (met_W != nullptr) met = A.R_WL.transpose() * (*met_W - A.p_WL);
-  const double room = MostRoom(roomAt, shared).find(met) - 4.0 * rounding;
-  depth.lower = std::max(depth.lower, room / internal::kInflation);
+  const Aabb box = sharedBox(boxOf(one.whole()), boxOf(otherWhole));
+  depth.lower = std::max(depth.lower, lowerOfRoom(one, other, place, box, met, rounding));
   return depth;
 }
 

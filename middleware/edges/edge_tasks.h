@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "articulated/result.h"
@@ -37,7 +38,7 @@ Result<Done> runEdges(WorkerPool& pool, std::size_t count, const Task& task) {
     pool.scratch(i).of<EdgeListMemory>().failure.clear();
   }
   std::atomic<std::size_t> next{0};
-  pool.run([&](std::size_t thread) {
+  const auto takePart = [&](std::size_t thread) {
     Scratch& scratch = pool.scratch(thread);
     const auto renew = [&] {
       for (const auto kind : {ScratchKind::Edge, ScratchKind::Query, ScratchKind::Clearance}) {
@@ -53,7 +54,8 @@ Result<Done> runEdges(WorkerPool& pool, std::size_t count, const Task& task) {
       }
       if (end >= count) return;
     }
-  });
+  };
+  pool.run(std::ref(takePart));  // a std::function of the lambda itself would allocate
   return FirstFailure::of(
       numThreads, [&](std::size_t i) -> const auto& {
         return pool.scratch(i).of<EdgeListMemory>().failure;

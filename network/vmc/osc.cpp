@@ -15,6 +15,24 @@ std::size_t padded(std::size_t length) {
   return length / kWord * kWord + kWord;
 }
 
+/// Of the bytes that stand at a place.
+template <typename Number, typename Bits>
+Number numberOf(Bits bits) {
+  static_assert(sizeof(Number) == sizeof(Bits));
+  Number number{};
+  std::memcpy(&number, &bits, sizeof number);
+  return number;
+}
+
+/// Bytes of an argument that has no text and no size of its own; nothing: there is no such type.
+std::optional<std::size_t> bytesOf(char type) {
+  constexpr std::string_view kNothing = "TFNI[]", kWords = "ifcrm", kLongs = "hdt";
+  if (kNothing.find(type) != std::string_view::npos) return 0;
+  if (kWords.find(type) != std::string_view::npos) return 4;
+  if (kLongs.find(type) != std::string_view::npos) return 8;
+  return std::nullopt;
+}
+
 }  // namespace
 
 OscReader::OscReader(ByteView packet) : packet_(packet) {
@@ -99,64 +117,31 @@ bool OscReader::readText(std::size_t end, std::string_view& text) {
 }
 
 bool OscReader::readArgument(char type, std::size_t end, OscArgument& argument) {
+  const std::size_t from = at_;
   const auto take = [&](std::size_t bytes) {
     if (bytes > left(end)) return false;
     at_ += bytes;
     return true;
   };
-  const auto longAt = [&](std::size_t at) {
-    return std::uint64_t{wordAt(at)} << 32 | wordAt(at + kWord);
-  };
-  const std::size_t from = at_;
-  switch (type) {
-    case 'i':
-      if (!take(4)) return false;
-      argument.number = static_cast<std::int32_t>(wordAt(from));
-      return true;
-    case 'f': {
-      if (!take(4)) return false;
-      const std::uint32_t word = wordAt(from);
-      float number = 0.0f;
-      std::memcpy(&number, &word, sizeof number);
-      argument.number = number;
-      return true;
-    }
-    case 'h':
-      if (!take(8)) return false;
-      argument.number = static_cast<double>(static_cast<std::int64_t>(longAt(from)));
-      return true;
-    case 'd': {
-      if (!take(8)) return false;
-      const std::uint64_t word = longAt(from);
-      double number = 0.0;
-      std::memcpy(&number, &word, sizeof number);
-      argument.number = number;
-      return true;
-    }
-    case 's':
-    case 'S': {
-      std::string_view text;
-      if (!readText(end, text)) return false;
-      argument.text = text;
-      return true;
-    }
-    case 'b': {
-      if (!take(kWord)) return false;
-      const std::size_t size = wordAt(from);
-      return size <= left(end) && take((size + kWord - 1) / kWord * kWord);
-    }
-    case 'c':
-    case 'r':
-    case 'm': return take(4);
-    case 't': return take(8);
-    case 'T':
-    case 'F':
-    case 'N':
-    case 'I':
-    case '[':
-    case ']': return true;
-    default: return false;
+  if (type == 's' || type == 'S') {
+    std::string_view text;
+    if (!readText(end, text)) return false;
+    argument.text = text;
+    return true;
   }
+  if (type == 'b') {
+    if (!take(kWord)) return false;
+    const std::size_t size = wordAt(from);
+    return size <= left(end) && take((size + kWord - 1) / kWord * kWord);
+  }
+  const auto bytes = bytesOf(type);
+  if (!bytes || !take(*bytes)) return false;
+  const auto longAt = [&] { return std::uint64_t{wordAt(from)} << 32 | wordAt(from + kWord); };
+  if (type == 'i') argument.number = numberOf<std::int32_t>(wordAt(from));
+  if (type == 'f') argument.number = numberOf<float>(wordAt(from));
+  if (type == 'h') argument.number = static_cast<double>(numberOf<std::int64_t>(longAt()));
+  if (type == 'd') argument.number = numberOf<double>(longAt());
+  return true;
 }
 
 bool isOscPacket(ByteView packet) {

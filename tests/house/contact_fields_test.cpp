@@ -202,7 +202,8 @@ TEST(MessageFields, AreExplainedWhereLinesAre) {
   EXPECT_EQ(toldBetween("fields of `status_t`:", "\n\n"),
             with(namesOf(kStatus, kStatusFailures, kStatusLatency, kStatusQuery),
                  {"reasons", "latency_us", "query_us"}));
-  EXPECT_EQ(toldBetween("| `skeleton` |", "\n"),
+  // Behind the setting of that name.
+  EXPECT_EQ(with(toldBetween("| `skeleton` | `avatar`", "\n"), {"avatar"}),
             with(namesOf(kSkeleton, kSkeletonJoint), {"joints"}));
   EXPECT_EQ(toldBetween("| `pose` |", "\n"),
             with(namesOf(kPose, kPoseJoint, kPoseRotation, kMovedJoint, kMovedPlace),

@@ -23,6 +23,11 @@ Result<Done> writeGlb(const ReplayGlb& glb, const ReplayTouches& touches, const 
   return Done{};
 }
 
+void printRemarks(const PlaceDoubts& doubts, const std::optional<std::string>& hint) {
+  for (const std::string& remark : doubts.remarks()) printNote(remark);
+  if (hint) printNote(*hint);
+}
+
 Result<Done> checkPages(const ReplayJob& job) {
   const ReplayRequest& request = job.request;
   for (const std::string& page : {job.report.path, job.glb.path}) {
@@ -92,9 +97,7 @@ Result<Done> runReplay(
     }
   }
   tell(summary, person.text);
-  for (const std::string& remark : doubts.remarks()) printNote(remark);
-  const auto hint = hintOnOwnPairs(inputs, summary.startingPairs(), summary.steps());
-  if (hint) printNote(*hint);
+  printRemarks(doubts, hintOnOwnPairs(inputs, summary.startingPairs(), summary.steps()));
   return Done{};
 }
 

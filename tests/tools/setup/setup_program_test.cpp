@@ -1,6 +1,8 @@
 // `foretouch setup` as a user runs it: on the bundled example, and on real clips in real levels,
 // where the judge's own distances decide whether the body is free and on a floor.
 #include <algorithm>
+#include <filesystem>
+#include <iostream>
 #include <limits>
 #include <string>
 #include <vector>
@@ -355,6 +357,41 @@ struct RealCase {
   const char *sceneUp, *clipUp;
 };
 
+/// The body stands free, on its feet, where `setup` has put it.
+void judgePlace(const std::string& scene, const std::string& clip, const TempFolder& folder,
+                const json& answer) {
+  SceneImportOptions options;
+  if (answer["scene"]["up"]["value"] == "z") options.up = UpAxis::Z;
+  options.scale = answer["scene"]["scale"]["value"].get<double>();
+  const auto level = importScene(scene, options);
+  ASSERT_TRUE(level.ok());
+  ClipFileOptions reading;
+  reading.import.scale = answer["body"]["scale"]["value"].get<double>();
+  const auto read = readClipFile(clip, reading);
+  const std::string avatarPath =
+      folder / (std::filesystem::path(clip).stem().string() + ".avatar.json");
+  const auto avatar = readAvatarFile(avatarPath);
+  ASSERT_TRUE(read.ok() && avatar.ok());
+  const Skeleton& skeleton = avatar.value().skeleton();
+  const auto match = matchJoints(skeleton, read.value().clip.skeleton);
+  ASSERT_TRUE(match.ok());
+  const bool isZUp = answer["body"]["up"]["value"] == "z";
+  const json& place = answer["place"];
+  const std::size_t stands =
+      frameThatStands(avatar.value(), read.value().clip, match.value(), isZUp);
+  const Pose pose =
+      placed(skeleton, poseOfAvatar(skeleton, read.value().clip, match.value(), stands),
+             {isZUp,
+              {place[0].get<double>(), place[1].get<double>(), place[2].get<double>()},
+              place[3].get<double>()});
+  const JudgedPose found = judged(avatar.value(), pose, level.value().scene);
+  // The product may have taken another one of the frames that are about as low.
+  EXPECT_GT(found.separation, -0.01) << "free, but for the soles";
+  EXPECT_LE(found.separation, 0.03) << "on a floor";
+  EXPECT_LE(found.heightOfNearest, found.lowest + 0.2 * (found.highest - found.lowest))
+      << "and it is the feet that are near something";
+}
+
 class SetupOfRealFiles : public testing::TestWithParam<RealCase> {};
 
 TEST_P(SetupOfRealFiles, IsRightFreeAndOnAFloor) {
@@ -368,35 +405,7 @@ TEST_P(SetupOfRealFiles, IsRightFreeAndOnAFloor) {
   EXPECT_EQ(answer["body"]["scale"]["value"], given.clipScale);
   EXPECT_EQ(answer["body"]["up"]["value"], given.clipUp);
   ASSERT_TRUE(answer["place_found"]);
-
-  SceneImportOptions options;
-  if (answer["scene"]["up"]["value"] == "z") options.up = UpAxis::Z;
-  const auto level = importScene(*scene, options);
-  ASSERT_TRUE(level.ok());
-  ClipFileOptions reading;
-  reading.import.scale = given.clipScale;
-  const auto read = readClipFile(*clip, reading);
-  const std::string avatarPath =
-      folder / (std::filesystem::path(*clip).stem().string() + ".avatar.json");
-  const auto avatar = readAvatarFile(avatarPath);
-  ASSERT_TRUE(read.ok() && avatar.ok());
-  const Skeleton& skeleton = avatar.value().skeleton();
-  const auto match = matchJoints(skeleton, read.value().clip.skeleton);
-  ASSERT_TRUE(match.ok());
-  const json& place = answer["place"];
-  const std::size_t stands = frameThatStands(avatar.value(), read.value().clip, match.value(),
-                                             std::string(given.clipUp) == "z");
-  const Pose pose =
-      placed(skeleton, poseOfAvatar(skeleton, read.value().clip, match.value(), stands),
-             {std::string(given.clipUp) == "z",
-              {place[0].get<double>(), place[1].get<double>(), place[2].get<double>()},
-              place[3].get<double>()});
-  const JudgedPose found = judged(avatar.value(), pose, level.value().scene);
-  // The product may have taken another one of the frames that are about as low.
-  EXPECT_GT(found.separation, -0.01) << "free, but for the soles";
-  EXPECT_LE(found.separation, 0.03) << "on a floor";
-  EXPECT_LE(found.heightOfNearest, found.lowest + 0.2 * (found.highest - found.lowest))
-      << "and it is the feet that are near something";
+  judgePlace(*scene, *clip, folder, answer);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -412,6 +421,36 @@ INSTANTIATE_TEST_SUITE_P(
         RealCase{"scenes/munich_city.ply", "mocap/cmu_jumping_jacks.bvh", 0.0564, "z", "y"},
         RealCase{"scenes/collision-world.glb", "mocap/bandai1_slash_normal_001.bvh", 0.01, "y",
                  "y"}));
+
+/// Every clip in every level, minutes long: --gtest_also_run_disabled_tests. Where no place is
+/// found, or a check says that a person should look, the user is asked.
+TEST(SetupOfEveryPair, DISABLED_StandsOrAsks) {
+  const auto data = sharedData("mocap");
+  if (!data) GTEST_SKIP() << "no shared data";
+  int stands = 0, asks = 0;
+  for (const char* const name : {"collision-world.glb", "cpr_obstacle_world.stl", "cpr_office.dae",
+                                 "dungeon.obj", "fcl_env.obj", "kitchen_fatihrmutfak.ply",
+                                 "munich_city.ply", "nav_test.obj", "undulating.obj"}) {
+    const auto scene = sharedData(std::string("scenes/") + name);
+    if (!scene) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(*data)) {
+      const std::string clip = entry.path().string(), file = entry.path().filename().string();
+      if (entry.path().extension() != ".bvh" || file.rfind("odd_", 0) == 0) continue;
+      SCOPED_TRACE(std::string(name) + " " + file);
+      const TempFolder folder;
+      const Ended ended = runForetouch(
+          {"setup", *scene, clip, "--yes", "--json", "--output", folder / "foretouch.toml"});
+      const json answer = json::parse(ended.out, nullptr, false);
+      ASSERT_TRUE(answer.is_object()) << ended.err;
+      bool isDoubted = !answer["place_found"].get<bool>();
+      for (const json& check : answer["checks"]) isDoubted |= check["state"] != "good";
+      ++(isDoubted ? asks : stands);
+      if (!isDoubted) judgePlace(*scene, clip, folder, answer);
+    }
+  }
+  std::cout << stands << " stand, " << asks << " are asked about\n";
+  EXPECT_GT(stands, 20);
+}
 
 }  // namespace
 }  // namespace foretouch::test
