@@ -9,7 +9,7 @@
 
 #include "articulated/skeleton.h"
 #include "lss/index.h"
-#include "lss/separation.h"
+#include "middleware/exact/within_distance.h"
 #include "middleware/scene/scene_parts.h"
 #include "tessellation/open_edges.h"
 
@@ -30,10 +30,6 @@ Error openEdge(const Scene& scene, const OpenEdge& edge) {
                        scene.objectNames()[slotOf(edge.object)] + "', the edge from " +
                        said(edge.from) + " to " + said(edge.to) + " belongs to " + belongs +
                        ", where an inside needs two");
-}
-
-bool isAt(const Eigen::Vector3d& p, double rounding, const Triangle& triangle) {
-  return !(separation(Hull::segment(p, p), Hull::of(triangle)).lower() > rounding);
 }
 
 void cross(const Eigen::Vector3d& p, const Triangle& triangle, ObjectId object,
@@ -72,7 +68,7 @@ void findAtSurface(const SceneParts& scene, const Eigen::Vector3d& p, double rou
   around.atSurface.clear();
   scene.bvh.collect(near, around.ids, visited);
   for (const TriangleId id : around.ids) {
-    if (isAt(p, rounding, scene.triangles[slotOf(id)])) {
+    if (isWithin(p, scene.triangles[slotOf(id)], rounding)) {
       around.atSurface.push_back(scene.objectOf[slotOf(id)]);
     }
   }
@@ -106,7 +102,7 @@ void findObjectsAround(const std::vector<Triangle>& triangles, const Eigen::Vect
   around.inside.clear();
   around.atSurface.clear();
   for (const Triangle& triangle : triangles) {
-    if (isAt(p, rounding, triangle)) around.atSurface.push_back(0);
+    if (isWithin(p, triangle, rounding)) around.atSurface.push_back(0);
     cross(p, triangle, 0, around);
   }
   keepOdd(around.inside);

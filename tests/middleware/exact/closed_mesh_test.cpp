@@ -2,10 +2,13 @@
 #include "middleware/exact/closed_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "judge/precise.h"
+#include "judge/vector.h"
 #include "middleware/triggers/triggers.h"
 #include "middleware/triggers/volume_parts.h"
 #include "tests/support/random_geometry.h"
@@ -129,6 +132,46 @@ TEST(ClosedMesh, SaysWhereItCannotTell) {
   EXPECT_EQ(mesh.placeOf(Vector3d(0.9, 0, 0), 0.05, memory), PointPlace::Inside);
   EXPECT_EQ(mesh.placeOf(Vector3d(0.9, 0, 0), 0.15, memory), PointPlace::AtSurface);
   EXPECT_EQ(mesh.placeOf(Vector3d(1, 2, 3), 0.0, memory), PointPlace::AtSurface);
+}
+
+// Rounding tilts a plane between a point and an edge that is nanometres away: that is no reason not
+// to know.
+TEST(ClosedMesh, KnowsNanometresFromAnEdgeOnWhichSideItIs) {
+  using Number = oracle::Exact;
+  using Point = oracle::Vec3<Number>;
+  ClosedMesh::Memory memory;
+  int inside = 0, outside = 0;
+  for (int i = 0; i < 1000; ++i) {
+    SCOPED_TRACE(i);
+    test::Random random(static_cast<std::uint64_t>(i));
+    std::array<Vector3d, 4> v;
+    for (Vector3d& corner : v) corner = random.inBox(0.3);
+    RawScene raw;
+    raw.objectNames = {"tetrahedron"};
+    raw.triangles = {
+        {{v[0], v[1], v[2]}}, {{v[0], v[1], v[3]}}, {{v[0], v[2], v[3]}}, {{v[1], v[2], v[3]}}};
+    raw.objectOf.assign(4, 0);
+    const ClosedMesh mesh = closed(raw);
+    const double share = random.uniform(0.1, 0.9);
+    const double off = random.magnitude(1e-10, 1e-8);
+    const Vector3d p = (1.0 - share) * v[0] + share * v[1] + off * random.direction();
+    // Inside: it may take the place of any corner, and the volume keeps its sign.
+    const auto volume = [](const std::array<Vector3d, 4>& at) {
+      const Point a(at[0]);
+      return dot(Point(at[1]) - a, cross(Point(at[2]) - a, Point(at[3]) - a));
+    };
+    bool isInside = true;
+    for (std::size_t k = 0; k < 4; ++k) {
+      std::array<Vector3d, 4> with = v;
+      with[k] = p;
+      isInside = isInside && volume(v) * volume(with) > Number(0);
+    }
+    ASSERT_EQ(mesh.placeOf(p, 0.0, memory), isInside ? PointPlace::Inside : PointPlace::Outside);
+    ASSERT_EQ(mesh.placeOf(p, 1.001 * off, memory), PointPlace::AtSurface);
+    ++(isInside ? inside : outside);
+  }
+  EXPECT_GT(inside, 50);
+  EXPECT_GT(outside, 500);
 }
 
 TEST(TriggerVolume, RefusesWhatHasNoInside) {
