@@ -47,8 +47,8 @@ struct LinkState {
 struct MotionBounds {
   double angularSpeed = 0.0;
   double angularAcceleration = 0.0;
-  double speed = 0.0;         ///< The link's origin.
-  double acceleration = 0.0;  ///< The link's origin.
+  double speed = 0.0;         ///< The speed of the link's origin.
+  double acceleration = 0.0;  ///< The acceleration of the link's origin.
   double reach = 0.0;         ///< From the world's origin to the link's.
   /// On |d^8/dt^8| of the link's origin: bounds the error of interpolation through eight instants
   /// (tessellation/lss_polynomials.md).

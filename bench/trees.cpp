@@ -74,7 +74,8 @@ Result<BuilderTimes> measureOnce(TreeBuilder builder, const Asked& asked,
   const std::vector<Triangle> triangles(parts.triangles.begin(), parts.triangles.end());
   const std::vector<TriangleId> ids = parts.finiteIds();
   std::optional<Result<internal::FlatBvh>> tree;
-  times.treeMs = msOf([&] { tree = internal::FlatBvh::build(triangles, ids, parts.origin); });
+  const Aabb box{parts.audit.boxMin, parts.audit.boxMax};
+  times.treeMs = msOf([&] { tree = internal::FlatBvh::build(triangles, ids, box, parts.origin); });
   times.nodes = parts.bvh.numNodes();
   times.leaves = parts.bvh.numLeaves();
   FORETOUCH_TRY(const auto timed,

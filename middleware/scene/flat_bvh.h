@@ -21,9 +21,11 @@ class FlatBvh final : public TriangleCuller {
  public:
   using Leaf = BvhLeaf;
 
-  /// A tree of `triangles[id]` for every id of `ids`, which are finite; at least one.
+  /// A tree of `triangles[id]` for every id of `ids`, which are finite; at least one. `scene` holds
+  /// all of these.
   static Result<FlatBvh> build(const std::vector<Triangle>& triangles,
-                               const std::vector<TriangleId>& ids, const Eigen::Vector3d& origin);
+                               const std::vector<TriangleId>& ids, const Aabb& scene,
+                               const Eigen::Vector3d& origin);
 
   /// What it consists of. The root is the first node; one cluster per leaf.
   struct Arrays {

@@ -29,17 +29,11 @@ namespace {
 class FlatBvhBuilder {
  public:
   FlatBvhBuilder(const std::vector<Triangle>& triangles, const std::vector<TriangleId>& ids,
-                 const Vector3d& origin)
-      : triangles_(triangles), ids_(ids), origin_(origin) {
-    // In the triangles' own order: that of the ids is one of chance, at a cache miss each.
-    std::vector<std::uint8_t> isAsked(triangles_.size(), 0);
-    for (const TriangleId id : ids_) isAsked[slotOf(id)] = 1;
-    Aabb scene;
-    for (std::size_t i = 0; i < isAsked.size(); ++i) {
-      if (isAsked[i] != 0) scene.add(boxOf(triangles_[i]));
-    }
-    vertexRounding_ = vertexRoundingOf(scene, origin);
-  }
+                 const Aabb& scene, const Vector3d& origin)
+      : triangles_(triangles),
+        ids_(ids),
+        origin_(origin),
+        vertexRounding_(vertexRoundingOf(scene, origin)) {}
 
   Result<Done> flatten(const TreeNode& root, const TreeBox& rootBox) {
     if (!isWhole(&root)) return Error::of(ErrorCode::DeviceFailed, "Embree built no whole root");
@@ -180,7 +174,7 @@ class FlatBvhBuilder {
   const std::vector<Triangle>& triangles_;
   const std::vector<TriangleId>& ids_;
   const Vector3d origin_;
-  double vertexRounding_ = 0.0;
+  const double vertexRounding_;
   std::vector<BvhNode> nodes_;
   std::vector<BvhLeaf> leaves_;
   std::vector<Cluster> clusters_;
@@ -199,10 +193,11 @@ Result<std::unique_ptr<BvhTree>> buildTree(const std::vector<Triangle>& triangle
 }  // namespace
 
 Result<FlatBvh> FlatBvh::build(const std::vector<Triangle>& triangles,
-                               const std::vector<TriangleId>& ids, const Vector3d& origin) {
+                               const std::vector<TriangleId>& ids, const Aabb& scene,
+                               const Vector3d& origin) {
   FORETOUCH_ASSERT(!ids.empty());
   FORETOUCH_TRY(const auto tree, buildTree(triangles, ids, origin));
-  FlatBvhBuilder builder(triangles, ids, origin);
+  FlatBvhBuilder builder(triangles, ids, scene, origin);
   FORETOUCH_CHECK(builder.flatten(*tree->root, tree->box));
   return builder.take();
 }

@@ -103,9 +103,9 @@ Result<Scene> Scene::build(RawScene raw) {
     std::sort(triangle.vertices.begin(), triangle.vertices.end(), isBeforeByCoordinates<Vector3d>);
     finiteIds.push_back(static_cast<TriangleId>(i));
   }
-  FORETOUCH_TRY(parts->bvh,
-                internal::FlatBvh::build(raw.triangles, inOrderOfGeometry(raw.triangles, finiteIds),
-                                         parts->origin));
+  FORETOUCH_TRY(parts->bvh, internal::FlatBvh::build(
+                                raw.triangles, inOrderOfGeometry(raw.triangles, finiteIds),
+                                {parts->audit.boxMin, parts->audit.boxMax}, parts->origin));
   parts->triangles = internal::FrozenArray<Triangle>(std::move(raw.triangles));
   parts->objectOf = internal::FrozenArray<ObjectId>(std::move(raw.objectOf));
   parts->objectNames = std::move(raw.objectNames);
