@@ -18,6 +18,7 @@
 #include "bench/report.h"
 #include "bench/solid/busy_places.h"
 #include "bench/solid/cast.h"
+#include "bench/solid/explain.h"
 #include "bench/solid/feel.h"
 #include "bench/solid/feel_tables.h"
 #include "bench/solid/figure.h"
@@ -40,6 +41,7 @@ struct SolidBenchRequest {
   int places = 2;                  ///< Per clip and scene.
   double seconds = 4.0;            ///< At each.
   std::vector<std::string> parts;  ///< Of kSolidParts; empty: all.
+  bool mustExplain = false;        ///< What holds it, and what its slowest ticks are made of.
   TrialRequest trials;             ///< Its options and seed are also those of the scenes.
   FigureFiles figures;
 };
@@ -89,6 +91,11 @@ class SceneRun {
         FORETOUCH_TRY(const auto rest, tryRest(stage_, actor, tracked, request_.trials.options));
         rest_.add(rest);
       }
+      if (request_.mustExplain) {
+        FORETOUCH_TRY(const auto explained,
+                      explain(stage_, actor, tracked, rateHz, request_.trials.options));
+        explained_.add(explained);
+      }
       solid_.add(bySolid);
       hold_.add(byHold);
       ++places_;
@@ -100,6 +107,7 @@ class SceneRun {
   [[nodiscard]] const FeelTally& hold() const { return hold_; }
   [[nodiscard]] const RestTally& rest() const { return rest_; }
   [[nodiscard]] const HandsTrial& hands() const { return hands_; }
+  [[nodiscard]] const ExplainTally& explained() const { return explained_; }
   [[nodiscard]] int places() const { return places_; }
 
  private:
@@ -108,6 +116,7 @@ class SceneRun {
   FeelTally solid_, hold_;
   RestTally rest_;
   HandsTrial hands_;
+  ExplainTally explained_;
   int places_ = 0;
 };
 
@@ -121,6 +130,7 @@ class SceneTables {
     feel_.add({stage.name, rateHz, run.places(), "solid"}, run.solid());
     addRow({stage.name, rateHz}, run.rest(), rest_);
     addRows({stage.name, rateHz}, run.hands().tallies(), hands_);
+    if (!run.explained().ticks.empty()) explained_.add(stage.name, rateHz, run.explained());
     for (const WayTally* way : {&run.solid().way, &run.rest().way}) {
       bench.violations += way->violations();
       for (const std::string& finding : way->findings) bench.report.notes.push_back(finding);
@@ -130,11 +140,13 @@ class SceneTables {
     feel_.appendTo(report);
     if (!rest_.rows.empty()) report.tables.push_back(rest_);
     report.tables.push_back(hands_);
+    explained_.appendTo(report);
   }
 
  private:
   FeelTables feel_;
   BenchTable rest_, hands_;
+  ExplainTables explained_;
 };
 
 Result<Done> measureScenes(const SolidBenchRequest& request, JudgedReport& bench) {
@@ -219,6 +231,8 @@ Command solidBenchCommand() {
   addNumbers(settings, "--rates", "HZ,...", request.ratesHz, kAboveZero,
              "Tracked poses per second");
   settings.whole("--places", "N", request.places, 1, kMostPlaces, "Busy places per clip and scene");
+  settings.flag("--explain", request.mustExplain,
+                "Also what holds each link, and on what the slowest ticks spend their time");
   settings.number("--seconds", "S", request.seconds, kAboveZero, "Of the clip at each place");
   addTrials(settings, request.trials);
   addFigures(settings, request.figures, "Also write the first table to a file");

@@ -133,6 +133,7 @@ OwnTouch Certifier::ownTouchAt(const Pose& place) {
 
 /// Fills step_.
 void Certifier::run(const Pose& from, const Pose& to) {
+  const PhaseScope scope(phases_, SolidPhase::Prove);
   plan_->options.workBudget = workLeft_;
   motion_.assign(plan_->avatar.skeleton(), from, to);
   query_.answer(motion_, scratch_, step_);
@@ -182,6 +183,7 @@ Certified Certifier::ask(const Pose& from, const Pose& to) {
 
 /// Goes back from the first contact until the pair that meets there is well apart.
 void Certifier::cut(Certified& answer, double toi) {
+  const PhaseScope scope(phases_, SolidPhase::Prove);
   if (!answer.hasHit) {
     answer.share = kFreeShare * toi;
     return;

@@ -10,6 +10,7 @@
 #include "middleware/pair/query_plan.h"
 #include "middleware/query/query.h"
 #include "middleware/solid/solid_options.h"
+#include "middleware/solid/solid_phases.h"
 
 namespace foretouch::internal {
 
@@ -63,6 +64,8 @@ class Certifier {
   [[nodiscard]] std::uint64_t workDone() const { return workDone_; }
   [[nodiscard]] std::uint32_t queries() const { return queries_; }
   void spend(std::uint64_t work);
+  /// Null, or what times the phases of ticks; must outlive them.
+  void watch(SolidPhases* phases) { phases_ = phases; }
 
   /// Asks the motion from one validated pose to another. `reached` becomes `to` if it is clear,
   /// else the last pose of the share. Precondition: `reached` is neither of the two.
@@ -100,6 +103,7 @@ class Certifier {
   Sheet sheet_;  // of the cut that is made
   std::uint64_t workLeft_ = 0, workDone_ = 0;
   std::uint32_t queries_ = 0;
+  SolidPhases* phases_ = nullptr;
 };
 
 }  // namespace foretouch::internal

@@ -115,6 +115,7 @@ class SolidAvatar::Parts {
       return Error::in("dtS", ErrorCode::OutOfRange, "expected more than 0 and at most 10 seconds");
     }
     FORETOUCH_CHECK(target_.take(given, isPlaced_ ? &shown_ : nullptr));
+    if (phases_ != nullptr) phases_->begin();
     certifier_.beginTick(options_.workBudget);
     internal::beginTick(tick);
     isAround_ = false;
@@ -123,6 +124,7 @@ class SolidAvatar::Parts {
     lift_.remember(controller_.rows());
     controller_.letGo();
     finish(given.dtS, tick);
+    if (phases_ != nullptr) phases_->enter(internal::SolidPhase::Other);
     return Done{};
   }
 
@@ -147,6 +149,12 @@ class SolidAvatar::Parts {
     return Done{};
   }
 
+  void watch(internal::SolidPhases* phases) {
+    phases_ = phases;
+    certifier_.watch(phases);
+    controller_.watch(phases);
+  }
+
   Result<Done> changeScene(const Scene& scene) {
     const Avatar& avatar = certifier_.avatar();
     FORETOUCH_TRY(auto certifier, internal::Certifier::build(avatar, scene, options_));
@@ -154,6 +162,7 @@ class SolidAvatar::Parts {
                   internal::StillController::build(avatar, scene, options_, certifier));
     certifier_ = std::move(certifier);
     controller_ = std::move(controller);
+    watch(phases_);
     forget();
     lift_.forgetFloors();
     wasEqual_ = false;
@@ -263,6 +272,7 @@ class SolidAvatar::Parts {
 
   /// On along the way that was found; false if it is no longer free.
   bool walkAround(SolidTick& tick) {
+    const internal::PhaseScope scope(phases_, internal::SolidPhase::Around);
     isAround_ = true;
     around_.tighten(controller_.body(), shown_, certifier_);
     while (around_.hasWay() && !pace_.isSpent()) {
@@ -323,6 +333,7 @@ class SolidAvatar::Parts {
                              stuckS_ >= kStuckFor && stuckTicks_ >= std::max(kStuckTicks, lookAt_);
     const bool wantsSnap = options_.maySnap && awayS_ > options_.patience;
     if (!wantsAround && !wantsSnap) return;
+    const internal::PhaseScope scope(phases_, internal::SolidPhase::Around);
     const std::uint32_t before = certifier_.queries();
     // Where a snap may come, that was asked as the tick began.
     const bool isFree =
@@ -429,6 +440,7 @@ class SolidAvatar::Parts {
   internal::Placing placing_;
   internal::WayAround around_;
   internal::Pace pace_;
+  internal::SolidPhases* phases_ = nullptr;
   Pose shown_, before_, towards_, reached_;
   std::vector<LinkState> states_, statesBefore_;
   std::vector<Eigen::Vector3d> wanted_, lastWanted_, places_;
@@ -485,6 +497,10 @@ void SolidAvatar::resume(const Pose& shown, const SolidAvatar* before) {
 
 const internal::JointRanges& SolidAvatar::ranges() const {
   return parts_->target().ranges();
+}
+
+void SolidAvatar::watch(internal::SolidPhases* phases) {
+  parts_->watch(phases);
 }
 
 const Avatar& SolidAvatar::avatar() const {

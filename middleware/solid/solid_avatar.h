@@ -20,6 +20,7 @@ namespace foretouch {
 
 namespace internal {
 class JointRanges;
+class SolidPhases;
 }  // namespace internal
 
 /// One avatar's shown pose, its scene and its memory. For one thread; any number of them may share
@@ -61,6 +62,8 @@ class SolidAvatar {
   void resume(const Pose& shown, const SolidAvatar* before = nullptr);
   /// How the tracked joints were seen to turn.
   [[nodiscard]] const internal::JointRanges& ranges() const;
+  /// For benchmarks: what times the phases of ticks from now on; null: nothing does.
+  void watch(internal::SolidPhases* phases);
 
   [[nodiscard]] const Avatar& avatar() const;
   [[nodiscard]] const Scene& scene() const;

@@ -131,7 +131,7 @@ bool StillController::iterate(const FollowRequest& request, Certifier& certifier
     }
   }
 
-  step_.aim(request.target, request.wanted, here_, shown);
+  aim(request, shown);
   gather(request, certifier, tick);
   tries_ = 0;
   const bool hasStep = propose(request, certifier.plan(), shown, tick);
@@ -276,7 +276,13 @@ void StillController::findReach() {
   }
 }
 
+void StillController::aim(const FollowRequest& request, const Pose& shown) {
+  const PhaseScope scope(phases_, SolidPhase::Solve);
+  step_.aim(request.target, request.wanted, here_, shown);
+}
+
 void StillController::gather(const FollowRequest& request, Certifier& certifier, SolidTick& tick) {
+  const PhaseScope scope(phases_, SolidPhase::Gather);
   findReach();
   areRowsOld_ = false;
   near_.answer(here_.states, activeReach_, scratch_, features_);
@@ -302,6 +308,7 @@ void StillController::setBounds(bool mayPush) {
 /// False: there is none, or none worth a motion.
 bool StillController::propose(const FollowRequest& request, const QueryPlan& plan,
                               const Pose& shown, SolidTick& tick) {
+  const PhaseScope scope(phases_, SolidPhase::Try);
   step_.begin();
   setBounds(true);
   isWhole_ = false;
@@ -375,6 +382,7 @@ double StillController::fitOf(const FollowRequest& request, const Pose& shown) c
 }
 
 void StillController::solve(SolidTick& tick) {
+  const PhaseScope scope(phases_, SolidPhase::Solve);
   tick.counters.rows += static_cast<std::uint32_t>(step_.solve(rows_));
   size_ = step_.size(here_);
 }
@@ -391,6 +399,7 @@ bool StillController::tryShare(const FollowRequest& request, const Pose& shown, 
 /// At the target, what pushes is apart, and so is its link from all else: perhaps nothing is in the
 /// way. Of the surface, not of the triangle alone, lest its neighbours are asked in vain.
 bool StillController::isTargetApart(const FollowRequest& request, Certifier& certifier) {
+  const PhaseScope scope(phases_, SolidPhase::Gather);
   const bool areApart = std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
     return !(row.push > 0.0) || row.isSoft || gapOf(certifier.plan(), row, request.states) > 0.0;
   });

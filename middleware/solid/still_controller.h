@@ -14,6 +14,7 @@
 #include "middleware/solid/pace.h"
 #include "middleware/solid/pulled_step.h"
 #include "middleware/solid/solid_options.h"
+#include "middleware/solid/solid_phases.h"
 #include "middleware/solid/solid_tick.h"
 
 namespace foretouch::internal {
@@ -44,6 +45,8 @@ class StillController {
   void letGo();
   /// Forgets contacts.
   void reset();
+  /// Null, or what times the phases of ticks; must outlive them.
+  void watch(SolidPhases* phases) { phases_ = phases; }
 
   [[nodiscard]] const VisualBody& body() const { return step_.body(); }
   /// The rows of the tick's last step, by link and LSS, with their pushes; places of those that
@@ -75,6 +78,7 @@ class StillController {
   void moveThere(const FollowRequest& request, double clearance, Pose& shown, SolidTick& tick);
   void moveRows(const QueryPlan& plan);
   void findReach();
+  void aim(const FollowRequest& request, const Pose& shown);
   void gather(const FollowRequest& request, Certifier& certifier, SolidTick& tick);
   [[nodiscard]] bool areAllSoft() const;
   [[nodiscard]] bool warmOwn(const FollowRequest& request, const QueryPlan& plan, double share);
@@ -103,6 +107,7 @@ class StillController {
   OwnFeatures own_;
   Scratch scratch_;
   NearFeatures features_;
+  SolidPhases* phases_ = nullptr;
 
   // What is shown, and what may be next.
   BodyState here_, there_;
