@@ -31,7 +31,8 @@ class FeelMeter {
   }
 
   void look(const Pose& tracked, const SolidTick& tick) {
-    const oracle::PlainPose wanted = plainPose(tracked), shown = plainPose(tick.shown);
+    const oracle::PlainPose wanted = lifted(plainPose(tracked), tick.lift),
+                            shown = plainPose(tick.shown);
     audit_.look(tick);
     const bool isFree = judge_.at(wanted, 0.0).link < 0;
     const bool isEqual = wanted == shown;
@@ -41,7 +42,7 @@ class FeelMeter {
     Ends track = judge_.endsAt(wanted), show = judge_.endsAt(shown);
     const bool isTrunkFree = trunk_.at(wanted, 0.0).link < 0;
     const bool areHandsFree = hands_.at(wanted, 0.0).link < 0;
-    const double most = lookAtDeviation(lifted(track, tick.lift), show, isTrunkFree, areHandsFree);
+    const double most = lookAtDeviation(track, show, isTrunkFree, areHandsFree);
     tally_.lift.push_back(tick.lift);
     if (isFree) {
       tally_.equal += isEqual ? 1 : 0;
@@ -81,12 +82,13 @@ class FeelMeter {
     return wanted <= moved + run_.catchUp / run_.rateHz;
   }
 
-  /// The floor policy moves the target, along y: that is told apart from deviations.
-  static Ends lifted(Ends ends, double lift) {
-    for (auto& pair : ends) {
-      for (oracle::Vec3d& end : pair) end.y += lift;
+  /// The floor policy moves the target, along y: that is told apart from what keeps it away.
+  [[nodiscard]] oracle::PlainPose lifted(oracle::PlainPose pose, double lift) const {
+    for (LinkId link = 0; link < actor_.avatar.numLinks(); ++link) {
+      if (actor_.avatar.skeleton().parent(link) == kNoParent)
+        pose.translations[slotOf(link)].y += lift;
     }
-    return ends;
+    return pose;
   }
 
   double lookAtDeviation(const Ends& track, const Ends& show, bool isTrunkFree, bool areHandsFree) {

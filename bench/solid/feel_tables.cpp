@@ -130,7 +130,7 @@ void FeelTables::appendTo(BenchReport& report) const {
       {"Free: the judge finds the tracked pose's separation above zero. Equal: bit for bit.",
        "Late: the judge finds the way from the shown pose to the tracked one free by more than the "
        "tolerance, and it is within the catch-up speed, but the avatar does not take it.",
-       "Deviations are from the tracked body as the floor policy lifts it; the lift is told apart.",
+       "The tracked body is meant as the floor policy lifts it; the lift is told apart.",
        "Away: a link is more than 5 cm from a free tracked pose. Back: ticks after the tracked "
        "pose "
        "came free until shown is equal; \"never back\" counts as long as it was free.",

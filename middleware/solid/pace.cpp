@@ -25,6 +25,8 @@ constexpr int kMostPieces = 32;
 /// How often the end of what is left is looked for, and how near to it.
 constexpr int kMostTries = 8;
 constexpr double kWithin = 0.999;
+/// Below this share of a path no chord's rounding is the reason.
+constexpr double kChordOfPath = 1.0 - 1e-6;
 /// Joints of a limb and a trunk: where none turns farther than a share of kChordTurn, no link does.
 constexpr double kDepth = 8.0;
 
@@ -131,6 +133,12 @@ bool Pace::isSpent() const {
 double Pace::shareOf(const Moved& step) const {
   return std::min({roomFor(step.all, left_.all), roomFor(step.head, left_.head),
                    roomFor(step.turn, left_.turn)});
+}
+
+bool Pace::mayGo(const Places& here, const Places& there) const {
+  if (goesAlong_) return true;
+  const Moved chord = chords(here, there);
+  return kChordOfPath * chord.all <= left_.all && kChordOfPath * chord.head <= left_.head;
 }
 
 int Pace::piecesOf(const Pose& from, const Pose& to) {

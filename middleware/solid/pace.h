@@ -46,6 +46,8 @@ class Pace {
   [[nodiscard]] bool isSpent() const;
   /// How much of a step may be taken that moves the body so far: more than 1 where that is more.
   [[nodiscard]] double shareOf(const Moved& step) const;
+  /// Whether all of a motion may be, as far as the chord of its path says: false is certain.
+  [[nodiscard]] bool mayGo(const Places& here, const Places& there) const;
   /// How much of the motion may be shown, in [0, 1]. `part`: becomes the pose there, if it is less
   /// than the whole and more than nothing.
   [[nodiscard]] double shareOf(const Pose& from, const Pose& to, Pose& part);

@@ -25,6 +25,10 @@ constexpr double kLever = 0.3;
 constexpr std::uint8_t kActiveTicks = 8;
 /// Of a step that the pace allows to first order: a little is left for what the path is longer.
 constexpr double kWithinPace = 0.99;
+/// Where gathering costs more than this (evaluations in lanes), the next step is half as long, down
+/// to `kLeastAmongMuch` (m); where it costs less than a quarter of it, twice as long again.
+constexpr std::uint64_t kMuchNear = 6'000;
+constexpr double kLeastAmongMuch = 5e-3;
 constexpr int kDoublings = 3, kCorrections = 2;
 /// What is not proven but wished for may be missed by so much in a step (m).
 constexpr double kSoft = 5e-3;
@@ -57,6 +61,7 @@ StillController::StillController(const Avatar& avatar, const SolidOptions& optio
 void StillController::reset() {
   isCaught_ = false;
   heldTicks_ = 0;
+  mostTrust_ = kMostTrust;
   cutClearance_ = -1.0;
   std::fill(activeFor_.begin(), activeFor_.end(), std::uint8_t{0});
   rows_.clear();
@@ -140,8 +145,8 @@ bool StillController::iterate(const FollowRequest& request, Certifier& certifier
     return stepFreely(request, shareOfDirect(request, shown), certifier, shown, tick);
   }
   isHeldBySelf_ = !hasStep && hasPushes() && areAllSoft();
-  if (hasPushes() && !hasDirectFailed_ && shareOfDirect(request, shown) == 1.0 &&
-      isTargetApart(request, certifier)) {
+  if (hasPushes() && !hasDirectFailed_ && request.pace.mayGo(here_.places, request.wanted) &&
+      shareOfDirect(request, shown) == 1.0 && isTargetApart(request, certifier)) {
     // What pushes is the skin, or a surface that the direct motion passes by.
     const Certified direct = ask(shown, request.target, certifier, tick);
     if (direct.isClear) {
@@ -283,9 +288,12 @@ void StillController::aim(const FollowRequest& request, const Pose& shown) {
 
 void StillController::gather(const FollowRequest& request, Certifier& certifier, SolidTick& tick) {
   const PhaseScope scope(phases_, SolidPhase::Gather);
+  trust_ = std::min(trust_, mostTrust_);
   findReach();
   areRowsOld_ = false;
   near_.answer(here_.states, activeReach_, scratch_, features_);
+  const std::uint64_t work = WorkMeter::workOf(features_.counters);
+  trustBy(work);
   appendRows(features_, rows_);
   if (options_.self || !isCaught_) {
     own_.append(certifier.plan(), {here_.states, request.states}, options_.skin, reach_, activeFor_,
@@ -294,7 +302,16 @@ void StillController::gather(const FollowRequest& request, Certifier& certifier,
   if (!isCaught_) request.ranges.append(here_.states, trust_ / kTwistLever, rows_);
   ++tick.counters.iterations;
   tick.counters.features += static_cast<std::uint32_t>(rows_.size());
-  certifier.spend(kIterationWork + kRowWork * rows_.size() + WorkMeter::workOf(features_.counters));
+  certifier.spend(kIterationWork + kRowWork * rows_.size() + work);
+}
+
+/// Where much is near, looking far around costs more than short steps do.
+void StillController::trustBy(std::uint64_t gathering) {
+  if (gathering > kMuchNear) {
+    mostTrust_ = std::max(0.5 * mostTrust_, kLeastAmongMuch);
+  } else if (4 * gathering < kMuchNear) {
+    mostTrust_ = std::min(2.0 * mostTrust_, kMostTrust);
+  }
 }
 
 void StillController::setBounds(bool mayPush) {

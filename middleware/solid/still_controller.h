@@ -10,6 +10,7 @@
 #include "middleware/solid/certifier.h"
 #include "middleware/solid/contact_row.h"
 #include "middleware/solid/joint_ranges.h"
+#include "middleware/solid/near_rows.h"
 #include "middleware/solid/own_features.h"
 #include "middleware/solid/pace.h"
 #include "middleware/solid/pulled_step.h"
@@ -82,6 +83,7 @@ class StillController {
   void gather(const FollowRequest& request, Certifier& certifier, SolidTick& tick);
   [[nodiscard]] bool areAllSoft() const;
   [[nodiscard]] bool warmOwn(const FollowRequest& request, const QueryPlan& plan, double share);
+  void trustBy(std::uint64_t gathering);
   void setBounds(bool mayPush);
   [[nodiscard]] bool propose(const FollowRequest& request, const QueryPlan& plan, const Pose& shown,
                              SolidTick& tick);
@@ -126,7 +128,8 @@ class StillController {
 
   // Of the current tick.
   double trust_ = 0.0, enough_ = 0.0;
-  double mostShare_ = 0.0;  // of the step, that trust and pace allow
+  double mostTrust_ = kMostTrust;  // less where much is near
+  double mostShare_ = 0.0;         // of the step, that trust and pace allow
   bool hasDirectFailed_ = false, hasMoved_ = false, isOver_ = false;
   // Where goStraight() was cut: the clearance of the motion to reached_; < 0: it was not.
   double cutClearance_ = -1.0;

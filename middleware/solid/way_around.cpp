@@ -24,10 +24,12 @@ constexpr int kMostJoints = 4;
 constexpr double kShareOfLimb = 0.25;
 /// Nodes of one tree.
 constexpr std::size_t kMostNodes = 400;
-/// Corners that are tried to be cut, at first and while it is walked, and by what share a cut must
-/// be shorter.
-constexpr int kShortcuts = 128, kShortcutsPerTick = 16;
+/// Corners that are tried to be cut in a tick while it is walked, and by what share a cut must be
+/// shorter.
+constexpr int kShortcutsPerTick = 16;
 constexpr double kShorter = 0.98;
+/// Of a tick, in evaluations in lanes: a search is spread over ticks.
+constexpr std::uint64_t kSearchWork = 12'000;
 /// A cut that advances less than this (m) is not worth a node.
 constexpr double kLeastAdvance = 0.01;
 
@@ -153,7 +155,9 @@ void WayAround::search(const VisualBody& body, const Pose& shown, const Pose& ta
   if (hasFailed_ || hasWay()) return;
   if (!isBegun_) begin(body, shown, target, wanted, farthest);
   const std::uint32_t before = certifier.queries();
-  while (certifier.queries() - before < motions && certifier.workLeft() > 0) {
+  const std::uint64_t workBefore = certifier.workDone();
+  while (certifier.queries() - before < motions && certifier.workLeft() > 0 &&
+         certifier.workDone() - workBefore < kSearchWork) {
     const Tree& from = trees_[turn_];
     if (from.count >= kMostNodes || spent_ >= most_) {
       hasFailed_ = true;
@@ -192,13 +196,12 @@ bool WayAround::grow(const VisualBody& body, Certifier& certifier) {
   sampledPlaces_ = one.nodes[here].places;
   const std::size_t there = extend(other, nearest(other), sampled_, isThere);
   if (!isThere) return false;
-  finish(body, turn_ == 0 ? here : there, turn_ == 0 ? there : here, certifier);
+  finish(turn_ == 0 ? here : there, turn_ == 0 ? there : here, certifier);
   return true;
 }
 
 /// The way from root to root, then made shorter.
-void WayAround::finish(const VisualBody& body, std::size_t here, std::size_t there,
-                       Certifier& certifier) {
+void WayAround::finish(std::size_t here, std::size_t there, Certifier& certifier) {
   way_.clear();
   for (auto i = static_cast<std::int32_t>(here); i >= 0; i = trees_[0].nodes[slotOf(i)].parent) {
     way_.push(trees_[0].nodes[slotOf(i)].pose);
@@ -208,8 +211,6 @@ void WayAround::finish(const VisualBody& body, std::size_t here, std::size_t the
   for (auto i = trees_[1].nodes[there].parent; i >= 0; i = trees_[1].nodes[slotOf(i)].parent) {
     way_.push(trees_[1].nodes[slotOf(i)].pose);
   }
-  skipPoses(certifier);
-  shorten(body, kShortcuts, certifier);
   skipPoses(certifier);
   next_ = 1;
 }

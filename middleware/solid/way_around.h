@@ -59,7 +59,7 @@ class WayAround {
   [[nodiscard]] std::size_t nearest(const Tree& tree) const;
   std::size_t add(const VisualBody& body, Tree& tree, std::int32_t parent, const Pose& pose);
   [[nodiscard]] bool grow(const VisualBody& body, Certifier& certifier);
-  void finish(const VisualBody& body, std::size_t here, std::size_t there, Certifier& certifier);
+  void finish(std::size_t here, std::size_t there, Certifier& certifier);
   void skipPoses(Certifier& certifier);
   void shorten(const VisualBody& body, int tries, Certifier& certifier);
   [[nodiscard]] double length(const VisualBody& body, const Pose& from, const Pose& to);
