@@ -1,25 +1,28 @@
 #!/usr/bin/env python3
-"""Do the tests notice? Draws small wrong changes of the kernel (operators.py), builds each one and
-runs the tests that cover its file, nearest first: what no test notices is listed, to be judged.
+"""Do the tests notice? Draws small wrong changes of the kernel (operators.py), compiles them into one
+tree (switches.py) in which one at a time can be on, asks which test comes by which of them, and runs
+these, quickest first: what none notices is listed, to be judged.
 
-  mutants.py [--count N] [--seed S] [--folders lss,articulated,...] [--from K] [--out FILE]
+  mutants.py [--count N] [--seed S] [--folders lss,articulated,...] [--patience S] [--out FILE]
   mutants.py --again | --table [--out FILE] [--record]
 
-The tree is a clean copy of HEAD in build/mutants; nothing of the working tree changes. FILE gets a
-line of JSON per mutant; a run with --from goes on there, one with --again tries those that
-survived anew, by the tests as they are now; --record keeps the table in docs/measurements. judged.txt lists survivors that a person
-has looked at, with the reason why no test can notice them."""
+The tree is a copy of HEAD in build/mutants; nothing of the working tree changes. FILE gets a line of
+JSON per mutant; one that it has already is passed over. --again tries those that survived anew, by
+the tests as they are now; --record keeps the table in docs/measurements. judged.txt lists survivors
+that a person has looked at, with the reason why no test can notice them."""
 import argparse
 import json
 import os
 import random
+import re
 import subprocess
 import sys
 import time
 from collections import Counter
 from pathlib import Path
 
-from operators import mutants_of
+from operators import code_of, mutants_of
+from switches import with_switches
 
 ROOT = Path(__file__).resolve().parents[2]
 PLACE = ROOT / "build/mutants"
@@ -58,33 +61,90 @@ def run(command, seconds=None, **more):
         return None
 
 
-def prepare(folders):
+def check_out():
+    head = run(["git", "-C", ROOT, "rev-parse", "HEAD"]).stdout.strip()
     if SOURCE.exists():
-        subprocess.run(["git", "-C", SOURCE, "checkout", "-q", "--detach", "-f",
-                        run(["git", "-C", ROOT, "rev-parse", "HEAD"]).stdout.strip()], check=True)
+        subprocess.run(["git", "-C", SOURCE, "checkout", "-q", "--detach", "-f", head], check=True)
     else:
         PLACE.mkdir(parents=True, exist_ok=True)
         subprocess.run(["git", "-C", ROOT, "worktree", "prune"], check=True)
         subprocess.run(["git", "-C", ROOT, "worktree", "add", "-q", "--detach", SOURCE, "HEAD"], check=True)
-    # A source by itself, compiled in little time: what counts is what it computes.
+
+
+def configure():
+    """Compiled in little time: what counts is what it computes."""
+    here = Path(__file__).parent
+    PLACE.joinpath("reach.o").unlink(missing_ok=True)
+    made = run(["c++", "-std=c++17", "-O1", "-c", here / "reach.cpp", "-o", PLACE / "reach.o"])
+    if made.returncode != 0:
+        sys.exit(made.stdout)
     configured = run(["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                      "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", "-DFORETOUCH_UNITY=OFF", "-DFORETOUCH_WERROR=OFF",
-                      "-DFORETOUCH_TESTS=ON", "-DFORETOUCH_BENCH=ON", "-DFORETOUCH_PYTHON=OFF"] +
-                     (["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if run(["sh", "-c", "command -v ccache"]).stdout else []))
+                      f"-DCMAKE_CXX_FLAGS=-include {here / 'switch.h'}", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG",
+                      f"-DCMAKE_EXE_LINKER_FLAGS={PLACE / 'reach.o'}", "-DFORETOUCH_WERROR=OFF",
+                      "-DFORETOUCH_TESTS=ON", "-DFORETOUCH_BENCH=ON", "-DFORETOUCH_PYTHON=OFF"])
     if configured.returncode != 0:
         sys.exit(configured.stdout)
-    programs = sorted({p for folder in folders for p in FOLDERS[folder]})
-    built = run(["ninja", "-C", BUILD, *[f"bin/{p}" for p in programs]])
-    if built.returncode != 0:
-        sys.exit(built.stdout[-4000:])
-    usual = {}
-    for program in programs:
-        begin = time.monotonic()
-        if run([BUILD / "bin" / program], env=test_environment()).returncode != 0:
-            sys.exit(f"mutants: {program} fails as it stands; expected tests that pass")
-        usual[program] = time.monotonic() - begin
-        print(f"{program}: {usual[program]:.0f} s", file=sys.stderr)
-    return usual
+
+
+def write_switches(mutants):
+    """Writes all of them into the tree; returns the numbers of those that it holds."""
+    inside = set()
+    for path in sorted({mutant.path for mutant in mutants.values()}):
+        source = run(["git", "-C", SOURCE, "show", f"HEAD:{path}"]).stdout
+        own = {k: mutant for k, mutant in mutants.items() if mutant.path == path}
+        text, held = with_switches(source, own, code_of)
+        place = SOURCE / path
+        if place.read_text() != text:
+            place.write_text(text)
+        inside |= held
+    return inside
+
+
+ERROR = re.compile(r"([\w/.-]+):(\d+):\d+:")
+
+
+def build(mutants, programs):
+    """Compiles them, without those that the compiler does not take; returns what is left."""
+    for _ in range(12):
+        inside = write_switches(mutants)
+        mutants = {k: mutant for k, mutant in mutants.items() if k in inside}
+        built = run(["ninja", "-k", "0", "-C", BUILD, *[f"bin/{p}" for p in programs]])
+        if built.returncode == 0:
+            return mutants
+        wrong = set()
+        for line in built.stdout.splitlines():
+            for found in ERROR.finditer(line):
+                path = os.path.relpath(found[1], SOURCE) if found[1].startswith("/") else found[1]
+                wrong.add((path, int(found[2])))
+        # A statement over several lines is written on its first one.
+        left = {k: mutant for k, mutant in mutants.items()
+                if not any((mutant.path, mutant.line - back) in wrong for back in range(12))}
+        print(f"mutants: {len(mutants) - len(left)} are none to the compiler", file=sys.stderr)
+        if len(left) == len(mutants):
+            sys.exit(built.stdout[-6000:])
+        mutants = left
+    sys.exit("mutants: expected sources that compile after twelve tries")
+
+
+def reach_of(program):
+    """Per mutant, the tests that come by it: (milliseconds, name). And all tests, by name."""
+    path = PLACE / f"{program}.reach"
+    done = run([BUILD / "bin" / program], env={**test_environment(), "FORETOUCH_REACHED": str(path)})
+    if done.returncode != 0:
+        sys.exit(f"mutants: {program} fails as it stands; expected tests that pass\n{done.stdout[-2000:]}")
+    reached, always, tests = {}, [], []
+    for line in path.read_text().splitlines():
+        name, milliseconds, numbers = line.split("\t")
+        numbers = [int(k) for k in numbers.split()]
+        if not name:
+            always = numbers
+            continue
+        tests.append((int(milliseconds), name))
+        for k in numbers:
+            reached.setdefault(k, []).append((int(milliseconds), name))
+    for k in always:  # constants
+        reached[k] = tests
+    return {k: sorted(found) for k, found in reached.items()}
 
 
 def test_environment():
@@ -92,22 +152,26 @@ def test_environment():
             "FORETOUCH_DATA": os.environ.get("FORETOUCH_DATA", str(ROOT.parent / "shared/data"))}
 
 
-def fate_of(mutant, usual):
-    """'killed by PROGRAM', 'survived', or 'no program': it does not compile."""
-    path = SOURCE / mutant.path
-    source = path.read_text()
-    path.write_text(mutant.applied(source))
-    try:
-        for program in programs_for(mutant.path):
-            built = run(["ninja", "-C", BUILD, f"bin/{program}"], 1200)
-            if built is None or built.returncode != 0:
-                return "no program"
-            tested = run([BUILD / "bin" / program], 60 + 10 * usual[program], env=test_environment())
+def fate_of(k, mutant, reach, patience):
+    """'killed by PROGRAM', 'survived', or 'unreached': no test comes by it."""
+    left = 1000.0 * patience
+    is_reached = False
+    for program in programs_for(mutant.path):
+        tests = reach[program].get(k, [])
+        is_reached = is_reached or bool(tests)
+        for chunk in (tests[:6], tests[6:60], tests[60:400], tests[400:]):
+            while chunk and sum(time for time, _ in chunk) > left:
+                chunk = chunk[:-1]
+            if not chunk:
+                continue
+            usual = sum(time for time, _ in chunk)
+            left -= usual
+            names = ":".join(name for _, name in chunk)
+            tested = run([BUILD / "bin" / program], 20 + 10e-3 * usual,
+                         env={**test_environment(), "FORETOUCH_MUTANT": str(k), "GTEST_FILTER": names})
             if tested is None or tested.returncode != 0:
                 return f"killed by {program}"
-        return "survived"
-    finally:
-        path.write_text(source)
+    return "survived" if is_reached else "unreached"
 
 
 def mutants_in(folder):
@@ -130,7 +194,7 @@ def drawn(folders, seed):
 
 def survivors(results):
     """Those of `results` that survived, in the sources as they are now."""
-    keys = {result["key"] for result in results.values() if result["fate"] == "survived"}
+    keys = {result["key"] for result in results.values() if not result["fate"].startswith("killed")}
     for folder in sorted({result["path"].split("/")[0] for result in results.values()}):
         yield from (mutant for mutant in mutants_in(folder) if mutant.key in keys)
 
@@ -156,8 +220,8 @@ def rows_of(results, equivalent):
     for result in results:
         folder = result["path"].split("/")[0]
         fate = result["fate"].split(" by ")[0]
-        if fate == "survived" and result["key"] in equivalent:
-            fate = "equivalent"
+        if fate != "killed":
+            fate = "equivalent" if result["key"] in equivalent else "survived"
         folders[folder, fate] += 1
     for folder in sorted({folder for folder, _ in folders}):
         counts = [folders[folder, fate] for fate in ("killed", "equivalent", "survived")]
@@ -177,10 +241,10 @@ def record(rows):
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("--count", type=int, default=40, help="mutants that compile")
+    arguments.add_argument("--count", type=int, default=40, help="mutants drawn; those that cannot be compiled in are left out")
     arguments.add_argument("--seed", type=int, default=1)
     arguments.add_argument("--folders", default="lss,articulated,tessellation,verify")
-    arguments.add_argument("--from", type=int, default=0, dest="first", help="passes over so many of the draw")
+    arguments.add_argument("--patience", type=float, default=120, help="seconds of tests per mutant, at most")
     arguments.add_argument("--out", type=Path, default=PLACE / "mutants.jsonl")
     arguments.add_argument("--again", action="store_true", help="tries those of FILE that survived")
     arguments.add_argument("--record", action="store_true", help="the table into docs/measurements")
@@ -190,23 +254,26 @@ def main():
     if unknown := [folder for folder in folders if folder not in FOLDERS]:
         sys.exit(f"mutants: --folders: expected some of {', '.join(FOLDERS)}, found '{unknown[0]}'")
     if not given.table:
-        usual = prepare(folders)
-        done = 0
-        chosen = list(survivors(read_results(given.out))) if given.again else drawn(folders, given.seed)
+        check_out()
+        old = read_results(given.out)
+        if given.again:
+            chosen = list(survivors(old))
+        else:
+            chosen = [mutant for mutant in drawn(folders, given.seed) if mutant.key not in old][:given.count]
+        configure()
+        programs = sorted({p for mutant in chosen for p in programs_for(mutant.path)})
+        mutants = build(dict(enumerate(chosen)), programs)
+        reach = {}
+        for program in programs:
+            reach[program] = reach_of(program)
+            print(f"{program}: {len(reach[program])} mutants reached", file=sys.stderr, flush=True)
         with given.out.open("a") as out:
-            for place, mutant in enumerate(chosen):
-                if place < given.first:
-                    continue
-                if done == given.count:
-                    break
-                fate = fate_of(mutant, usual)
-                if fate == "no program":
-                    continue
-                done += 1
-                out.write(json.dumps({"seed": given.seed, "place": place, "path": mutant.path, "line": mutant.line,
+            for done, (k, mutant) in enumerate(mutants.items(), 1):
+                fate = fate_of(k, mutant, reach, given.patience)
+                out.write(json.dumps({"seed": given.seed, "path": mutant.path, "line": mutant.line,
                                       "operator": mutant.operator, "key": mutant.key, "fate": fate}) + "\n")
                 out.flush()
-                print(f"{done}/{given.count} {fate}: {mutant.name}", file=sys.stderr, flush=True)
+                print(f"{done}/{len(mutants)} {fate}: {mutant.name}", file=sys.stderr, flush=True)
     results = read_results(given.out)
     equivalent = judged()
     rows = list(rows_of(results.values(), equivalent))
@@ -215,8 +282,8 @@ def main():
     if given.record:
         record(rows)
     for result in results.values():
-        if result["fate"] == "survived" and result["key"] not in equivalent:
-            print(f"survived: {result['key']} (line {result['line']}, {result['operator']})")
+        if not result["fate"].startswith("killed") and result["key"] not in equivalent:
+            print(f"{result['fate']}: {result['key']} (line {result['line']}, {result['operator']})")
 
 
 if __name__ == "__main__":

@@ -88,7 +88,6 @@ def mutants_of(path, source):
             number_text = found.group()
             if float.fromhex(number_text) if "0x" in number_text else float(number_text):
                 yield made("bound halved", found.start(), number_text, f"(0.5 * {number_text})")
-                yield made("bound doubled", found.start(), number_text, f"(2.0 * {number_text})")
         for found in INDEX.finditer(code):
             yield made("off by one", found.start(), found.group(), f"[{found.group(1)} + 1]")
         for found in MINUS.finditer(code):
