@@ -28,15 +28,17 @@ ROOT = Path(__file__).resolve().parents[2]
 PLACE = ROOT / "build/mutants"
 SOURCE, BUILD = PLACE / "source", PLACE / "build"
 
+# The kernel's test programs: whoever comes by a mutant may notice it.
+KERNEL = ["lss_tests", "articulated_tests", "tessellation_tests", "middleware_tests", "scene_tests", "near_tests",
+          "solid_parts_tests", "world_tests", "event_tests", "trigger_tests", "bracket_tests", "depth_tests",
+          "ask_tests", "edge_tests", "solid_tests"]
 # A folder: the programs whose tests cover it, nearest first.
 FOLDERS = {
-    "lss": ["lss_tests", "tessellation_tests", "articulated_tests"],
-    "articulated": ["articulated_tests", "tessellation_tests"],
-    "tessellation": ["tessellation_tests"],
+    "lss": KERNEL,
+    "articulated": ["articulated_tests", *(p for p in KERNEL if p != "articulated_tests")],
+    "tessellation": ["tessellation_tests", *(p for p in KERNEL if p != "tessellation_tests")],
+    "middleware": KERNEL[3:],
     "verify": ["verify_tests"],
-    "middleware": ["middleware_tests", "scene_tests", "near_tests", "solid_parts_tests", "world_tests",
-                   "event_tests", "trigger_tests", "bracket_tests", "depth_tests", "ask_tests", "edge_tests",
-                   "solid_tests"],
 }
 # Of a room of middleware/: what covers it best comes first.
 ROOMS = {
@@ -82,10 +84,10 @@ def configure():
         sys.exit(configured.stdout)
 
 
-def write_switches(mutants):
-    """Writes all of them into the tree; returns the numbers of those that it holds."""
+def write_switches(mutants, paths):
+    """Writes all of them into these sources; returns the numbers of those that they hold."""
     inside = set()
-    for path in sorted({mutant.path for mutant in mutants.values()}):
+    for path in sorted(paths):
         source = run(["git", "-C", SOURCE, "show", f"HEAD:{path}"]).stdout
         own = {k: mutant for k, mutant in mutants.items() if mutant.path == path}
         text, held = with_switches(source, own, code_of)
@@ -101,8 +103,9 @@ ERROR = re.compile(r"([\w/.-]+):(\d+):\d+:")
 
 def build(mutants, programs):
     """Compiles them, without those that the compiler does not take; returns what is left."""
+    paths = {mutant.path for mutant in mutants.values()}
     for _ in range(12):
-        inside = write_switches(mutants)
+        inside = write_switches(mutants, paths)
         mutants = {k: mutant for k, mutant in mutants.items() if k in inside}
         built = run(["ninja", "-k", "0", "-C", BUILD, *[f"bin/{p}" for p in programs]])
         if built.returncode == 0:

@@ -23,6 +23,16 @@ def closing(text, start):
     return -1
 
 
+def has_comma(text):
+    """Outside of brackets: there are several names."""
+    depth = 0
+    for c in text:
+        depth += {"(": 1, "[": 1, "{": 1, "<": 1, ")": -1, "]": -1, "}": -1, ">": -1}.get(c, 0)
+        if c == "," and depth <= 0:
+            return True
+    return False
+
+
 def balance(line):
     return sum({"(": 1, "[": 1, ")": -1, "]": -1}.get(c, 0) for c in line)
 
@@ -81,6 +91,8 @@ def switched(text, changed):
         return "{ " + " ".join(f"if ({ON % k}) {{ {mutant.strip()} }}" for k, mutant in changed) + f" {text.strip()} }}"
     found = DECLARATION.match(text)
     if found:
+        if has_comma(found[2]):
+            return None
         values = []
         for k, mutant in changed:
             other = DECLARATION.match(mutant)
