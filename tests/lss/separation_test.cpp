@@ -121,6 +121,34 @@ TEST_P(Separations, GapOfBoundsIsFarBelowTheSmallestTolerancesWhenApart) {
   }
 }
 
+/// A corner of one side just above a face of the other, whose far points turn the difference of the
+/// closest points into noise: what proves them apart is the face's own normal, on either side of
+/// it.
+TEST_P(Separations, CornersJustAboveFacesAreProvenApart) {
+  const Kind kind = GetParam();
+  if (kind.one == 2 && kind.other == 2) return;  // no face
+  for (int i = 0; i < 2000; ++i) {
+    SCOPED_TRACE(i);
+    test::Random random(static_cast<std::uint64_t>(i));
+    const Vector3d n = random.direction();
+    const Vector3d u = n.unitOrthogonal(), v = n.cross(u);
+    const Hull face{{Vector3d(u), Vector3d(-0.5 * u + 0.8 * v), Vector3d(-0.5 * u - 0.8 * v)}, 3};
+    const double height = random.magnitude(1e-10, 1e-5);
+    const double side = random.chance(0.5) ? 1.0 : -1.0;
+    const Vector3d corner = random.uniform(-0.2, 0.2) * u + side * height * n;
+    const auto above = [&] {
+      return Vector3d(corner + side * random.uniform(0.1, 1.0) * n + random.uniform(-1.0, 1.0) * u +
+                      random.uniform(-1.0, 1.0) * v);
+    };
+    const bool isFaceOther = kind.other == 3 && (kind.one == 2 || random.chance(0.5));
+    const int count = isFaceOther ? kind.one : kind.other;
+    const Hull tip =
+        count == 2 ? Hull::segment(corner, above()) : Hull{{corner, above(), above()}, 3};
+    const Separation s = isFaceOther ? separation(tip, face) : separation(face, tip);
+    ASSERT_GT(s.lower(), 0.99 * height - 1e-13);
+  }
+}
+
 TEST_P(Separations, SwappingTheSidesTurnsTheNormal) {
   for (int i = 0; i < 2000; ++i) {
     SCOPED_TRACE(i);

@@ -38,6 +38,12 @@ TEST(TurnBetween, FindsAnAxisBetweenOppositeDirections) {
     expectLeastTurn(from, -from, kNearlyOpposite);
     expectLeastTurn(from, -3.0 * from + 1e-8 * share(random) * aside, kNearlyOpposite);
   }
+  // So far from opposite that the cosine says the angle, and the axis has to be that of both.
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d from = Vector3d(share(random), share(random), share(random)).normalized();
+    const double off = 2e-7 + 8e-7 * std::abs(share(random));
+    expectLeastTurn(from, -from + off * from.unitOrthogonal(), 1e-8);
+  }
   for (int axis = 0; axis < 3; ++axis) {
     expectLeastTurn(Vector3d::Unit(axis), -Vector3d::Unit(axis), kRounding);
   }
