@@ -8,6 +8,7 @@
 
 #include "middleware/near/near_features.h"
 #include "middleware/solid/contact_row.h"
+#include "middleware/solid/solid_tick.h"
 
 namespace foretouch::internal {
 
@@ -53,6 +54,20 @@ inline void appendRows(const NearFeatures& near, std::vector<ContactRow>& rows) 
     row.along = feature.along;
     rows.push_back(row);
   }
+}
+
+/// What is told of a row that pushes, but how fast it slips.
+[[nodiscard]] inline SolidContact contactOf(const ContactRow& row) {
+  SolidContact contact;
+  contact.link = row.link;
+  contact.lss = row.lss;
+  contact.triangle = row.triangle;
+  contact.other = row.other;
+  contact.p_W = row.y;
+  contact.nhat_W = row.n;
+  contact.gap = row.gap;
+  contact.push = row.push;
+  return contact;
 }
 
 /// What a step must keep of a row's gap to what rests.

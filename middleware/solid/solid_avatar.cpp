@@ -11,6 +11,7 @@
 #include "lss/index.h"
 #include "middleware/solid/certifier.h"
 #include "middleware/solid/floor_lift.h"
+#include "middleware/solid/near_rows.h"
 #include "middleware/solid/pace.h"
 #include "middleware/solid/placing.h"
 #include "middleware/solid/solid_way.h"
@@ -409,15 +410,7 @@ class SolidAvatar::Parts {
   }
 
   void reportRow(const internal::ContactRow& row, double dtS, SolidTick& tick) {
-    SolidContact contact;
-    contact.link = row.link;
-    contact.lss = row.lss;
-    contact.triangle = row.triangle;
-    contact.other = row.other;
-    contact.p_W = row.y;
-    contact.nhat_W = row.n;
-    contact.gap = row.gap;
-    contact.push = row.push;
+    SolidContact contact = internal::contactOf(row);
     const LinkState &now = states_[slotOf(row.link)], &then = statesBefore_[slotOf(row.link)];
     const Eigen::Vector3d p_L = now.R_WL.transpose() * (row.x - now.p_WL);
     Eigen::Vector3d slip = now.pointAt(p_L) - then.pointAt(p_L);

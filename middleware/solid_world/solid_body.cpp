@@ -6,6 +6,7 @@
 #include "articulated/try.h"
 #include "lss/assert.h"
 #include "lss/index.h"
+#include "middleware/solid/near_rows.h"
 #include "middleware/solid/solid_way.h"
 #include "middleware/solid/tree_pose.h"
 
@@ -430,15 +431,7 @@ void SolidBody::report(double lengthS, SolidBodyTick& tick) {
       }
     }
     if (i < controller.numStill()) {
-      SolidContact contact;
-      contact.link = row.link;
-      contact.lss = row.lss;
-      contact.triangle = row.triangle;
-      contact.other = row.other;
-      contact.p_W = row.y;
-      contact.nhat_W = row.n;
-      contact.gap = row.gap;
-      contact.push = row.push;
+      SolidContact contact = contactOf(row);
       contact.slipSpeed = slipOf(row, Eigen::Vector3d::Zero());
       own.contacts.push_back(contact);
       continue;

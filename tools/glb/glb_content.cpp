@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "articulated/try.h"
+#include "assets/text_file.h"
 #include "lss/assert.h"
 
 namespace foretouch::tools {
@@ -104,9 +106,12 @@ std::size_t GlbContent::addLists(const std::vector<std::vector<float>>& lists) {
   return first;
 }
 
-void GlbContent::write(PendingFile& file, const std::string& head) const {
+Result<Done> GlbContent::writeFile(const std::string& path) const {
+  FORETOUCH_TRY(const auto head, inFile(document_.glbHead(), path));
+  FORETOUCH_TRY(auto file, PendingFile::create(path));
   file.write(head);
   file.write(bytes_);
+  return file.commit();
 }
 
 }  // namespace foretouch::tools

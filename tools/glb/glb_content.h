@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "assets/text_file.h"
 #include "tools/glb/glb_mesh.h"
 #include "tools/glb/gltf_document.h"
 
@@ -40,8 +39,8 @@ class GlbContent {
   /// Several such lists of single numbers, in one view; returns the first one's accessor.
   std::size_t addLists(const std::vector<std::vector<float>>& lists);
 
-  void write(PendingFile& file, const std::string& head) const;
-  [[nodiscard]] Result<std::string> head() const { return document_.glbHead(); }
+  /// Errors name the file: what does not fit into a GLB, or cannot be written.
+  Result<Done> writeFile(const std::string& path) const;
 
  private:
   nlohmann::json addPart(const MeshPart& part);

@@ -97,10 +97,7 @@ Result<std::vector<std::string>> ReplayGlb::write(const std::vector<Touch>& touc
   addScene(stage, shown, addGroup(document, world, "scene"), content, budget, notes);
   animation.finish(document);
 
-  FORETOUCH_TRY(const auto head, inFile(content.head(), request_.path));
-  FORETOUCH_TRY(auto file, PendingFile::create(request_.path));
-  content.write(file, head);
-  FORETOUCH_CHECK(file.commit());
+  FORETOUCH_CHECK(content.writeFile(request_.path));
   return notes;
 }
 

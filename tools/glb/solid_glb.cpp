@@ -66,10 +66,7 @@ Result<std::vector<std::string>> writeSolidGlb(const ReplayInputs& inputs, const
   addScene(stage, shown, addGroup(document, world, "scene"), content, budget, notes);
   animation.finish(document);
 
-  FORETOUCH_TRY(const auto head, inFile(content.head(), request.path));
-  FORETOUCH_TRY(auto file, PendingFile::create(request.path));
-  content.write(file, head);
-  FORETOUCH_CHECK(file.commit());
+  FORETOUCH_CHECK(content.writeFile(request.path));
   return notes;
 }
 

@@ -340,10 +340,7 @@ Result<std::vector<std::string>> writeWorldGlb(const LoadedWorld& loaded,
   }
   animation.finish(document);
 
-  FORETOUCH_TRY(const auto head, inFile(content.head(), request.path));
-  FORETOUCH_TRY(auto file, PendingFile::create(request.path));
-  content.write(file, head);
-  FORETOUCH_CHECK(file.commit());
+  FORETOUCH_CHECK(content.writeFile(request.path));
   return notes;
 }
 
