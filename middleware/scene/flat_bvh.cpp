@@ -16,48 +16,43 @@ void collectLeaf(const BvhLeaf& leaf, const LocalBox& box, std::vector<TriangleI
   }
 }
 
-}  // namespace
-
-void FlatBvh::collect(const Aabb& box, std::vector<TriangleId>& ids, std::uint64_t& visited) const {
-  const LocalBox local = localBox(box, origin_);
+/// Every leaf whose box overlaps, until one is enough: then true.
+template <typename OnLeaf>
+bool walk(const FlatBvh::Arrays& arrays, const LocalBox& local, std::uint64_t& visited,
+          const OnLeaf& isEnough) {
   std::uint32_t stack[kStackSize];
   std::size_t size = 0;
   stack[size++] = 0;
   while (size > 0) {
-    const BvhNode& node = arrays_.nodes[stack[--size]];
+    const BvhNode& node = arrays.nodes[stack[--size]];
     ++visited;
     const Eight eight = eightOverlapping(node.lower, node.upper, local);
     for (int i = 0; i < kBvhWidth; ++i) {
       if (eight.overlaps[i] == 0) continue;
       const std::uint32_t child = node.child[i];
       if ((child & BvhNode::kLeafFlag) != 0) {
-        collectLeaf(arrays_.leaves[child & BvhNode::kLeafMask], local, ids);
+        if (isEnough(arrays.leaves[child & BvhNode::kLeafMask])) return true;
       } else {
         FORETOUCH_ASSERT(size < kStackSize);
         stack[size++] = child;
       }
     }
   }
+  return false;
+}
+
+}  // namespace
+
+void FlatBvh::collect(const Aabb& box, std::vector<TriangleId>& ids, std::uint64_t& visited) const {
+  const LocalBox local = localBox(box, origin_);
+  (void)walk(arrays_, local, visited, [&](const BvhLeaf& leaf) {
+    collectLeaf(leaf, local, ids);
+    return false;
+  });
 }
 
 bool FlatBvh::meetsLeaf(const Aabb& box, std::uint64_t& visited) const {
-  const LocalBox local = localBox(box, origin_);
-  std::uint32_t stack[kStackSize];
-  std::size_t size = 0;
-  stack[size++] = 0;
-  while (size > 0) {
-    const BvhNode& node = arrays_.nodes[stack[--size]];
-    ++visited;
-    const Eight eight = eightOverlapping(node.lower, node.upper, local);
-    for (int i = 0; i < kBvhWidth; ++i) {
-      if (eight.overlaps[i] == 0) continue;
-      const std::uint32_t child = node.child[i];
-      if ((child & BvhNode::kLeafFlag) != 0) return true;
-      FORETOUCH_ASSERT(size < kStackSize);
-      stack[size++] = child;
-    }
-  }
-  return false;
+  return walk(arrays_, localBox(box, origin_), visited, [](const BvhLeaf&) { return true; });
 }
 
 void FlatBvh::collectLeaves(const BoxLanes& boxes, std::vector<LeafHit>& hits,
