@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace foretouch::internal {
 
@@ -45,16 +46,24 @@ struct FileState {
 [[nodiscard]] bool closeFile(int descriptor);
 /// On the disk, not only on its way there.
 [[nodiscard]] bool syncFile(int descriptor);
-/// Closes it on every path. Whoever needs the result of closing, closes it himself.
+/// Owns a descriptor: closes it on every path. Who needs the result of closing, closes it himself.
 class FileDescriptor {
  public:
-  explicit FileDescriptor(int descriptor) : descriptor_(descriptor) {}
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  ~FileDescriptor() {
-    if (descriptor_ >= 0) static_cast<void>(closeFile(descriptor_));
+  explicit FileDescriptor(int descriptor = -1) : descriptor_(descriptor) {}
+  FileDescriptor(FileDescriptor&& other) noexcept
+      : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+  }
+  ~FileDescriptor() { close(); }
+  void close() {
+    if (descriptor_ >= 0) static_cast<void>(closeFile(std::exchange(descriptor_, -1)));
   }
   [[nodiscard]] int get() const { return descriptor_; }
+  [[nodiscard]] bool isOpen() const { return descriptor_ >= 0; }
+  /// Somebody else owns it now.
+  void release() { descriptor_ = -1; }
 
  private:
   int descriptor_;

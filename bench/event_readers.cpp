@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "assets/system_files.h"
 #include "lss/index.h"
-#include "network/wire/descriptor.h"
 
 namespace foretouch::tools {
 namespace {
@@ -56,7 +56,7 @@ class Viewer {
   }
 
  private:
-  Descriptor socket_;
+  internal::FileDescriptor socket_;
 };
 
 }  // namespace

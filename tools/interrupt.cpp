@@ -13,10 +13,9 @@ extern "C" void foretouchNoteSignal(int signal) {
 
 }  // namespace
 
-InterruptGuard::InterruptGuard() {
-  notedSignal = 0;
+HandledSignals::HandledSignals(void (*handler)(int)) {
   struct sigaction note {};
-  note.sa_handler = &foretouchNoteSignal;
+  note.sa_handler = handler;
   note.sa_flags = SA_RESTART;
   sigemptyset(&note.sa_mask);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
@@ -25,9 +24,19 @@ InterruptGuard::InterruptGuard() {
   }
 }
 
-InterruptGuard::~InterruptGuard() {
+void HandledSignals::restore() {
+  if (isRestored_) return;
   for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
-  if (notedSignal != 0) std::raise(notedSignal);
+  isRestored_ = true;
+}
+
+InterruptGuard::InterruptGuard() : signals_(&foretouchNoteSignal) {}
+
+InterruptGuard::~InterruptGuard() {
+  signals_.restore();
+  const int noted = notedSignal;
+  notedSignal = 0;
+  if (noted != 0) std::raise(noted);
 }
 
 bool InterruptGuard::requested() const {

@@ -18,6 +18,7 @@
 
 #include <climits>
 
+#include "assets/system_files.h"
 #include "lss/index.h"
 
 namespace foretouch::internal {
@@ -35,36 +36,16 @@ constexpr std::chrono::milliseconds kGrace{2000};
 constexpr std::chrono::milliseconds kCheckInterval{100};
 constexpr int kExecFailed = 127;
 
-class Descriptor {
- public:
-  Descriptor() = default;
-  explicit Descriptor(int fd) : fd_(fd) {}
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  ~Descriptor() { close(); }
-  void close() {
-    if (fd_ >= 0) ::close(std::exchange(fd_, -1));
-  }
-  [[nodiscard]] int get() const { return fd_; }
-  [[nodiscard]] bool isOpen() const { return fd_ >= 0; }
-
- private:
-  int fd_ = -1;
-};
-
 /// A host may have closed its standard streams; then the next descriptors get their numbers, and
 /// the child will overwrite those. So this moves every descriptor for the child above them.
-Descriptor aboveStandardStreams(int fd) {
-  Descriptor original(fd);
+FileDescriptor aboveStandardStreams(int fd) {
+  FileDescriptor original(fd);
   if (fd < 0 || fd > STDERR_FILENO) return original;
-  return Descriptor(fcntl(fd, F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
+  return FileDescriptor(fcntl(fd, F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
 }
 
 struct Pipe {
-  Descriptor readEnd, writeEnd;
+  FileDescriptor readEnd, writeEnd;
 
   /// False with errno set.
   bool open() {
@@ -79,7 +60,7 @@ struct Pipe {
 /// Pipes to the child. `exec` carries the errno of a failed start, or closes on success.
 struct Channels {
   Pipe output, errors, exec;
-  Descriptor nullInput;
+  FileDescriptor nullInput;
 
   /// False with errno set.
   bool open() {
@@ -296,7 +277,7 @@ int millisecondsUntil(Clock::time_point deadline, std::chrono::milliseconds atMo
 
 /// The errno of a failed start; 0 if the program runs. The pipe closes at exec, but only if no
 /// other fork of the host has a copy of it: hence the deadline and the check of the child.
-int startError(const Descriptor& exec, const Child& child, Clock::time_point deadline) {
+int startError(const FileDescriptor& exec, const Child& child, Clock::time_point deadline) {
   for (;;) {
     pollfd fd{exec.get(), POLLIN, 0};
     const int waitMs = millisecondsUntil(deadline, kCheckInterval);
@@ -321,7 +302,7 @@ enum class ReadEnd : std::uint8_t { Closed, Enough, Deadline };
 /// Moves both streams until standard output ends.
 class Streams {
  public:
-  Streams(Descriptor output, Descriptor errors, std::string& errorTail)
+  Streams(FileDescriptor output, FileDescriptor errors, std::string& errorTail)
       : output_(std::move(output)),
         errors_(std::move(errors)),
         errorTail_(errorTail),
@@ -366,14 +347,14 @@ class Streams {
   }
 
   /// Reads the available bytes, possibly none; closes the stream at its end.
-  std::string_view readSome(Descriptor& stream) {
+  std::string_view readSome(FileDescriptor& stream) {
     const ssize_t count = read(stream.get(), buffer_.data(), buffer_.size());
     if (count > 0) return {buffer_.data(), countOf(count)};
     if (count == 0 || (errno != EINTR && errno != EAGAIN)) stream.close();
     return {};
   }
 
-  Descriptor output_, errors_;
+  FileDescriptor output_, errors_;
   std::string& errorTail_;
   std::string buffer_;
 };

@@ -74,14 +74,14 @@ bool namesForeignHost(const httplib::Request& request) {
 
 /// A connection: reads its request, then sends its response.
 struct BoundedHttp::Client {
-  Client(Descriptor from, std::string fromAddress, const HttpBounds& bounds)
+  Client(internal::FileDescriptor from, std::string fromAddress, const HttpBounds& bounds)
       : socket(std::move(from)),
         address(std::move(fromAddress)),
         acceptedAt(SteadyClock::now()),
         movedAt(acceptedAt),
         until(acceptedAt + milliseconds(bounds.requestMs)) {}
 
-  Descriptor socket;
+  internal::FileDescriptor socket;
   std::string address;
   Time acceptedAt, movedAt, until;
   std::string request;
@@ -197,8 +197,8 @@ void BoundedHttp::admit() {
   for (std::size_t i = 0; i < kMaxHttpConnections; ++i) {
     sockaddr_storage from{};
     socklen_t size = sizeof from;
-    Descriptor socket(::accept4(svr_sock_, reinterpret_cast<sockaddr*>(&from), &size,
-                                SOCK_CLOEXEC | SOCK_NONBLOCK));
+    internal::FileDescriptor socket(::accept4(svr_sock_, reinterpret_cast<sockaddr*>(&from), &size,
+                                              SOCK_CLOEXEC | SOCK_NONBLOCK));
     if (socket.get() < 0) {
       isAccepting_ = errno == EAGAIN || errno == EINTR || errno == ECONNABORTED;
       return;

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "network/wire/descriptor.h"
+#include "assets/system_files.h"
 
 namespace foretouch::internal {
 
@@ -74,7 +74,7 @@ class BoundedHttp final : public httplib::Server {
   const HttpBounds bounds_;
   std::atomic<bool> isStopping_{false};
   int port_ = 0;
-  Descriptor wake_;
+  internal::FileDescriptor wake_;
   std::vector<std::shared_ptr<const std::string>> shared_;
   std::vector<std::unique_ptr<Client>> clients_;  // of the thread
   bool isAccepting_ = true;                       // the system has descriptors

@@ -25,8 +25,9 @@ Error portError(std::uint16_t port, const char* what) {
 }
 
 /// Non-blocking.
-Result<Descriptor> openPort(std::uint16_t port, bool isOpen, std::size_t bufferBytes) {
-  Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+Result<internal::FileDescriptor> openPort(std::uint16_t port, bool isOpen,
+                                          std::size_t bufferBytes) {
+  internal::FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (socket.get() < 0) return portError(port, "no socket");
   prepareToListen(socket.get(), bufferBytes);
   sockaddr_in address{};
@@ -42,7 +43,7 @@ Result<Descriptor> openPort(std::uint16_t port, bool isOpen, std::size_t bufferB
 /// The senders of one port.
 class Port {
  public:
-  Port(VmcBody body, Descriptor socket, SenderFilter filter)
+  Port(VmcBody body, internal::FileDescriptor socket, SenderFilter filter)
       : body_(std::make_unique<VmcBody>(std::move(body))),
         reader_(std::make_unique<DatagramReader>(std::move(socket), std::move(filter))) {}
 

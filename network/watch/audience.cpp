@@ -40,11 +40,11 @@ struct Audience::Impl {
 
   const AudienceOptions options;
   std::unique_ptr<EventSource> source;
-  Descriptor wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+  internal::FileDescriptor wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
   std::atomic<std::size_t> taken{0};  // seats
   std::atomic<bool> isStopping{false};
-  std::mutex mutex;                   // of newcomers
-  std::vector<Descriptor> newcomers;  // not yet among the viewers
+  std::mutex mutex;                                 // of newcomers
+  std::vector<internal::FileDescriptor> newcomers;  // not yet among the viewers
   std::thread thread;
 
   // For the thread only.
@@ -97,7 +97,7 @@ struct Audience::Impl {
 
   /// Newcomers get the current state at once: the last event of every topic.
   void admit(Time now) {
-    std::vector<Descriptor> sockets;
+    std::vector<internal::FileDescriptor> sockets;
     {
       const std::lock_guard lock(mutex);
       sockets.swap(newcomers);
@@ -105,7 +105,7 @@ struct Audience::Impl {
     if (sockets.empty()) return;
     source->setViewers(viewers.size() + sockets.size());
     collect(now);
-    for (Descriptor& socket : sockets) {
+    for (internal::FileDescriptor& socket : sockets) {
       viewers.emplace_back(std::move(socket), options.maxBacklogBytes, now);
       viewers.back().say(opening, now);
       for (const auto& [topic, event] : latest) viewers.back().add(event.first, event.second, now);

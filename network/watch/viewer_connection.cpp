@@ -15,7 +15,8 @@ constexpr int kSendBufferBytes = 128 << 10;
 
 }  // namespace
 
-ViewerConnection::ViewerConnection(Descriptor socket, std::size_t maxBacklogBytes, Time now)
+ViewerConnection::ViewerConnection(internal::FileDescriptor socket, std::size_t maxBacklogBytes,
+                                   Time now)
     : socket_(std::move(socket)), backlog_(maxBacklogBytes), lastMoved_(now) {
   const int yes = 1;
   ::setsockopt(socket_.get(), SOL_SOCKET, SO_SNDBUF, &kSendBufferBytes, sizeof kSendBufferBytes);

@@ -15,7 +15,7 @@ class ViewerConnection {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  ViewerConnection(Descriptor socket, std::size_t maxBacklogBytes, Time now);
+  ViewerConnection(internal::FileDescriptor socket, std::size_t maxBacklogBytes, Time now);
 
   void add(const ViewEvent& event, const SharedText& whole, Time now);
   /// Sends a text before all events.
@@ -35,7 +35,7 @@ class ViewerConnection {
  private:
   void noteIfIdle(Time now);
 
-  Descriptor socket_;
+  internal::FileDescriptor socket_;
   ViewerBacklog backlog_;
   SharedText sending_;
   std::size_t sent_ = 0;  // of sending_

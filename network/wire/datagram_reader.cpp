@@ -99,7 +99,7 @@ class DatagramReader::Batch {
   std::array<mmsghdr, kBatch> headers_{};
 };
 
-DatagramReader::DatagramReader(Descriptor socket, SenderFilter filter)
+DatagramReader::DatagramReader(internal::FileDescriptor socket, SenderFilter filter)
     : socket_(std::move(socket)), filter_(std::move(filter)), batch_(std::make_unique<Batch>()) {}
 
 DatagramReader::~DatagramReader() = default;

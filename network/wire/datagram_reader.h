@@ -7,8 +7,8 @@
 #include <functional>
 #include <memory>
 
+#include "assets/system_files.h"
 #include "network/wire/codec.h"
-#include "network/wire/descriptor.h"
 #include "network/wire/udpm_senders.h"
 #include "network/wire/wire.h"
 
@@ -20,7 +20,7 @@ namespace foretouch {
 class DatagramReader {
  public:
   /// `socket`: non-blocking.
-  DatagramReader(Descriptor socket, SenderFilter filter);
+  DatagramReader(internal::FileDescriptor socket, SenderFilter filter);
   ~DatagramReader();
 
   /// `utimeUs`: the kernel's stamp if there is one. The bytes are valid during the call.
@@ -35,7 +35,7 @@ class DatagramReader {
 
  private:
   class Batch;
-  const Descriptor socket_;
+  const internal::FileDescriptor socket_;
   SenderFilter filter_;
   std::unique_ptr<Batch> batch_;
   std::uint64_t kernelDrops_ = 0, foreign_ = 0;

@@ -11,9 +11,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "assets/system_files.h"
 #include "lss/assert.h"
 #include "lss/index.h"
-#include "network/wire/descriptor.h"
 
 namespace foretouch {
 namespace {
@@ -74,7 +74,7 @@ Result<MessageKey> MessageKey::read(const std::string& path) {
   const auto refused = [&](ErrorCode code, const std::string& why) {
     return Error::in(path, code, why);
   };
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  const internal::FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat facts {};
   if (file.get() < 0 || ::fstat(file.get(), &facts) != 0) {
     return refused(ErrorCode::FileUnreadable, std::strerror(errno));

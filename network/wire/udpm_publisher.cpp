@@ -15,7 +15,7 @@ namespace {
 
 class UdpmPublisher : public Publisher {
  public:
-  UdpmPublisher(const UdpmUrl& url, Descriptor socket)
+  UdpmPublisher(const UdpmUrl& url, internal::FileDescriptor socket)
       : address_(addressOf(url)), socket_(std::move(socket)) {}
 
   bool publish(std::string_view channel, ByteView payload) override {
@@ -40,7 +40,7 @@ class UdpmPublisher : public Publisher {
   }
 
   const sockaddr_in address_;
-  const Descriptor socket_;
+  const internal::FileDescriptor socket_;
   std::mutex mutex_;
   std::uint32_t sequence_ = 0;
 };

@@ -20,8 +20,8 @@ constexpr std::chrono::seconds kSilence{1};
 
 class UdpmReceiver : public Receiver {
  public:
-  UdpmReceiver(const UdpmUrl& url, Descriptor socket, const std::vector<std::string>& channels,
-               const std::vector<Network>& senders)
+  UdpmReceiver(const UdpmUrl& url, internal::FileDescriptor socket,
+               const std::vector<std::string>& channels, const std::vector<Network>& senders)
       : url_(url),
         reader_(std::move(socket), SenderFilter(url, senders)),
         reassembler_(channels),

@@ -79,8 +79,8 @@ void prepareToListen(int fd, std::size_t bufferBytes) {
   switchOn(fd, SO_RXQ_OVFL);
 }
 
-Result<Descriptor> openListeningSocket(const UdpmUrl& url) {
-  Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+Result<internal::FileDescriptor> openListeningSocket(const UdpmUrl& url) {
+  internal::FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   const int fd = socket.get();
   if (fd < 0) return socketError(url, "no socket", errno);
   // As liblcm does, so that any number of listeners share the port; all of them get everything.
@@ -101,8 +101,8 @@ Result<Descriptor> openListeningSocket(const UdpmUrl& url) {
   return socket;
 }
 
-Result<Descriptor> openSendingSocket(const UdpmUrl& url) {
-  Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+Result<internal::FileDescriptor> openSendingSocket(const UdpmUrl& url) {
+  internal::FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   const int fd = socket.get();
   if (fd < 0) return socketError(url, "no socket", errno);
   if (setsockopt(fd, IPPROTO_IP, IP_MULTICAST_TTL, &url.ttl, sizeof url.ttl) != 0) {

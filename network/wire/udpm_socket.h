@@ -6,7 +6,7 @@
 #include <string>
 
 #include "articulated/result.h"
-#include "network/wire/descriptor.h"
+#include "assets/system_files.h"
 #include "network/wire/wire.h"
 
 namespace foretouch {
@@ -22,9 +22,9 @@ namespace foretouch {
 void prepareToListen(int fd, std::size_t bufferBytes);
 
 /// Non-blocking. Bound to the group on `url.port` (0: any free one, not shared) and joined.
-[[nodiscard]] Result<Descriptor> openListeningSocket(const UdpmUrl& url);
+[[nodiscard]] Result<internal::FileDescriptor> openListeningSocket(const UdpmUrl& url);
 /// Non-blocking, with the ttl set.
-[[nodiscard]] Result<Descriptor> openSendingSocket(const UdpmUrl& url);
+[[nodiscard]] Result<internal::FileDescriptor> openSendingSocket(const UdpmUrl& url);
 
 /// Joins the group on the interface that the route to it names now. Harmless if already joined;
 /// needed again if that interface went away. Returns errno, 0 for joined.

@@ -82,7 +82,7 @@ class RawSender {
 
  private:
   sockaddr_in address_;
-  Descriptor socket_;
+  internal::FileDescriptor socket_;
 };
 
 inline Bytes patterned(std::size_t size, std::uint32_t seed) {

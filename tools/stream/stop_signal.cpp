@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <cstddef>
 #include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
@@ -23,32 +22,20 @@ extern "C" void foretouchNoteStop(int) {
 
 }  // namespace
 
-StopSignal::StopSignal() {
-  if (::pipe2(pipe_.data(), O_CLOEXEC | O_NONBLOCK) != 0) pipe_ = {-1, -1};
-  noteTo = pipe_[1];
-  struct sigaction note {};
-  note.sa_handler = &foretouchNoteStop;
-  note.sa_flags = SA_RESTART;
-  sigemptyset(&note.sa_mask);
-  for (std::size_t i = 0; i < kSignals.size(); ++i) {
-    sigaction(kSignals[i], nullptr, &before_[i]);
-    // Without a pipe, signals end the program as usual.
-    if (before_[i].sa_handler != SIG_IGN && pipe_[1] >= 0) sigaction(kSignals[i], &note, nullptr);
-  }
+StopSignal::Pipe::Pipe() {
+  int ends[2] = {-1, -1};
+  if (::pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) return;
+  readEnd = internal::FileDescriptor(ends[0]);
+  writeEnd = internal::FileDescriptor(ends[1]);
+  noteTo = ends[1];
 }
 
-StopSignal::~StopSignal() {
-  restore();
+StopSignal::Pipe::~Pipe() {
   noteTo = -1;
-  for (const int end : pipe_) {
-    if (end >= 0) ::close(end);
-  }
 }
 
-void StopSignal::restore() {
-  if (isRestored_) return;
-  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
-  isRestored_ = true;
+StopSignal::StopSignal() {
+  if (pipe_.writeEnd.isOpen()) signals_.emplace(&foretouchNoteStop);
 }
 
 bool StopSignal::wait(std::chrono::milliseconds most) {
@@ -56,11 +43,11 @@ bool StopSignal::wait(std::chrono::milliseconds most) {
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
         until - std::chrono::steady_clock::now());
-    pollfd noted{pipe_[0], POLLIN, 0};
+    pollfd noted{pipe_.readEnd.get(), POLLIN, 0};
     const int ready = ::poll(&noted, 1, left.count() > 0 ? static_cast<int>(left.count()) : 0);
     if (ready < 0 && errno == EINTR) continue;
     if (ready <= 0) return false;
-    restore();
+    if (signals_) signals_->restore();
     return true;
   }
 }

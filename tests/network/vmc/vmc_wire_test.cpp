@@ -117,7 +117,7 @@ class Performer {
   }
 
  private:
-  Descriptor socket_;
+  internal::FileDescriptor socket_;
 };
 
 std::vector<PoseMessage> posesIn(const std::vector<WireMessage>& messages) {

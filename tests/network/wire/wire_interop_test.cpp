@@ -94,7 +94,7 @@ TEST_F(WireInterop, LiblcmToOurs) {
 
 // What we send is, byte for byte, what liblcm sends.
 TEST_F(WireInterop, DatagramsAreLiblcms) {
-  const Descriptor socket = test::valueOf(openListeningSocket(url_));
+  const internal::FileDescriptor socket = test::valueOf(openListeningSocket(url_));
   const Lcm lcm(lcmUrl_);
   std::uint32_t sequence = 0;
   for (const std::size_t size : kSizes) {
@@ -131,7 +131,7 @@ TEST_F(WireInterop, LiblcmListensToExactlyTheChannelsAsked) {
 // liblcm's that was opened before.
 TEST_F(WireInterop, ManyDescriptorsAbortNothing) {
   const auto early = test::valueOf(openLcmReceiver(lcmUrl_, {"POSE"}));
-  std::vector<Descriptor> taken;
+  std::vector<internal::FileDescriptor> taken;
   for (int i = 0; i < 1100; ++i) taken.emplace_back(dup(0));
   if (taken.back().get() < 1024) GTEST_SKIP() << "this process may not open 1100 descriptors";
   const auto refused = openLcmReceiver(lcmUrl_, {"POSE"});
