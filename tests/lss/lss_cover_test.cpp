@@ -177,6 +177,26 @@ TEST(HullVolume, IsExactForBoxesAndLittleBelowForBalls) {
   EXPECT_GT(hullVolume(ball), 0.94 * 4.0 / 3.0 * kPi);
 }
 
+TEST(HullVolume, CountsTheOutermostOfManyPoints) {
+  test::Random random(6);
+  std::vector<Vector3d> ball;
+  for (int i = 0; i < 20000; ++i) {
+    const double within = i % 5 == 0 ? 1.0 : random.uniform(0.0, 0.9);
+    ball.push_back(within * random.direction());
+  }
+  EXPECT_GT(hullVolume(ball), 0.9 * 4.0 / 3.0 * kPi);
+  const std::vector<Vector3d> extremes = extremePoints(ball);
+  EXPECT_GT(extremes.size(), 200u);
+  for (const Vector3d& p : extremes) EXPECT_GT(p.norm(), 0.99);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto isLess = [axis](const Vector3d& a, const Vector3d& b) { return a[axis] < b[axis]; };
+    const auto [low, high] = std::minmax_element(ball.begin(), ball.end(), isLess);
+    for (const Vector3d& end : {*low, *high}) {
+      EXPECT_EQ(std::count(extremes.begin(), extremes.end(), end), 1);
+    }
+  }
+}
+
 TEST(HullVolume, OfFlatPointsIsZero) {
   test::Random random(2);
   std::vector<Vector3d> plane(50, Vector3d(1, 2, 3));
