@@ -116,8 +116,11 @@ def build(mutants, programs):
                 path = os.path.relpath(found[1], SOURCE) if found[1].startswith("/") else found[1]
                 wrong.add((path, int(found[2])))
         # A statement over several lines is written on its first one.
-        left = {k: mutant for k, mutant in mutants.items()
-                if not any((mutant.path, mutant.line - back) in wrong for back in range(12))}
+        for ahead in (0, 12):  # what a statement breaks is further down, where nothing is wrong itself
+            left = {k: mutant for k, mutant in mutants.items()
+                    if not any((mutant.path, mutant.line - back) in wrong for back in range(-ahead, 12))}
+            if len(left) < len(mutants):
+                break
         print(f"mutants: {len(mutants) - len(left)} are none to the compiler", file=sys.stderr)
         if len(left) == len(mutants):
             sys.exit(built.stdout[-6000:])

@@ -126,8 +126,8 @@ def with_switches(source, mutants, code_of):
             changed.append((k, "\n".join(whole[first:end])))
         if any("//" in lines[i] for i in range(first, end - 1)):
             continue  # a comment would swallow what follows
-        text = "\n".join(code_line(line) for line in original.split("\n"))
-        changed = [(k, "\n".join(code_line(line) for line in mutant.split("\n"))) for k, mutant in changed]
+        text = on_one_line(original)
+        changed = [(k, on_one_line(mutant)) for k, mutant in changed]
         result = switched(text, changed)
         if result is None:
             continue
@@ -136,6 +136,11 @@ def with_switches(source, mutants, code_of):
         flat = " ".join(part.strip() for part in result.split("\n"))
         lines[first:end] = [flat] + [""] * (end - first - 1)
     return "\n".join(lines), inside
+
+
+def on_one_line(text):
+    first, *others = [code_line(line) for line in text.split("\n")]
+    return " ".join([first, *(line.strip() for line in others)])
 
 
 def code_line(line):
