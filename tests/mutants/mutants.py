@@ -48,11 +48,12 @@ ROOMS = {
 }
 
 
-def programs_for(path):
+def programs_for(path, asked):
     parts = path.split("/")
     programs = FOLDERS[parts[0]]
     first = ROOMS.get(parts[1]) if parts[0] == "middleware" and len(parts) > 2 else None
-    return [first] + [p for p in programs if p != first] if first else programs
+    programs = [first] + [p for p in programs if p != first] if first else programs
+    return [p for p in programs if not asked or p in asked]
 
 
 def run(command, seconds=None, **more):
@@ -154,12 +155,12 @@ def test_environment():
             "FORETOUCH_DATA": os.environ.get("FORETOUCH_DATA", str(ROOT.parent / "shared/data"))}
 
 
-def fate_of(k, mutant, reach, patience):
+def fate_of(k, reach, patience):
     """'killed by PROGRAM', 'survived', or 'unreached': no test comes by it."""
     left = 1000.0 * patience
     is_reached = False
-    for program in programs_for(mutant.path):
-        tests = reach[program].get(k, [])
+    for program, reached in reach.items():
+        tests = reached.get(k, [])
         is_reached = is_reached or bool(tests)
         for chunk in (tests[:6], tests[6:60], tests[60:400], tests[400:]):
             while chunk and sum(time for time, _ in chunk) > left:
@@ -246,6 +247,7 @@ def main():
     arguments.add_argument("--count", type=int, default=40, help="mutants drawn; those that cannot be compiled in are left out")
     arguments.add_argument("--seed", type=int, default=1)
     arguments.add_argument("--folders", default="lss,articulated,tessellation,verify")
+    arguments.add_argument("--programs", default="", help="these test programs alone")
     arguments.add_argument("--patience", type=float, default=120, help="seconds of tests per mutant, at most")
     arguments.add_argument("--out", type=Path, default=PLACE / "mutants.jsonl")
     arguments.add_argument("--again", action="store_true", help="tries those of FILE that survived")
@@ -263,7 +265,9 @@ def main():
         else:
             chosen = [mutant for mutant in drawn(folders, given.seed) if mutant.key not in old][:given.count]
         configure()
-        programs = sorted({p for mutant in chosen for p in programs_for(mutant.path)})
+        programs_of = {mutant.path: programs_for(mutant.path, given.programs.split(",") if given.programs else [])
+                       for mutant in chosen}
+        programs = sorted({p for some in programs_of.values() for p in some})
         mutants = build(dict(enumerate(chosen)), programs)
         reach = {}
         for program in programs:
@@ -271,7 +275,7 @@ def main():
             print(f"{program}: {len(reach[program])} mutants reached", file=sys.stderr, flush=True)
         with given.out.open("a") as out:
             for done, (k, mutant) in enumerate(mutants.items(), 1):
-                fate = fate_of(k, mutant, reach, given.patience)
+                fate = fate_of(k, {p: reach[p] for p in programs_of[mutant.path]}, given.patience)
                 out.write(json.dumps({"seed": given.seed, "path": mutant.path, "line": mutant.line,
                                       "operator": mutant.operator, "key": mutant.key, "fate": fate}) + "\n")
                 out.flush()
