@@ -151,7 +151,7 @@ TEST(CoverTriangles, SameTrianglesSameLss) {
 }
 
 TEST(MeasureCover, SaysHowFarTheWorstTriangleSticksOut) {
-  const Lss ball{{0, 0, 0}, {0, 0, 0}, 1.0}, far{{9, 0, 0}, {9, 0, 0}, 1.0};
+  const Lss ball{{0, 0, 0}, {0, 0, 0}, 1.0}, far{{9, 0, 0}, {9, 0, 0}, 2.0};
   const std::vector<Triangle> triangles = {
       {{Vector3d(0.5, 0, 0), Vector3d(0, 0.5, 0), Vector3d(0, 0, 0.5)}},
       {{Vector3d(0, 0, 0), Vector3d(1.25, 0, 0), Vector3d(0, 1, 0)}},

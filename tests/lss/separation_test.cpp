@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "judge/plain_motion.h"
+#include "lss/clearance.h"
 #include "lss/index.h"
 #include "tests/support/random_geometry.h"
 
@@ -160,6 +161,38 @@ TEST_P(Separations, SwappingTheSidesTurnsTheNormal) {
     if (s.lower() > 1e-3) {
       EXPECT_LT((s.nhat + swapped.nhat).norm(), 1e-9);
       EXPECT_LT((s.onOne - swapped.onOther - (s.onOther - swapped.onOne)).norm(), 1e-9);
+    }
+  }
+}
+
+/// In fifty digits, along a direction that is nobody's own.
+TEST_P(Separations, ClearancesAndGapsAlongADirectionAreBoundsAndTight) {
+  for (int i = 0; i < 2000; ++i) {
+    SCOPED_TRACE(i);
+    test::Random random(static_cast<std::uint64_t>(i));
+    const HullPair pair = randomHulls(random, GetParam(), 1.0, random.inBox(100.0));
+    const Vector3d direction = random.direction();
+    const auto along = [&](const Vector3d& nhat) {
+      Real least = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < countOf(pair.one.count); ++k) {
+        for (std::size_t j = 0; j < countOf(pair.other.count); ++j) {
+          const Precise3 apart = Precise3(pair.one.points[k]) - Precise3(pair.other.points[j]);
+          least = std::min(least, oracle::dot(Precise3(nhat), apart));
+        }
+      }
+      return least;
+    };
+    const double slack = 4.0 * kSeparationRounding * extentOf(pair);
+    const double gap = gapAlong(pair.one, pair.other, direction);
+    EXPECT_LE(Real(gap), along(direction));
+    EXPECT_GE(Real(gap + slack), along(direction));
+    // Never below what proves nothing; else the gap along the unit vector.
+    const double clearance = clearanceAlong(pair.one, pair.other, 3.0 * direction);
+    if (along(direction) > Real(slack)) {
+      EXPECT_LE(Real(clearance), along(direction));
+      EXPECT_GE(Real(clearance + slack), along(direction));
+    } else {
+      EXPECT_LE(clearance, slack);
     }
   }
 }

@@ -159,6 +159,13 @@ def fate_of(k, reach, patience):
     """'killed by PROGRAM', 'survived', or 'unreached': no test comes by it."""
     left = 1000.0 * patience
     is_reached = False
+    # What is made once is reached by the first test that needs it, and used by all others.
+    if 0 < sum(len(reached.get(k, [])) for reached in reach.values()) <= 2:
+        program = next(program for program, reached in reach.items() if reached.get(k))
+        done = run([BUILD / "bin" / program], 60 + 10 * patience,
+                   env={**test_environment(), "FORETOUCH_MUTANT": str(k)})
+        if done is None or done.returncode != 0:
+            return f"killed by {program}"
     for program, reached in reach.items():
         tests = reached.get(k, [])
         is_reached = is_reached or bool(tests)
