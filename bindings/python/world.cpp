@@ -100,6 +100,25 @@ void World::forgetBefore(std::int64_t utimeUs) {
   });
 }
 
+std::int64_t World::forgetBeyond(std::size_t bytes) {
+  std::int64_t us = 0;
+  change("", [&]() -> Result<Done> {
+    us = world_.forgetBeyond(bytes);
+    return Done{};
+  });
+  return us;
+}
+
+void World::thinBefore(std::int64_t utimeUs, double metres) {
+  change("", [&] { return world_.thinBefore(utimeUs, metres); });
+}
+
+std::size_t World::poseBytes() {
+  const py::gil_scoped_release free;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return world_.poseBytes();
+}
+
 std::optional<std::int64_t> World::knownUntilUs() {
   const py::gil_scoped_release free;
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -314,6 +333,24 @@ void bindWorld(py::module_& module) {
           },
           py::arg("utime_us"),
           "Lets go of what no window from there on needs; earlier poses and windows are refused.")
+      .def(
+          "forget_beyond",
+          [](World& world, const Shown<shown::Integer>& bytes) {
+            return world.forgetBeyond(bytesFrom(bytes, "bytes"));
+          },
+          py::arg("bytes"),
+          "The same by memory: the oldest poses of all, until pose_bytes is at most as many. Tells\n"
+          "the instant (us) before which all is forgotten.")
+      .def(
+          "thin_before",
+          [](World& world, const Shown<shown::Integer>& utimeUs, const Shown<shown::Real>& metres) {
+            world.thinBefore(instantFrom(utimeUs, "utime_us"), numberFrom(metres, "metres"));
+          },
+          py::arg("utime_us"), py::arg("metres"),
+          "Lets go of earlier poses between others that say nearly the same: no point is ever\n"
+          "farther than so many metres from where all poses that were pushed have it.")
+      .def_property_readonly("pose_bytes", &World::poseBytes,
+                             "What the poses that are kept take: 56 n + 256 of one of n joints.")
       .def_property_readonly("num_bodies", [](World& world) { return world.shapes()->size(); })
       .def_property_readonly("tolerance", &World::tolerance)
       .def("__repr__", &textOfWorld);

@@ -148,6 +148,11 @@ Result<Done> checkedChange(const WorldParts& parts, BodyId id, std::int64_t utim
 Result<Done> checkedCarrier(const WorldParts& parts, BodyId id, const Carrier& carrier,
                             std::int64_t utimeUs) {
   FORETOUCH_CHECK(checkedBody(parts, carrier.body));
+  if (utimeUs < parts.thinnedUs) {
+    return bodyError(id, ErrorCode::OutOfRange,
+                     "cannot be attached at " + std::to_string(utimeUs) + " us: all before " +
+                         std::to_string(parts.thinnedUs) + " us is thinned");
+  }
   const std::int32_t links = parts.kindOf(carrier.body).skeleton.numJoints();
   if (carrier.link < 0 || carrier.link >= links) {
     return bodyError(carrier.body, ErrorCode::UnknownName,
@@ -348,20 +353,6 @@ std::optional<std::int64_t> World::knownUntilUs() const {
     latest = latest ? std::max(*latest, last) : last;
   }
   return latest;
-}
-
-void World::forgetBefore(std::int64_t utimeUs) {
-  ++parts_->changes;
-  parts_->forgottenUs = std::max(parts_->forgottenUs, utimeUs);
-  // The motions that end there, too: of who is put elsewhere there, the last place is told.
-  const std::int64_t keptUs = std::max(utimeUs, -kMostUtimeUs) - 1;
-  for (WorldBody& body : parts_->bodies) {
-    std::vector<Episode>& episodes = body.episodes;
-    std::size_t over = 0;
-    while (over + 1 < episodes.size() && episodes[over + 1].beginUs <= keptUs) ++over;
-    episodes.erase(episodes.begin(), episodes.begin() + static_cast<std::ptrdiff_t>(over));
-    for (Episode& episode : episodes) episode.track.forgetBefore(keptUs);
-  }
 }
 
 }  // namespace foretouch

@@ -14,21 +14,11 @@
 namespace foretouch::internal {
 namespace {
 
-double reachOf(const std::vector<std::vector<Lss>>& volumes) {
-  double reach = 0.0;
-  for (const std::vector<Lss>& link : volumes) {
-    for (const Lss& lss : link) {
-      reach = std::max(reach, std::max(lss.a.norm(), lss.b.norm()) + lss.radius);
-    }
-  }
-  return reach * kInflation;
-}
-
 void measure(BodyKind& kind) {
   for (std::size_t link = 0; link < kind.volumes.size(); ++link) {
     kind.linkOf.insert(kind.linkOf.end(), kind.volumes[link].size(), static_cast<LinkId>(link));
+    kind.rho = std::max(kind.rho, reachOf(kind.volumes[link]));
   }
-  kind.rho = reachOf(kind.volumes);
 }
 
 /// Of one link, whose one LSS holds the triangles that `held` names.
@@ -50,6 +40,14 @@ std::vector<Episode>::const_iterator episodeAfter(const std::vector<Episode>& ep
 }
 
 }  // namespace
+
+double reachOf(const std::vector<Lss>& volumes) {
+  double reach = 0.0;
+  for (const Lss& lss : volumes) {
+    reach = std::max(reach, std::max(lss.a.norm(), lss.b.norm()) + lss.radius);
+  }
+  return reach * kInflation;
+}
 
 const LinkSurface* surfaceOf(const BodyKind& kind, LinkId link) {
   if (!kind.surface) return nullptr;

@@ -28,6 +28,9 @@ struct BodyKind {
   double rho = 0.0;            // no point of them is farther from its link's origin
 };
 
+/// No point of a link's volumes is farther from its origin (m).
+[[nodiscard]] double reachOf(const std::vector<Lss>& volumes);
+
 /// Larger meshes are frames that others are seen from, however they turn (world.md 1): their
 /// hierarchies take seconds to build.
 inline constexpr std::size_t kMostSpinningTriangles = 100'000;
@@ -74,6 +77,7 @@ struct WorldParts {
   std::array<std::uint32_t, kNumBodyGroups> asked{};  // bit b of row a
   std::uint32_t askedStill = 0;
   std::int64_t forgottenUs = -kMostUtimeUs - 1;
+  std::int64_t thinnedUs = -kMostUtimeUs - 1;
   Pose ofOneJoint;  // memory of push()
 
   [[nodiscard]] const WorldBody& body(BodyId id) const { return bodies[slotOf(id)]; }
