@@ -335,16 +335,14 @@ void bindWorld(py::module_& module) {
           "Lets go of what no window from there on needs; earlier poses and windows are refused.")
       .def(
           "forget_beyond",
-          [](World& world, const Shown<shown::Integer>& bytes) {
-            return world.forgetBeyond(bytesFrom(bytes, "bytes"));
-          },
+          [](World& world, std::size_t bytes) { return world.forgetBeyond(bytes); },
           py::arg("bytes"),
           "The same by memory: the oldest poses of all, until pose_bytes is at most as many. Tells\n"
           "the instant (us) before which all is forgotten.")
       .def(
           "thin_before",
-          [](World& world, const Shown<shown::Integer>& utimeUs, const Shown<shown::Real>& metres) {
-            world.thinBefore(instantFrom(utimeUs, "utime_us"), numberFrom(metres, "metres"));
+          [](World& world, const Shown<shown::Integer>& utimeUs, const Shown<shown::Number>& metres) {
+            world.thinBefore(instantFrom(utimeUs, "utime_us"), number(metres, "metres"));
           },
           py::arg("utime_us"), py::arg("metres"),
           "Lets go of earlier poses between others that say nearly the same: no point is ever\n"

@@ -343,6 +343,15 @@ export class World extends Held {
     });
   }
 
+  /** What the poses that are kept take: 56 n + 256 of one of n joints. */
+  poseBytes(): number {
+    return this.machine.within((room) => {
+      const bytes = room.integers([0]);
+      this.machine.ask("ft_world_pose_bytes", this.handle, bytes);
+      return this.machine.view().getUint32(bytes, true);
+    });
+  }
+
   /** Lets go of earlier poses between others that say nearly the same: no point is ever farther than so many metres from where all poses that were pushed have it. */
   thinBefore(timeUs: number, metres: number): void {
     this.machine.ask("ft_world_thin_before", this.handle, instant(timeUs, "timeUs"), real(metres, "metres"));

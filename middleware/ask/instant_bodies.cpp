@@ -74,7 +74,9 @@ Aabb InstantBodies::roughBox(BodyId body) {
   const WorldTime& time = times_[slotOf(body)];
   if (const Aabb* box = kept_[slotOf(body)].rough.at(asked, world_->kindOf(body), time.us)) {
     state.known = PlaceKnown::Known;
-    return *box;
+    Aabb grown = *box;
+    grown.grow(world_->thinnedBy);  // it may have been found before poses went
+    return grown;
   }
   const BodyPiece known = bodyPieceAt(asked, time);
   state.known = known.how;

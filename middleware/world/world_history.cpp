@@ -198,6 +198,7 @@ Result<Done> World::thinBefore(std::int64_t utimeUs, double metres) {
   }
   ++parts_->changes;
   parts_->thinnedUs = std::max(parts_->thinnedUs, utimeUs);
+  parts_->thinnedBy = std::max(parts_->thinnedBy, metres);
   // As forgetBefore(): the motions that end there are kept.
   const std::int64_t keptUs = std::max(utimeUs, -kMostUtimeUs) - 1;
   const Hanging hanging(*parts_, utimeUs);
