@@ -178,7 +178,7 @@ ft_status ft_world_forget_beyond(ft_world* world, size_t bytes, int64_t* utime_u
 ft_status ft_world_pose_bytes(const ft_world* world, size_t* bytes) {
   return guarded(__func__, [&]() -> ft_status {
     if (const auto s = checked(world); s != FT_OK) return s;
-    if (bytes == nullptr) return nullArgument("bytes");
+    if (const auto s = needed(bytes, "bytes"); s != FT_OK) return s;
     *bytes = world->world.poseBytes();
     return FT_OK;
   });

@@ -92,6 +92,9 @@ class Hanging {
     std::vector<double> reach(kind.volumes.size(), 0.0);
     for (std::size_t link = 0; link < reach.size(); ++link) {
       reach[link] = internal::reachOf(kind.volumes[link]);
+      if (kind.skin) {
+        reach[link] = std::max(reach[link], internal::reachOf(kind.carried[link]));
+      }
     }
     forEachOn(stay, [&](const Stay& carried) {
       double& most = reach[slotOf(carried.episode->carrier->link)];

@@ -148,7 +148,7 @@ class Answers(unittest.TestCase):
         for k in range(100):
             world.push(body, 1000 * k, at(1e-5 * k * k))
         every = world.pose_bytes
-        self.assertEqual(every, 100 * (56 * 3 + 256))
+        self.assertEqual(every, 100 * (56 + 256))
         world.thin_before(90_000, 1e-3)
         self.assertLess(world.pose_bytes, every / 2)
         hit = world.probe(45_500, (5, 0, 0), direction=(-1, 0, 0)).hits[0]
