@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 /// largest of these (ask.md 9).
 constexpr double kBlendRounding = 4.0 * kUnitRoundoff;
 
-bool comesBefore(const SkinMemory::Near& x, const SkinMemory::Near& y) {
+bool isNearer(const SkinMemory::Near& x, const SkinMemory::Near& y) {
   return x.bound != y.bound ? x.bound < y.bound : x.blend < y.blend;
 }
 
@@ -132,7 +132,7 @@ void SkinAsker::askTriangles(ContactSide side, const std::vector<LinkPlace>& pla
   const auto bounded = [&](std::vector<SkinMemory::Near>& near) {
     findBounds(Vector3d::Zero(), extent);
     for (std::size_t i = 0; i < near.size(); ++i) near[i].bound = memory_.bounds[i];
-    std::sort(near.begin(), near.end(), comesBefore);
+    std::sort(near.begin(), near.end(), isNearer);
   };
   clearBoxes();
   memory_.clusters.clear();

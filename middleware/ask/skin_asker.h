@@ -43,7 +43,7 @@ class SkinAsker {
   [[nodiscard]] bool findLinks(BodyId body, const PieceBoxes* pieces);
   /// Of these links; `side`: of the body.
   void askTriangles(ContactSide side, const std::vector<LinkPlace>& places);
-  /// Those of these links that have no triangles: their LSS are their surface.
+  /// Those of these links that have no triangles of the skin.
   [[nodiscard]] const std::vector<LinkId>& bareLinks() const { return memory_.bare; }
 
  private:

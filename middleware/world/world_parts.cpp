@@ -17,7 +17,7 @@ namespace foretouch::internal {
 namespace {
 
 /// Of the axes of clusters and parts.
-double reachOf(const BlendTable& blends) {
+double reachOfAxes(const BlendTable& blends) {
   double reach = 0.0;
   const auto take = [&](const BlendedLss& blend) {
     for (std::int32_t i = 0; i < blend.numShares; ++i) {
@@ -90,7 +90,7 @@ BodyKind bodyKindOf(const Avatar& avatar, const BodyOptions& options) {
     }
   }
   measure(kind);
-  if (kind.skin) kind.rho = std::max(kind.rho, reachOf(*kind.skin->parts().blends));
+  if (kind.skin) kind.rho = std::max(kind.rho, reachOfAxes(*kind.skin->parts().blends));
   return kind;
 }
 

@@ -110,7 +110,6 @@ void AskedWorld::appendSkin(BodyId body, Real us, std::vector<JudgedPart>& all) 
   std::size_t triangle = 0;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     judged.side.link = link;
-    judged.side.lss = -1;
     for (std::size_t i = 0; i < skin.counts[slotOf(link)]; ++i) {
       judged.side.triangle = static_cast<TriangleId>(i);
       judged.part = {link, 3, {}, 0.0};
@@ -126,15 +125,8 @@ void AskedWorld::appendSkin(BodyId body, Real us, std::vector<JudgedPart>& all) 
       all.push_back(judged);
       ++triangle;
     }
-    judged.side.triangle = -1;
-    if (skin.counts[slotOf(link)] > 0) continue;
-    for (const Lss& lss : avatar.lss(link)) {
-      ++judged.side.lss;
-      const auto a = frames[slotOf(link)].at(plain(lss.a).as<Real>()).as<double>();
-      const auto b = frames[slotOf(link)].at(plain(lss.b).as<Real>()).as<double>();
-      judged.part = {link, 2, {a, b, b}, lss.radius};
-      all.push_back(judged);
-    }
+    const bool isBare = skin.counts[slotOf(link)] == 0;
+    if (isBare) appendParts(body, both_.oracle.partsAt(body, link, 0, us), all);
   }
 }
 
