@@ -71,7 +71,8 @@ JointOff offOf(const KnotAt& knot, std::size_t joint, std::size_t from, std::siz
     const double offHere = (here - onArc(begin, end, half, at)).norm();
     const double own = halfTurn(before, here), thin = half * (at - atBefore);
     const double bend = 0.125 * std::abs(own * own - thin * thin);
-    off.turn = std::max(off.turn, (std::max(offBefore, offHere) + bend) / (1.0 - 0.125 * own * own));
+    off.turn =
+        std::max(off.turn, (std::max(offBefore, offHere) + bend) / (1.0 - 0.125 * own * own));
     const Vector3d& translation = next.pose.translations[joint];
     off.shift = std::max(off.shift, (translation - (start + at * drift)).norm());
     off.arm = std::max(off.arm, translation.norm());

@@ -170,10 +170,10 @@ JudgedTable playersTable(const Cast& cast, int shots, std::uint64_t seed) {
     if (!all) all = played;
     const Percentiles us = percentilesOf(played.us);
     result.violations += played.otherInReplay;
-    result.table.rows.push_back({std::int64_t{kPlayers}, std::int64_t{kTickHz}, mm, played.kib,
-                                 played.posesKib, played.thinUs, us.p50, us.p90, us.p99,
-                                 percent(played.hits, count), percent(othersIn(*all, played), count),
-                                 cell(played.otherInReplay)});
+    result.table.rows.push_back(
+        {std::int64_t{kPlayers}, std::int64_t{kTickHz}, mm, played.kib, played.posesKib,
+         played.thinUs, us.p50, us.p90, us.p99, percent(played.hits, count),
+         percent(othersIn(*all, played), count), cell(played.otherInReplay)});
   }
   return result;
 }

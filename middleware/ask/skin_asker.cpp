@@ -86,7 +86,8 @@ bool SkinAsker::findLinks(BodyId body, const PieceBoxes* pieces) {
   memory_.links.clear();
   memory_.bare.clear();
   for (LinkId link = 0; link < count; ++link) {
-    if (memory_.bounds[slotOf(link)] > limit() || !filter_.takes(body, link, kEveryObject)) continue;
+    if (memory_.bounds[slotOf(link)] > limit() || !filter_.takes(body, link, kEveryObject))
+      continue;
     (skin_.numTriangles(link) > 0 ? memory_.links : memory_.bare).push_back(link);
   }
   return !memory_.links.empty() || !memory_.bare.empty();
@@ -100,8 +101,8 @@ void SkinAsker::takeRounding(const std::vector<LinkPlace>& places) {
     most = std::max(most, place.p_WL.norm() + kind_.rho);
   }
   const auto shares = static_cast<double>(skin_.mostShares + places.size());
-  shape_.rounding += (rounding + shares * kBlendRounding * most) * (1.0 + blends_.sumError()) *
-                     kInflation;
+  shape_.rounding +=
+      (rounding + shares * kBlendRounding * most) * (1.0 + blends_.sumError()) * kInflation;
 }
 
 /// Around a cluster or a part, by BlendedLss.

@@ -111,10 +111,9 @@ class Hanging {
  private:
   template <typename Take>
   void forEachOn(const Stay& stay, const Take& take) const {
-    auto next = std::lower_bound(carried_.begin(), carried_.end(), stay.body,
-                                 [](const Stay& x, BodyId body) {
-                                   return x.episode->carrier->body < body;
-                                 });
+    auto next = std::lower_bound(
+        carried_.begin(), carried_.end(), stay.body,
+        [](const Stay& x, BodyId body) { return x.episode->carrier->body < body; });
     for (; next != carried_.end() && next->episode->carrier->body == stay.body; ++next) {
       const Stay shared = next->during(stay);
       if (!shared.isEmpty()) take(shared);

@@ -77,8 +77,8 @@ double skinSlack(const BodyKind& kind, const Aabb& box) {
 }
 
 BodyKind bodyKindOf(const Avatar& avatar, const BodyOptions& options) {
-  BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, options.surface, {}, options.skin, {},
-                0.0};
+  BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, options.surface, {},
+                options.skin,      {},     0.0};
   for (LinkId link = 0; link < avatar.numLinks(); ++link) kind.volumes.push_back(avatar.lss(link));
   if (kind.skin) {
     kind.carried.resize(kind.volumes.size());

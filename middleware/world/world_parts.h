@@ -90,7 +90,7 @@ struct WorldParts {
   std::int64_t forgottenUs = -kMostUtimeUs - 1;
   std::int64_t thinnedUs = -kMostUtimeUs - 1;
   double thinnedBy = 0.0;  // no point has been moved farther by thinning (m)
-  Pose ofOneJoint;  // memory of push()
+  Pose ofOneJoint;         // memory of push()
 
   [[nodiscard]] const WorldBody& body(BodyId id) const { return bodies[slotOf(id)]; }
   [[nodiscard]] const BodyKind& kindOf(BodyId id) const { return kinds[slotOf(body(id).kind)]; }

@@ -92,13 +92,13 @@ Real movedBy(const Track& track, const std::vector<Pushed>& pushed,
   for (int i = 0; i < draws; ++i) {
     const auto k = static_cast<std::size_t>(random.below(static_cast<int>(pushed.size()) - 1));
     const Pushed &from = pushed[k], &to = pushed[k + 1];
-    const Real us = static_cast<Real>(from.us) +
-                    static_cast<Real>(random.uniform(0.0, 1.0)) * static_cast<Real>(to.us - from.us);
+    const Real us = static_cast<Real>(from.us) + static_cast<Real>(random.uniform(0.0, 1.0)) *
+                                                     static_cast<Real>(to.us - from.us);
     std::vector<Vector3d> points;
     for (const double r : reach) points.push_back(r * random.direction());
     const TrackPiece piece = track.pieceAt(from.us);
-    const auto then = placesAt(track.skeleton(), from.pose, to.pose, shareOf(from.us, to.us, us),
-                               points);
+    const auto then =
+        placesAt(track.skeleton(), from.pose, to.pose, shareOf(from.us, to.us, us), points);
     const auto now = placesAt(track.skeleton(), *piece.from, *piece.to,
                               shareOf(piece.beginUs, piece.endUs, us), points);
     for (std::size_t link = 0; link < then.size(); ++link) {
@@ -221,8 +221,8 @@ TEST(TrackThinning, LeavesHalfTurnsAlone) {
   const std::vector<Quaternion> turns = {Quaternion(1, 0, 0, 0), Quaternion(0, 0, 1, 0),
                                          Quaternion(-1, 0, 0, 0), Quaternion(0, 0, -1, 0)};
   for (std::size_t i = 0; i < turns.size(); ++i) {
-    ASSERT_TRUE(track.push(1000 * static_cast<std::int64_t>(i), {{turns[i]}, {Vector3d::Zero()}})
-                    .ok());
+    ASSERT_TRUE(
+        track.push(1000 * static_cast<std::int64_t>(i), {{turns[i]}, {Vector3d::Zero()}}).ok());
   }
   track.thinBefore(10'000, {0.5}, 0.4);
   EXPECT_EQ(track.numKnots(), turns.size());

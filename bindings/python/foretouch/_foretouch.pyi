@@ -159,6 +159,21 @@ class Surface:
     def num_triangles(self) -> int: ...
     def triangles(self, link: LinkLike) -> Doubles: ...
 
+class Skin:
+    @staticmethod
+    def from_arrays(
+        avatar: Avatar,
+        triangles: npt.ArrayLike,
+        triangle_links: npt.ArrayLike,
+        links: npt.ArrayLike,
+        weights: npt.ArrayLike,
+        points: npt.ArrayLike,
+    ) -> Skin: ...
+    @property
+    def avatar(self) -> Avatar: ...
+    @property
+    def num_triangles(self) -> int: ...
+
 class PairRules:
     @staticmethod
     def derive(
@@ -552,6 +567,7 @@ class World:
         when_silent: str = "wait",
         self_pairs: Optional[PairRules] = None,
         surface: Optional[Surface] = None,
+        skin: Optional[Skin] = None,
     ) -> int: ...
     def push(self, body: int, utime_us: int, pose: PoseLike) -> None: ...
     def attach(
@@ -581,7 +597,15 @@ class World:
     def num_bodies(self) -> int: ...
     @property
     def tolerance(self) -> float: ...
-    def depth(self, utime_us: int, body: int, other: Optional[int] = None) -> Depth: ...
+    def depth(
+        self,
+        utime_us: int,
+        body: int,
+        other: Optional[int] = None,
+        *,
+        link: Optional[LinkLike] = None,
+        other_link: Optional[LinkLike] = None,
+    ) -> Depth: ...
     def probe(
         self,
         utime_us: Union[int, tuple[int, float]],

@@ -201,9 +201,9 @@ std::string summaryOf(const AskTally& tally) {
         << " with a hit\n";
   }
   out << "hits: " << tally.ofLss << " of LSS, " << tally.ofTriangles << " of triangles, "
-      << tally.ofSkins << " of them of skins, "
-      << tally.ofCarried << " of what is carried, " << tally.starts << " where they begin, "
-      << tally.inside << " inside of objects; " << tally.open << " objects that are open\n"
+      << tally.ofSkins << " of them of skins, " << tally.ofCarried << " of what is carried, "
+      << tally.starts << " where they begin, " << tally.inside << " inside of objects; "
+      << tally.open << " objects that are open\n"
       << tally.unknown << " unknown, " << tally.filtered << " filtered, " << tally.parts
       << " parts judged, largest gap at a hit " << static_cast<double>(tally.widest) << " m\n"
       << tally.problems.size() << " problems\n";

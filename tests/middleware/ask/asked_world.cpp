@@ -84,7 +84,8 @@ std::vector<JudgedPart> AskedWorld::partsAt(const WorldQuestion& question) const
 RandomSkin AskedWorld::skinOf(const Avatar& avatar, Random& random) {
   const Pose rest = restPose(avatar.skeleton());
   const ChainMotion motion(avatar.skeleton(), rest, rest);
-  RandomSkin made = randomSkin(avatar, motion, random, 1 + random.below(random.chance(0.2) ? 90 : 9));
+  RandomSkin made =
+      randomSkin(avatar, motion, random, 1 + random.below(random.chance(0.2) ? 90 : 9));
   std::size_t kept = 0, first = 0;
   for (std::size_t& count : made.counts) {
     const std::size_t own = count;

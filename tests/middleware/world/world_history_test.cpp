@@ -173,7 +173,8 @@ Real farthest(const OracleWorld& one, const OracleWorld& other, Random& random, 
       EXPECT_EQ(then.size(), now.size());
       for (std::size_t p = 0; p < then.size(); ++p) {
         for (std::size_t c = 0; c < 3; ++c) {
-          worst = std::max(worst, norm(then[p].corners[c].as<Real>() - now[p].corners[c].as<Real>()));
+          worst =
+              std::max(worst, norm(then[p].corners[c].as<Real>() - now[p].corners[c].as<Real>()));
         }
       }
     }
@@ -331,11 +332,11 @@ TEST(WorldHistory, WhatIsCarriedCountsToTheReach) {
     EXPECT_EQ(world.add(hand).value(), 1);
     for (int i = 0; i <= 100; ++i) {
       const double half = 0.3 * std::sin(0.1 * i);
-      EXPECT_TRUE(world
-                      .push(0, 10'000 * i,
-                            RigidPose{Quaternion(std::cos(half), 0, std::sin(half), 0),
-                                      Vector3d::Zero()})
-                      .ok());
+      EXPECT_TRUE(
+          world
+              .push(0, 10'000 * i,
+                    RigidPose{Quaternion(std::cos(half), 0, std::sin(half), 0), Vector3d::Zero()})
+              .ok());
     }
     const RigidPose atEnd{Quaternion::Identity(), Vector3d(length, 0, 0)};
     if (length > 0.0) {
