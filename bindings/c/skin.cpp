@@ -1,4 +1,5 @@
 // bindings/c/skin.cpp: ft_skin, the triangles that bend with an avatar's links.
+#include <foretouch/ask.h>
 #include <utility>
 
 #include "articulated/try.h"
