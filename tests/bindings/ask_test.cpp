@@ -210,7 +210,7 @@ TEST(CAskSkin, IsMetAsItIsBentAndRefusedByName) {
   std::int32_t verdict = -1;
   ASSERT_EQ(ft_world_probe(world.get(), &question, &verdict), FT_OK) << ft_last_error();
   ASSERT_EQ(verdict, FT_ASK_HIT);
-  ft_hit hit{};
+  ft_world_hit hit{};
   hit.size = sizeof hit;
   ASSERT_EQ(ft_world_hits(world.get(), &hit, 1, nullptr), FT_OK);
   EXPECT_NEAR(hit.distance, 7.0, 1e-9);
