@@ -93,6 +93,7 @@ Result<Done> Track::push(std::int64_t utimeUs, const Pose& pose) {
   if (next.pose.rotations.empty() && &before != &next) std::swap(next.pose, before.pose);
   next.utimeUs = utimeUs;
   next.pose = pose;
+  next.movedBy = 0.0;
   FORETOUCH_CHECK(validate(skeleton_, next.pose));
   ++count_;
   return Done{};

@@ -66,31 +66,45 @@ class Track {
   /// Lets go of knots that no motion at or after `utimeUs` needs. Knots at or before it are refused
   /// from now on. Keeps the last knot. O(knots let go).
   void forgetBefore(std::int64_t utimeUs);
+  /// Lets go of knots between others that say nearly the same: no point of any link that is at most
+  /// reach[link] (m) from the link's origin is ever farther than `metres` from where it was with
+  /// all knots that were pushed, however often this is called (articulated/track.md 3). Keeps the
+  /// first knot, and the motion from the last knot at or before `utimeUs` on. O(joints) per knot
+  /// that is looked at; those that the last call has looked at, to as many metres, are not again.
+  void thinBefore(std::int64_t utimeUs, const std::vector<double>& reach, double metres);
 
   /// The piece that holds [utimeUs, utimeUs + 1); after the last knot the rest, which is held.
   /// Precondition: not empty, at or after knownFromUs() (asserted). O(log knots).
   [[nodiscard]] TrackPiece pieceAt(std::int64_t utimeUs) const;
   /// The first knot after `utimeUs`; INT64_MAX if there is none. O(log knots).
   [[nodiscard]] std::int64_t nextKnotUs(std::int64_t utimeUs) const;
+  /// How many knots are at or before the instant. O(log knots).
+  [[nodiscard]] std::size_t countUntil(std::int64_t utimeUs) const;
 
  private:
   struct Knot {
     std::int64_t utimeUs = 0;
     Pose pose;
+    double movedBy = 0.0;  ///< By thinning: the motion from here to the next knot (m).
   };
   [[nodiscard]] const Knot& knot(std::size_t i) const {
     FORETOUCH_ASSERT(i < count_);
     return ring_[(first_ + i) % ring_.size()];
   }
   [[nodiscard]] Result<Done> checkedInstant(std::int64_t utimeUs) const;
-  /// How many knots are at or before the instant.
-  [[nodiscard]] std::size_t countUntil(std::int64_t utimeUs) const;
+  [[nodiscard]] double movedWithout(std::size_t from, std::size_t to,
+                                    const std::vector<double>& reach, double most) const;
+  [[nodiscard]] std::size_t farthestFrom(std::size_t from, std::size_t last,
+                                         const std::vector<double>& reach, double metres,
+                                         double& movedBy) const;
   void grow();
 
   Skeleton skeleton_;
   std::vector<Knot> ring_;
   std::size_t first_ = 0, count_ = 0;
   std::int64_t forgottenUs_ = -kMostUtimeUs - 1;
+  std::int64_t thinnedUs_ = -kMostUtimeUs - 1;  // to `thinnedBy_`: from here on there may be more
+  double thinnedBy_ = 0.0;
 };
 
 /// Part of a piece's motion as a motion of its own: both its poses. `motion` is that of the piece.

@@ -36,7 +36,7 @@ build_page() {
 }
 
 # The module for JavaScript, its package, and its tests: beside the native program, where that is built.
-make_npm_package() (  # make_npm_package [--hands [N]]
+make_npm_package() (  # make_npm_package [--hands [N]|--rays [N]]
   local version tarball scratch sources=$PWD
   build_wasm_module
   version=$(version_of_sources)
@@ -57,9 +57,13 @@ make_npm_package() (  # make_npm_package [--hands [N]]
       const ft = await Foretouch.load(readFileSync("node_modules/foretouch/foretouch.wasm")); console.log(`npm: foretouch ${ft.version} from its package`)' &&
     node --no-experimental-fetch node_modules/foretouch/example/vr_hands.mjs | cmp - "$sources/tests/examples/vr_hands.txt")
   rm -rf "$scratch"
-  [ "${1:-}" = --hands ] || return 0
+  case "${1:-}" in
+    --hands) set -- hands --paths "${2:-10000}" ;;
+    --rays) set -- rays --rays "${2:-2000}" ;;
+    *) return 0 ;;
+  esac
   (cd ../.. && configure release && cmake --build --preset release --target example) >&2
-  node --no-experimental-fetch tests/hands.mjs --paths "${2:-10000}"
+  node --no-experimental-fetch "tests/$1.mjs" "${@:2}"
 )
 
 task=$1

@@ -1,6 +1,7 @@
 #include "bench/ask/player_shots.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,11 +21,15 @@ using Eigen::Vector3d;
 constexpr int kPlayers = 60, kTickHz = 128, kWarmSeconds = 1;
 constexpr double kPlayersApartM = 4.0, kKiBPerMiB = 1024.0;
 constexpr std::int64_t kKeptUs = 1'000'000, kTickUs = 1'000'000 / kTickHz;
+/// How far thinning may move a point (mm); 0: nothing is thinned. And every so many ticks.
+constexpr double kThinnedMm[] = {0.0, 1.0, 5.0, 10.0};
+constexpr std::int64_t kTicksPerThinning = 32;
 
 /// The players, and a world that keeps a second of them.
 class PlayedWorld {
  public:
-  explicit PlayedWorld(const std::vector<Person>& people) : people_(people) {
+  PlayedWorld(const std::vector<Person>& people, double thinnedMm)
+      : people_(people), thinnedM_(1e-3 * thinnedMm) {
     for (const Person& person : people_) {
       static_cast<void>(world.add(person.clip->actor->avatar).value());
     }
@@ -35,14 +40,18 @@ class PlayedWorld {
     }
     ++ticks_;
     world.forgetBefore(nowUs() - kKeptUs);
+    if (thinnedM_ == 0.0 || ticks_ % kTicksPerThinning != 0) return;
+    thinnings.time([&] { static_cast<void>(world.thinBefore(nowUs(), thinnedM_)); });
   }
   /// The instant of the next tick.
   [[nodiscard]] std::int64_t nowUs() const { return kTickUs * ticks_; }
 
   World world = World::build(std::nullopt).value();
+  AskedTimes thinnings;
 
  private:
   std::vector<Person> people_;
+  double thinnedM_;
   std::int64_t ticks_ = 0;
 };
 
@@ -75,24 +84,30 @@ bool areAlike(const WorldAnswer& x, const WorldAnswer& y) {
   return true;
 }
 
-}  // namespace
+/// What shots cost in a world that is thinned so far, and what they hit.
+struct Played {
+  std::vector<double> us;
+  double kib = 0.0, posesKib = 0.0, thinUs = 0.0;
+  std::uint64_t hits = 0, otherInReplay = 0;
+  std::vector<WorldAnswer> answers;
+};
 
-JudgedTable playersTable(const Cast& cast, int shots, std::uint64_t seed) {
-  const auto clips = clipPosesOf(cast, kTickHz);
-  const auto people = crowdOf(clips, kPlayers, kPlayersApartM);
+Played playedWith(const std::vector<Person>& people, double thinnedMm, int shots,
+                  std::uint64_t seed) {
   std::vector<Vector3d> places;
   for (const Person& person : people) places.push_back(person.pose(0).translations[0]);
   PortableRandom random(seed);
   Scratch scratch;
-  WorldAnswer answer;
+  Played result;
   AskedTimes times;
-  std::uint64_t hits = 0, other = 0;
   const double before = heapMiB();
-  PlayedWorld played(people);
+  PlayedWorld played(people, thinnedMm);
   for (int i = 0; i < kTickHz * kWarmSeconds; ++i) played.tick();
-  const double world = heapMiB();
+  constexpr double kOfEach = kPlayers * kWarmSeconds;
+  result.kib = (heapMiB() - before) * kKiBPerMiB / kOfEach;
+  result.posesKib = static_cast<double>(played.world.poseBytes()) / (kKiBPerMiB * kOfEach);
   // A replay, from the same poses: asked in another order, by a memory of its own.
-  PlayedWorld replay(people);
+  PlayedWorld replay(people, thinnedMm);
   for (int i = 0; i < kTickHz * kWarmSeconds; ++i) replay.tick();
   Scratch anew;
   WorldAnswer again;
@@ -101,30 +116,65 @@ JudgedTable playersTable(const Cast& cast, int shots, std::uint64_t seed) {
     played.tick();
     replay.tick();
     const WorldQuestion shot = shotOf(places, played.nowUs() - kTickUs, random);
+    WorldAnswer answer;
     times.time([&] { static_cast<void>(askWorld(played.world, shot, scratch, answer)); });
-    hits += !answer.hits.empty();
+    result.hits += !answer.hits.empty();
     if (i % 16 == 0) anew = Scratch();
     static_cast<void>(askWorld(replay.world, shot, anew, again));
-    other += !areAlike(answer, again);
+    result.otherInReplay += !areAlike(answer, again);
+    result.answers.push_back(answer);
   }
-  const Percentiles us = percentilesOf(times.us);
+  result.us = times.us;
+  for (const double us : played.thinnings.us) result.thinUs += us;
+  result.thinUs /= static_cast<double>(shots + kTickHz * kWarmSeconds);
+  return result;
+}
+
+/// Shots that hit another body or link, or nothing, or something instead of nothing.
+std::uint64_t othersIn(const Played& all, const Played& thinned) {
+  std::uint64_t others = 0;
+  for (std::size_t i = 0; i < all.answers.size(); ++i) {
+    const std::vector<WorldHit>&then = all.answers[i].hits, &now = thinned.answers[i].hits;
+    others += then.empty() != now.empty() ||
+              (!then.empty() && (then.front().what.body != now.front().what.body ||
+                                 then.front().what.link != now.front().what.link));
+  }
+  return others;
+}
+
+}  // namespace
+
+JudgedTable playersTable(const Cast& cast, int shots, std::uint64_t seed) {
+  const auto clips = clipPosesOf(cast, kTickHz);
+  const auto people = crowdOf(clips, kPlayers, kPlayersApartM);
   JudgedTable result;
-  result.violations = other;
   result.table = {"players",
                   "Shots on a server: a shot per tick, each player at an instant of its own",
                   {{"players", "players", 0},
                    {"ticks_hz", "ticks per second", 0},
-                   {"kib_per_player_and_second", "poses, KiB per player and second", 0},
+                   {"thinned_mm", "thinned to within, mm", 0},
+                   {"kib_per_player_and_second", "KiB per player and second", 0},
+                   {"poses_kib", "after thinning, at 56 n + 256 bytes a pose", 0},
+                   {"thin_us", "us per tick to thin", 0},
                    {"p50_us", "us per shot p50", 1},
                    {"p90_us", "p90", 1},
                    {"p99_us", "p99", 1},
                    {"hit_percent", "with a hit %", 1},
+                   {"other_percent", "another link than with all poses %", 2},
                    {"other_in_replay", "another answer in a replay", 0}},
                   {}};
-  result.table.rows.push_back({std::int64_t{kPlayers}, std::int64_t{kTickHz},
-                               (world - before) * kKiBPerMiB / (kPlayers * kWarmSeconds), us.p50,
-                               us.p90, us.p99, percent(hits, static_cast<std::uint64_t>(shots)),
-                               cell(other)});
+  const auto count = static_cast<std::uint64_t>(shots);
+  std::optional<Played> all;
+  for (const double mm : kThinnedMm) {
+    const Played played = playedWith(people, mm, shots, seed);
+    if (!all) all = played;
+    const Percentiles us = percentilesOf(played.us);
+    result.violations += played.otherInReplay;
+    result.table.rows.push_back(
+        {std::int64_t{kPlayers}, std::int64_t{kTickHz}, mm, played.kib, played.posesKib,
+         played.thinUs, us.p50, us.p90, us.p99, percent(played.hits, count),
+         percent(othersIn(*all, played), count), cell(played.otherInReplay)});
+  }
   return result;
 }
 

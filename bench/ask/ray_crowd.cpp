@@ -1,5 +1,7 @@
 #include "bench/ask/ray_crowd.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -20,22 +22,61 @@ using Eigen::Vector3d;
 constexpr double kCrowdPoseHz = 60.0, kApartM = 5.0, kNearestRayM = 5.0, kFarthestRayM = 60.0;
 constexpr std::int64_t kRememberedUs = 1'000'000;
 constexpr std::size_t kSurfaceTriangles = 20'000;
+/// Corners nearer to the joint follow the link above it as well.
+constexpr double kBlendedM = 0.15;
+
+enum class CrowdBy { Lss, Triangles, Skin };
+
+std::string nameOf(CrowdBy by) {
+  if (by == CrowdBy::Lss) return "LSS";
+  return std::to_string(kSurfaceTriangles) +
+         (by == CrowdBy::Skin ? " skinned triangles" : " triangles");
+}
+
+/// The triangles around the LSS, whose corners follow two links near the joint between them.
+SkinnedSurface blendedSkin(const Avatar& avatar) {
+  const auto triangles = lssSkins(avatar, kSurfaceTriangles);
+  Skin skin;
+  std::vector<std::size_t> counts;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    const Skeleton& skeleton = avatar.skeleton();
+    const JointId parent = skeleton.parent(link);
+    counts.push_back(triangles[slotOf(link)].size());
+    for (const Triangle& triangle : triangles[slotOf(link)]) {
+      std::array<std::int32_t, 3> corners{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vector3d& p = triangle.vertices[i];
+        const double share = parent == kNoParent ? 0.0 : 0.5 * (1.0 - p.norm() / kBlendedM);
+        std::vector<SkinInfluence> shares{{link, 1.0 - std::max(0.0, share), p}};
+        if (share > 0.0) {
+          shares.push_back(
+              {parent, share, skeleton.restOffset(link) + skeleton.restRotation(link) * p});
+        }
+        corners[i] = static_cast<std::int32_t>(skin.vertices.size());
+        skin.vertices.push_back(std::move(shares));
+      }
+      skin.triangles.push_back(corners);
+    }
+  }
+  return SkinnedSurface::build(avatar, std::move(skin), counts).value();
+}
 
 /// A crowd with a second of poses.
 struct RememberedCrowd {
   World world = World::build(std::nullopt).value();
   std::vector<Vector3d> places;  ///< Of their roots, about.
 
-  std::size_t triangles;  ///< Of each, by which he touches; 0: by LSS.
+  std::string by;  ///< What questions meet.
 
-  RememberedCrowd(const std::vector<Person>& people, std::size_t ofEach) : triangles(ofEach) {
+  RememberedCrowd(const std::vector<Person>& people, CrowdBy made) : by(nameOf(made)) {
     for (const Person& person : people) {
       const Avatar& avatar = person.clip->actor->avatar;
       BodyOptions options;
-      if (triangles > 0) {
-        options.surface = AvatarSurface::build(avatar, lssSkins(avatar, triangles)).value();
+      if (made == CrowdBy::Triangles) {
+        options.surface = AvatarSurface::build(avatar, lssSkins(avatar, kSurfaceTriangles)).value();
         options.surface->prepare();
       }
+      if (made == CrowdBy::Skin) options.skin = blendedSkin(avatar);
       const BodyId body = world.add(avatar, options).value();
       for (std::int64_t k = 0; person.instant(k) <= kRememberedUs + person.clip->periodUs; ++k) {
         static_cast<void>(world.push(body, person.instant(k), person.pose(k)));
@@ -93,7 +134,7 @@ std::vector<BenchCell> crowdRow(const RememberedCrowd& crowd, const AskedKind& k
   Scratch scratch;
   WorldAnswer answer;
   AskedTimes times;
-  std::uint64_t hits = 0;
+  std::vector<double> ofHits;
   constexpr int kWarm = 200;
   const WorldTime one = anyInstant(random);
   for (int i = 0; i < kWarm + questions; ++i) {
@@ -106,19 +147,19 @@ std::vector<BenchCell> crowdRow(const RememberedCrowd& crowd, const AskedKind& k
     }
     if (i == kWarm) times.us.clear();
     times.time([&] { static_cast<void>(askWorld(crowd.world, question, scratch, answer)); });
-    hits += i >= kWarm && !answer.hits.empty();
+    if (i >= kWarm && !answer.hits.empty()) ofHits.push_back(times.us.back());
   }
   const Percentiles us = percentilesOf(times.us);
-  const std::string by =
-      crowd.triangles > 0 ? std::to_string(crowd.triangles) + " triangles" : "LSS";
+  const auto hits = static_cast<std::uint64_t>(ofHits.size());
   return {static_cast<std::int64_t>(crowd.places.size()),
-          by,
+          crowd.by,
           std::string(kind.name),
           std::string(whenSaid),
           us.p50,
           us.p90,
           us.p99,
           us.mean,
+          percentilesOf(ofHits).p50,
           percent(hits, static_cast<std::uint64_t>(questions))};
 }
 
@@ -136,6 +177,7 @@ BenchTable rayCrowdTable(const Cast& cast, const std::vector<int>& avatars, int 
                     {"p90_us", "p90", 2},
                     {"p99_us", "p99", 2},
                     {"mean_us", "mean", 2},
+                    {"hit_us", "p50 of those that hit", 2},
                     {"hit_percent", "with a hit %", 1}},
                    {}};
   const auto clips = clipPosesOf(cast, kCrowdPoseHz);
@@ -146,8 +188,11 @@ BenchTable rayCrowdTable(const Cast& cast, const std::vector<int>& avatars, int 
       }
     }
   };
-  addRows(RememberedCrowd(crowdOf(clips, 1, kApartM), kSurfaceTriangles));
-  for (const int count : avatars) addRows(RememberedCrowd(crowdOf(clips, count, kApartM), 0));
+  addRows(RememberedCrowd(crowdOf(clips, 1, kApartM), CrowdBy::Triangles));
+  addRows(RememberedCrowd(crowdOf(clips, 1, kApartM), CrowdBy::Skin));
+  for (const int count : avatars) {
+    addRows(RememberedCrowd(crowdOf(clips, count, kApartM), CrowdBy::Lss));
+  }
   return table;
 }
 

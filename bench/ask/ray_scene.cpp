@@ -8,6 +8,7 @@
 #include "articulated/try.h"
 #include "bench/ask/asked_times.h"
 #include "bench/inputs.h"
+#include "bench/peers/peer_solvers.h"
 #include "bench/ray_set.h"
 #include "bench/scene.h"
 #include "bench/solid/cells.h"
@@ -23,6 +24,7 @@ namespace {
 
 /// Each ray is cast so often by each; its least time counts.
 constexpr int kRepeats = 5;
+constexpr double kSphereM = 0.1;
 
 struct RayTimes {
   std::vector<double> us;
@@ -52,8 +54,9 @@ RayTimes timed(const std::vector<RaySegment>& rays, const Cast& cast) {
   return times;
 }
 
-std::vector<BenchCell> rayRow(const char* name, const RayTimes& times, const RayTimes& embree) {
-  const Percentiles us = percentilesOf(times.us), theirs = percentilesOf(embree.us);
+/// `peer`: beside whom.
+std::vector<BenchCell> rayRow(const char* name, const RayTimes& times, const RayTimes& peer) {
+  const Percentiles us = percentilesOf(times.us), theirs = percentilesOf(peer.us);
   return {std::string(name),
           us.p50,
           us.p90,
@@ -71,7 +74,7 @@ BenchTable rayTable(const Scene& scene) {
            {"p90_us", "p90", 2},
            {"p99_us", "p99", 2},
            {"mean_us", "mean", 2},
-           {"ratio", "beside Embree", 2},
+           {"ratio", "beside Embree, or of casts Bullet", 2},
            {"hit_percent", "with a hit %", 2}},
           {}};
 }
@@ -79,6 +82,33 @@ BenchTable rayTable(const Scene& scene) {
 }  // namespace
 
 #if FORETOUCH_HAS_EMBREE
+namespace {
+
+/// Of rays beside Embree, and of casts of a sphere. Without Bullet in this build, nothing.
+void addBullet([[maybe_unused]] const Scene& scene,
+               [[maybe_unused]] const std::vector<RaySegment>& rays,
+               [[maybe_unused]] const RayTimes& embree, [[maybe_unused]] const RayTimes& ours,
+               [[maybe_unused]] BenchTable& table) {
+#if FORETOUCH_HAS_PEERS
+  std::vector<Triangle> triangles;
+  for (std::size_t i = 0; i < scene.numTriangles(); ++i) {
+    triangles.push_back(scene.triangle(static_cast<TriangleId>(i)));
+  }
+  const BulletCasts bullet(triangles);
+  const auto castBy = [&](double radius) {
+    return timed(rays, [&](const RaySegment& ray) {
+      return bullet.first(ray.from, ray.to, radius).has_value();
+    });
+  };
+  const RayTimes theirs = castBy(kSphereM);
+  table.rows.push_back(rayRow("Bullet, closest (double)", castBy(0.0), embree));
+  table.rows.push_back(rayRow("Bullet, sphere of 10 cm, cast (double)", theirs, theirs));
+  table.rows.push_back(rayRow("World, sphere of 10 cm, cast (double, proven)", ours, theirs));
+#endif
+}
+
+}  // namespace
+
 Result<BenchTable> raySceneTable(int triangles, int questions, std::uint64_t seed) {
   FORETOUCH_TRY(const auto inputs, loadBenchInputs({}));
   FORETOUCH_TRY(const auto scene,
@@ -88,9 +118,10 @@ Result<BenchTable> raySceneTable(int triangles, int questions, std::uint64_t see
   const auto rays = raysIn(scene, questions, seed);
   Scratch scratch;
   WorldAnswer answer;
-  const auto ask = [&](const RaySegment& ray, AskWhich which) {
+  const auto ask = [&](const RaySegment& ray, AskWhich which, double radius = 0.0) {
     const Eigen::Vector3d way = ray.to - ray.from;
     WorldQuestion question = WorldQuestion::ray(ray.from, way, way.norm(), {});
+    question.shape.radius = radius;
     question.which = which;
     static_cast<void>(askWorld(world, question, scratch, answer));
     return !answer.hits.empty();
@@ -102,11 +133,14 @@ Result<BenchTable> raySceneTable(int triangles, int questions, std::uint64_t see
   const RayTimes any = timed(rays, [&](const RaySegment& ray) { return ask(ray, AskWhich::Any); });
   const RayTimes closest =
       timed(rays, [&](const RaySegment& ray) { return ask(ray, AskWhich::Closest); });
+  const RayTimes casts =
+      timed(rays, [&](const RaySegment& ray) { return ask(ray, AskWhich::Closest, kSphereM); });
   BenchTable table = rayTable(scene);
   table.rows = {rayRow("Embree, closest (float)", nearest, nearest),
                 rayRow("World, closest (double, proven)", closest, nearest),
                 rayRow("Embree, any (float)", occluded, occluded),
                 rayRow("World, any (double, proven)", any, occluded)};
+  addBullet(scene, rays, nearest, casts, table);
   return table;
 }
 #else

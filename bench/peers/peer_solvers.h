@@ -4,7 +4,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "bench/peers/hand_follower.h"
 #include "bench/peers/moving_pairs.h"
@@ -32,6 +35,24 @@ class BulletHands {
 
  private:
   std::shared_ptr<class BulletMesh> mesh_;
+};
+
+/// Bullet's rays and casts in a scene of triangles that stands still.
+class BulletCasts {
+ public:
+  explicit BulletCasts(const std::vector<Triangle>& triangles);
+  BulletCasts(const BulletCasts&) = delete;
+  BulletCasts& operator=(const BulletCasts&) = delete;
+  ~BulletCasts();
+
+  /// The share of the way at which a sphere first hits something; a ray, if it has no radius.
+  /// Nothing: it hits nothing.
+  [[nodiscard]] std::optional<double> first(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                            double radius) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// On two bodies that both move; a solver for every peer and setting. Bullet casts convex shapes

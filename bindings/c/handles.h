@@ -25,6 +25,7 @@ namespace foretouch::c {
 struct AvatarParts {
   Avatar avatar;
   std::optional<AvatarSurface> surface;
+  std::optional<SkinnedSurface> skin = std::nullopt;
 };
 
 /// Eight bytes that no other kind begins with, nor memory by chance.

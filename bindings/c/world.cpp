@@ -166,6 +166,31 @@ ft_status ft_world_forget_before(ft_world* world, int64_t utime_us) {
   });
 }
 
+ft_status ft_world_forget_beyond(ft_world* world, size_t bytes, int64_t* utime_us) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(world); s != FT_OK) return s;
+    const std::int64_t us = world->world.forgetBeyond(bytes);
+    if (utime_us != nullptr) *utime_us = us;
+    return FT_OK;
+  });
+}
+
+ft_status ft_world_pose_bytes(const ft_world* world, size_t* bytes) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(world); s != FT_OK) return s;
+    if (const auto s = needed(bytes, "bytes"); s != FT_OK) return s;
+    *bytes = world->world.poseBytes();
+    return FT_OK;
+  });
+}
+
+ft_status ft_world_thin_before(ft_world* world, int64_t utime_us, double metres) {
+  return guarded(__func__, [&]() -> ft_status {
+    if (const auto s = checked(world); s != FT_OK) return s;
+    return ended(world->world.thinBefore(utime_us, metres), "metres");
+  });
+}
+
 void ft_world_destroy(ft_world* world) {
   destroy(__func__, world);
 }

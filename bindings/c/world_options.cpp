@@ -85,6 +85,7 @@ ft_status readBodyOptions(const ft_body_options* given, const AvatarParts* avata
     if (const auto s = readStruct(given, "ft_body_options", known); s != FT_OK) return s;
   }
   if (const auto s = readSurface(known.fidelity, avatar, options); s != FT_OK) return s;
+  if (avatar != nullptr) options.skin = avatar->skin;
   options.group = known.group;
   if (const auto t = readSilent(known.when_silent, options.whenSilent); t != FT_OK) return t;
   if (known.self == nullptr) return FT_OK;

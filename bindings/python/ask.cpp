@@ -120,7 +120,8 @@ void readShape(py::handle given, Lss& shape, std::vector<Eigen::Vector3d>& hull)
   py::object place = py::reinterpret_borrow<py::object>(given);
   if (py::isinstance<py::tuple>(given)) {
     const auto tuple = py::reinterpret_borrow<py::tuple>(given);
-    if (tuple.size() == 3 && PyNumber_Check(tuple[0].ptr()) == 0) {
+    // An array counts as a number as well.
+    if (tuple.size() == 3 && PySequence_Check(tuple[0].ptr()) != 0) {
       shape = lssFrom(given, "shape");
       return;
     }

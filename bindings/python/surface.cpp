@@ -5,6 +5,7 @@
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
 #include "bindings/python/importer_place.h"
+#include "bindings/skin_triangles.h"
 
 namespace foretouch::python {
 namespace {
@@ -47,6 +48,44 @@ Surface fromTriangles(std::shared_ptr<Avatar> avatar, const py::object& given) {
   return built(std::move(avatar), std::move(perLink), "Surface.from_triangles");
 }
 
+/// Shares of no weight count for nothing.
+SkinOfAvatar skinFromArrays(std::shared_ptr<Avatar> avatar, const py::object& triangles,
+                            const py::object& triangleLinks, const py::object& links,
+                            const py::object& weights, const py::object& points) {
+  const Integers corners = integers(triangles, "triangles", {kAny, 3});
+  const Integers owners = integers(triangleLinks, "triangle_links", {corners.shape(0)});
+  const Integers movers = integers(links, "links", {kAny, kAny});
+  const py::ssize_t vertices = movers.shape(0), most = movers.shape(1);
+  const Numbers shares = numbers(weights, "weights", {vertices, most});
+  const Numbers places = numbers(points, "points", {vertices, most, 3});
+  Skin skin;
+  skin.vertices.resize(static_cast<std::size_t>(vertices));
+  for (py::ssize_t v = 0; v < vertices; ++v) {
+    std::vector<SkinInfluence>& vertex = skin.vertices[static_cast<std::size_t>(v)];
+    for (py::ssize_t i = 0; i < most; ++i) {
+      if (*shares.data(v, i) == 0.0) continue;
+      vertex.push_back({static_cast<LinkId>(*movers.data(v, i)), *shares.data(v, i),
+                        Eigen::Vector3d(places.data(v, i, 0))});
+    }
+  }
+  std::vector<LinkTriangle> all;
+  for (py::ssize_t i = 0; i < corners.shape(0); ++i) {
+    all.push_back({*owners.data(i), {}});
+    for (std::size_t k = 0; k < 3; ++k) {
+      all.back().vertices[k] =
+          static_cast<std::int32_t>(*corners.data(i, static_cast<py::ssize_t>(k)));
+    }
+  }
+  std::vector<std::size_t> ofLink(countOf(avatar->numLinks()));
+  if (const auto bad = addTriangles(all, ofLink, skin)) {
+    refuse(ErrorCode::OutOfRange, "triangle_links",
+           "expected links of the avatar, found " + std::to_string(all[*bad].link));
+  }
+  const py::gil_scoped_release free;
+  auto made = valueOf(SkinnedSurface::build(*avatar, std::move(skin), ofLink), "Skin.from_arrays");
+  return {std::move(avatar), std::move(made)};
+}
+
 Numbers trianglesOf(const Surface& surface, const Shown<shown::Link>& link) {
   const std::vector<Triangle>& triangles =
       surface.triangles.triangles(linkOf(*surface.avatar, link, "link"));
@@ -76,6 +115,17 @@ void bindSurface(py::module_& module) {
       .def_property_readonly(
           "num_triangles", [](const Surface& surface) { return surface.triangles.numTriangles(); })
       .def("triangles", &trianglesOf, py::arg("link"), "A copy, (m, 3, 3), in the link's frame.");
+  py::class_<SkinOfAvatar>(module, "Skin",
+                           "Triangles that bend with several links of an avatar. Immutable.")
+      .def_static("from_arrays", &skinFromArrays, py::arg("avatar").none(false),
+                  py::arg("triangles"), py::arg("triangle_links"), py::arg("links"),
+                  py::arg("weights"), py::arg("points"),
+                  "triangles: (m, 3) vertices; triangle_links: whose hit each is, (m,). Of n\n"
+                  "vertices, up to k links each: links and weights (n, k), weights of 0 count for\n"
+                  "nothing; points (n, k, 3): the vertex in the link's frame, where it was bound.")
+      .def_property_readonly("avatar", [](const SkinOfAvatar& skin) { return skin.avatar; })
+      .def_property_readonly("num_triangles",
+                             [](const SkinOfAvatar& skin) { return skin.skin.numTriangles(); });
 }
 
 }  // namespace foretouch::python

@@ -13,4 +13,9 @@ struct Surface {
   AvatarSurface triangles;
 };
 
+struct SkinOfAvatar {
+  std::shared_ptr<Avatar> avatar;
+  SkinnedSurface skin;
+};
+
 }  // namespace foretouch::python

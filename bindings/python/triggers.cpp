@@ -145,11 +145,22 @@ void watch(TriggersOf& triggers, const Shown<shown::Integer>& trigger,
   triggers.watch(smallNumber(trigger, "trigger"), {smallNumber(body, "body"), which});
 }
 
+/// None: every link, as of what has none.
+LinkId linkOfBody(World& world, BodyId body, const py::object& link, const char* what) {
+  if (link.is_none()) return kEveryLink;
+  const BodyShape shape = body >= 0 ? world.shape(body) : BodyShape{};
+  if (shape.avatar) return linkOf(*shape.avatar, link, what);
+  refuse(ErrorCode::Mismatch, what, "expected None: the body has no links of its own");
+}
+
 py::object depthIn(World& world, const Shown<shown::Integer>& utimeUs,
-                   const Shown<shown::Integer>& body, const py::object& other) {
+                   const Shown<shown::Integer>& body, const py::object& other,
+                   const py::object& link, const py::object& otherLink) {
   DepthQuestion question;
   question.a = smallNumber(body, "body");
   question.b = other.is_none() ? kStillScene : smallNumber(other, "other");
+  question.linkOfA = linkOfBody(world, question.a, link, "link");
+  question.linkOfB = linkOfBody(world, question.b, otherLink, "other_link");
   const WorldTime time{triggerInstant(utimeUs, "utime_us"), 0.0};
   WorldDepth found;
   Scratch scratch;
@@ -169,8 +180,10 @@ py::object depthIn(World& world, const Shown<shown::Integer>& utimeUs,
 void bindTriggers(py::module_& module) {
   module.attr("World").attr("depth") = py::cpp_function(
       &depthIn, py::name("depth"), py::is_method(module.attr("World")), py::arg("utime_us"),
-      py::arg("body"), py::arg("other") = py::none(),
-      "How deep a body is in another (None: in what stands still) at an instant: Depth.");
+      py::arg("body"), py::arg("other") = py::none(), py::kw_only(), py::arg("link") = py::none(),
+      py::arg("other_link") = py::none(),
+      "How deep a body is in another (None: in what stands still) at an instant: Depth. link,\n"
+      "other_link: of avatars, one of their links alone.");
   const auto group = py::arg("group") = kTriggerGroup;
   const auto byLink = py::arg("by_link") = false;
   py::class_<TriggersOf>(

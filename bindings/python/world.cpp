@@ -10,6 +10,7 @@
 #include "bindings/python/bindings.h"
 #include "bindings/python/poses.h"
 #include "bindings/python/query_options.h"
+#include "bindings/python/surface.h"
 #include "bindings/snake_case.h"
 #include "lss/index.h"
 
@@ -98,6 +99,25 @@ void World::forgetBefore(std::int64_t utimeUs) {
     world_.forgetBefore(utimeUs);
     return Done{};
   });
+}
+
+std::int64_t World::forgetBeyond(std::size_t bytes) {
+  std::int64_t us = 0;
+  change("", [&]() -> Result<Done> {
+    us = world_.forgetBeyond(bytes);
+    return Done{};
+  });
+  return us;
+}
+
+void World::thinBefore(std::int64_t utimeUs, double metres) {
+  change("", [&] { return world_.thinBefore(utimeUs, metres); });
+}
+
+std::size_t World::poseBytes() {
+  const py::gil_scoped_release free;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return world_.poseBytes();
 }
 
 std::optional<std::int64_t> World::knownUntilUs() {
@@ -191,7 +211,7 @@ std::unique_ptr<World> createWorld(std::shared_ptr<Scene> still,
 
 BodyId addBody(World& world, const py::object& shape, const Shown<shown::Integer>& group,
                const Shown<shown::Text>& whenSilent, const Shown<shown::PairRules>& selfPairs,
-               const Shown<shown::Surface>& surface) {
+               const Shown<shown::Surface>& surface, const py::object& skin) {
   BodyOptions options;
   options.group = smallInteger(group, "group");
   options.whenSilent = whenSilentFrom(whenSilent);
@@ -199,6 +219,12 @@ BodyId addBody(World& world, const py::object& shape, const Shown<shown::Integer
     const auto avatar = shape.cast<std::shared_ptr<Avatar>>();
     options.self = rulesFrom(selfPairs, *avatar);
     options.surface = surfaceFrom(surface, *avatar);
+    if (!skin.is_none()) {
+      if (!py::isinstance<SkinOfAvatar>(skin)) {
+        refuse(ErrorCode::Mismatch, "skin", "expected a foretouch.Skin");
+      }
+      options.skin = skin.cast<const SkinOfAvatar&>().skin;
+    }
     return world.add({avatar, nullptr}, options);
   }
   if (!py::isinstance<Scene>(shape)) {
@@ -207,8 +233,10 @@ BodyId addBody(World& world, const py::object& shape, const Shown<shown::Integer
   if (!selfPairs.is_none()) {
     refuse(ErrorCode::Mismatch, "self_pairs", "expected None: a mesh has no links of its own");
   }
-  if (!surface.is_none()) {
-    refuse(ErrorCode::Mismatch, "surface", "expected None: a mesh touches by its triangles anyway");
+  for (const auto& [given, name] :
+       {std::pair<py::object, const char*>{surface, "surface"}, {skin, "skin"}}) {
+    if (given.is_none()) continue;
+    refuse(ErrorCode::Mismatch, name, "expected None: a mesh touches by its triangles anyway");
   }
   return world.add({nullptr, shape.cast<std::shared_ptr<Scene>>()}, options);
 }
@@ -257,15 +285,46 @@ std::string textOfWorld(World& world) {
   return "<foretouch.World of " + std::to_string(world.shapes()->size()) + " bodies>";
 }
 
+/// What it remembers.
+void bindHistory(py::class_<World>& bound) {
+  bound
+      .def(
+          "forget_before",
+          [](World& world, const Shown<shown::Integer>& utimeUs) {
+            world.forgetBefore(instantFrom(utimeUs, "utime_us"));
+          },
+          py::arg("utime_us"),
+          "Lets go of what no window from there on needs; earlier poses and windows are refused.")
+      .def(
+          "forget_beyond",
+          [](World& world, std::size_t bytes) { return world.forgetBeyond(bytes); },
+          py::arg("bytes"),
+          "The same by memory: the oldest poses of all, until pose_bytes is at most as many. "
+          "Tells\n"
+          "the instant (us) before which all is forgotten.")
+      .def(
+          "thin_before",
+          [](World& world, const Shown<shown::Integer>& utimeUs,
+             const Shown<shown::Number>& metres) {
+            world.thinBefore(instantFrom(utimeUs, "utime_us"), number(metres, "metres"));
+          },
+          py::arg("utime_us"), py::arg("metres"),
+          "Lets go of earlier poses between others that say nearly the same: no point is ever\n"
+          "farther than so many metres from where all poses that were pushed have it.")
+      .def_property_readonly("pose_bytes", &World::poseBytes,
+                             "What the poses that are kept take: 56 n + 256 of one of n joints.");
+}
+
 }  // namespace
 
 void bindWorld(py::module_& module) {
   bindWorldAnswer(module);
-  py::class_<World>(
+  py::class_<World> bound(
       module, "World",
       "Everything that moves, on one timeline: avatars, rigid props and what they carry, each\n"
       "known at instants of its own (whole microseconds since any epoch), beside an optional\n"
-      "scene that stands still. Threads that call one wait for one another.")
+      "scene that stands still. Threads that call one wait for one another.");
+  bound
       .def(
           py::init(&createWorld), py::arg("still") = py::none(), py::kw_only(),
           py::arg("tolerance") = WorldOptions().tolerance,
@@ -281,12 +340,13 @@ void bindWorld(py::module_& module) {
           "in a window is crowded; two of them are not asked about each other, and are `silent`.")
       .def("add", &addBody, py::arg("shape"), py::kw_only(), py::arg("group") = 0,
            py::arg("when_silent") = toString(WhenSilent::Wait), py::arg("self_pairs") = py::none(),
-           py::arg("surface") = py::none(),
+           py::arg("surface") = py::none(), py::arg("skin") = py::none(),
            "A body, by its number: of an Avatar, whose LSS touch, or of a Scene in the prop's own\n"
            "frame, whose triangles do. group: 0 to 31. when_silent: after its last pose it is\n"
            "waited for ('wait'), taken to stay ('hold-still') or unknown ('undecided').\n"
            "self_pairs: PairRules: asks whether own links touch, too. surface: of the avatar: its\n"
-           "triangles touch in place of its LSS.")
+           "triangles touch in place of its LSS. skin: of the avatar: what probe() meets, bent as\n"
+           "it is then.")
       .def(
           "push", &pushPose, py::arg("body"), py::arg("utime_us"), py::arg("pose"),
           "The body's next pose: in W, or in the frame of what carries it. Of one joint, as every\n"
@@ -307,16 +367,10 @@ void bindWorld(py::module_& module) {
                              "The body that known_until waits for; None: nobody.")
       .def("contacts", &contactsIn, py::arg("from_us"), py::arg("to_us"),
            "The first contact, in the window, of every two links that are asked: WorldContacts.")
-      .def(
-          "forget_before",
-          [](World& world, const Shown<shown::Integer>& utimeUs) {
-            world.forgetBefore(instantFrom(utimeUs, "utime_us"));
-          },
-          py::arg("utime_us"),
-          "Lets go of what no window from there on needs; earlier poses and windows are refused.")
       .def_property_readonly("num_bodies", [](World& world) { return world.shapes()->size(); })
       .def_property_readonly("tolerance", &World::tolerance)
       .def("__repr__", &textOfWorld);
+  bindHistory(bound);
 }
 
 }  // namespace foretouch::python

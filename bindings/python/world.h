@@ -41,6 +41,9 @@ class World {
   void ask(BodyGroup a, BodyGroup b, bool isAsked);
   void askStill(BodyGroup group, bool isAsked);
   void forgetBefore(std::int64_t utimeUs);
+  std::int64_t forgetBeyond(std::size_t bytes);
+  void thinBefore(std::int64_t utimeUs, double metres);
+  std::size_t poseBytes();
   [[nodiscard]] std::optional<std::int64_t> knownUntilUs();
   [[nodiscard]] std::optional<BodyId> waitsFor();
   [[nodiscard]] foretouch::WorldContacts contacts(std::int64_t fromUs, std::int64_t toUs);

@@ -334,6 +334,29 @@ export class World extends Held {
     this.machine.ask("ft_world_forget_before", this.handle, instant(timeUs, "timeUs"));
   }
 
+  /** The same by memory: the oldest poses of all, until poseBytes() is at most as many. Returns the instant before which all is forgotten. */
+  forgetBeyond(bytes: number): number {
+    return this.machine.within((room) => {
+      const us = room.doubles([0]);
+      this.machine.ask("ft_world_forget_beyond", this.handle, whole(bytes, "bytes"), us);
+      return Number(this.machine.view().getBigInt64(us, true));
+    });
+  }
+
+  /** What the poses that are kept take: 56 n + 256 of one of n joints. */
+  poseBytes(): number {
+    return this.machine.within((room) => {
+      const bytes = room.integers([0]);
+      this.machine.ask("ft_world_pose_bytes", this.handle, bytes);
+      return this.machine.view().getUint32(bytes, true);
+    });
+  }
+
+  /** Lets go of earlier poses between others that say nearly the same: no point is ever farther than so many metres from where all poses that were pushed have it. */
+  thinBefore(timeUs: number, metres: number): void {
+    this.machine.ask("ft_world_thin_before", this.handle, instant(timeUs, "timeUs"), real(metres, "metres"));
+  }
+
   /** Follows the world from an instant on: nothing before is told, and who is in contact there starts inside. A world has one follower: another one takes its place. */
   follower(fromUs: number, options: FollowOptions = {}): Follower {
     this.machine.within((room) => {

@@ -67,8 +67,34 @@ void BodyAsker::askBody(const AskMemory::NearBody& near) {
   const AskedShape shape = shape_.moves() ? shape_.movedBy(bound, hits_.limit()) : shape_;
   if (world_.kindOf(near.body).mesh) {
     askMesh(near.body, shape);
+  } else if (world_.kindOf(near.body).skin) {
+    askSkin(near.body, pieces, shape);
   } else {
     askLinks(near.body, pieces, shape);
+  }
+}
+
+void BodyAsker::askSkin(BodyId body, const PieceBoxes* pieces, const AskedShape& shape) {
+  const BodyKind& kind = world_.kindOf(body);
+  SkinAsker asker(kind, shape, filter_, isAssumed(body), hits_, memory_.skin);
+  ContactSide side;
+  side.body = body;
+  if (!asker.findLinks(body, pieces)) return;
+  // A skin has no inside that would be told.
+  Aabb place;
+  place.add(shape.lss.a);
+  place.grow(shape.rounding);
+  if (open_ != nullptr && shape.moved == 0.0 && memory_.bodies.box(body).overlaps(place)) {
+    open_->push_back({body, AskUnknown::Open, kEveryObject});
+  }
+  const std::vector<LinkPlace>& places = memory_.bodies.places(body);
+  asker.askTriangles(side, places);
+  for (const LinkId link : asker.bareLinks()) {
+    side.link = link;
+    for (std::size_t i = 0; i < kind.volumes[slotOf(link)].size(); ++i) {
+      side.lss = static_cast<std::int32_t>(i);
+      askLink(side, places[slotOf(link)], shape);
+    }
   }
 }
 

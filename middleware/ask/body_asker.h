@@ -10,6 +10,7 @@
 #include "middleware/ask/instant_bodies.h"
 #include "middleware/ask/moving_body.h"
 #include "middleware/ask/piece_asker.h"
+#include "middleware/ask/skin_asker.h"
 #include "middleware/exact/closed_mesh.h"
 #include "middleware/scene/scene.h"
 #include "middleware/scratch.h"
@@ -30,6 +31,7 @@ struct AskMemory : ScratchPart {
   std::vector<double> bounds;  // of bodies, and of one's LSS
   std::vector<NearBody> near;
   ObjectsAround around;
+  SkinMemory skin;
   // Of flights.
   struct LaterPart {
     double us;           // from when on it is to be looked at
@@ -56,6 +58,7 @@ class BodyAsker {
   void askBody(const AskMemory::NearBody& near);
   void askMesh(BodyId body, const AskedShape& shape);
   void askLinks(BodyId body, const PieceBoxes* pieces, const AskedShape& shape);
+  void askSkin(BodyId body, const PieceBoxes* pieces, const AskedShape& shape);
   void askLink(const ContactSide& side, const LinkPlace& place, const AskedShape& shape);
   /// Solid objects around the shape's place, of a scene or mesh, and of a link with triangles.
   /// `shape`: as seen from their frame.

@@ -40,6 +40,17 @@ double paceOf(const MovingPiece& piece, const Vector3d& nhat, const Vector3d& ve
   return pace + kSeparationRounding * most + kInflation * piece.ofVelocity;
 }
 
+/// That an LSS stays in.
+Aabb boxOf(const PieceBoxes& boxes, std::size_t lss) {
+  Aabb box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min[axis] = boxes.origin[axis] + static_cast<double>(boxes.lower[slotOf(axis)][lss]);
+    box.max[axis] = boxes.origin[axis] + static_cast<double>(boxes.upper[slotOf(axis)][lss]);
+  }
+  box.grow(0.0);  // the sums are rounded
+  return box;
+}
+
 }  // namespace
 
 /// Of a shape on its flight and a piece.
@@ -129,6 +140,8 @@ bool FlightAsker::askSpan(BodyId body) {
   if (kind.mesh && !kind.surface) return false;
   const PieceBoxes* const boxes =
       moving_.isCarried() ? nullptr : &boxes_.piecesOf(body, moving_.piece());
+  // A skin is not followed as it bends.
+  if (kind.skin) return boxes != nullptr && !mayReach(boxes->box);
   ContactSide side;
   side.body = body;
   bool isResolved = true;
@@ -137,7 +150,7 @@ bool FlightAsker::askSpan(BodyId body) {
     if (i > 0 && kind.linkOf[i] != kind.linkOf[i - 1]) first = i;
     side.link = kind.linkOf[i];
     side.lss = static_cast<std::int32_t>(i - first);
-    if (boxes != nullptr && !mayReach(*boxes, i)) continue;
+    if (boxes != nullptr && !mayReach(boxOf(*boxes, i))) continue;
     const LinkSurface* const surface = surfaceOf(kind, side.link);
     if (surface != nullptr && surface->hasTriangles(side.lss)) {
       isResolved = askTriangles(side, *surface) && isResolved;
@@ -149,23 +162,18 @@ bool FlightAsker::askSpan(BodyId body) {
   return isResolved;
 }
 
-/// Whether the shape's way through the span meets the box that an LSS stays in.
-bool FlightAsker::mayReach(const PieceBoxes& boxes, std::size_t lss) const {
+/// Whether the shape's way through the span meets the box that somebody stays in.
+bool FlightAsker::mayReach(const Aabb& box) const {
   const double until = limitUs();
   if (until < 0.0) return false;
   const AskedShape from = shapeAt(0.0), to = shapeAt(until);
-  Aabb swept, box;
+  Aabb swept;
   for (const AskedShape& shape : {from, to}) {
     const Aabb there = shape.box();
     swept.add(there.min);
     swept.add(there.max);
   }
   swept.grow(question_.shape.radius + from.rounding);
-  for (int axis = 0; axis < 3; ++axis) {
-    box.min[axis] = boxes.origin[axis] + static_cast<double>(boxes.lower[slotOf(axis)][lss]);
-    box.max[axis] = boxes.origin[axis] + static_cast<double>(boxes.upper[slotOf(axis)][lss]);
-  }
-  box.grow(0.0);  // the sums are rounded
   return swept.overlaps(box);
 }
 

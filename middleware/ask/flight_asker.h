@@ -35,7 +35,7 @@ class FlightAsker {
                                 FlightMeeting& meeting);
   [[nodiscard]] AskedShape shapeAt(double us) const;
   [[nodiscard]] double limitUs() const;
-  [[nodiscard]] bool mayReach(const PieceBoxes& boxes, std::size_t lss) const;
+  [[nodiscard]] bool mayReach(const Aabb& box) const;
 
   const WorldParts& world_;
   const FlightQuestion& question_;

@@ -35,7 +35,7 @@ void InstantBodies::useWorld(const WorldParts& world) {
   }
   owner_ = world.identity;
   for (std::size_t kind = tables_.size(); kind < world.kinds.size(); ++kind) {
-    tables_.emplace_back().assign(world.kinds[kind].volumes);
+    tables_.emplace_back().assign(world.kinds[kind].asked());
   }
   kept_.resize(world.bodies.size());
 }
@@ -74,7 +74,10 @@ Aabb InstantBodies::roughBox(BodyId body) {
   const WorldTime& time = times_[slotOf(body)];
   if (const Aabb* box = kept_[slotOf(body)].rough.at(asked, world_->kindOf(body), time.us)) {
     state.known = PlaceKnown::Known;
-    return *box;
+    Aabb grown = *box;
+    // It may have been found before poses went.
+    grown.grow(world_->thinnedBy + skinSlack(world_->kindOf(body), grown));
+    return grown;
   }
   const BodyPiece known = bodyPieceAt(asked, time);
   state.known = known.how;
@@ -85,7 +88,9 @@ Aabb InstantBodies::roughBox(BodyId body) {
   reach_.clear();
   reach_.add(kind.skeleton, *known.piece.from);
   reach_.add(kind.skeleton, *known.piece.to);
-  return reach_.box(kind);
+  Aabb box = reach_.box(kind);
+  box.grow(skinSlack(kind, box));
+  return box;
 }
 
 void InstantBodies::setBox(BodyId body, const Aabb& box) {
@@ -136,6 +141,9 @@ void InstantBodies::fill(BodyId body, const BodyPiece& known, PieceBoxes& piece)
     piece.box.min[axis] = piece.origin[axis] + least;
     piece.box.max[axis] = piece.origin[axis] + most;
   }
+  if (piece.box.min.x() <= piece.box.max.x()) {
+    piece.box.grow(skinSlack(world_->kindOf(body), piece.box));
+  }
   piece.episodeUs = known.episode->beginUs;
   piece.beginUs = known.piece.beginUs;
   piece.endUs = known.piece.endUs;
@@ -150,7 +158,7 @@ Aabb InstantBodies::boxOfPlaces(BodyId body) {
   state.isPosed = isThere(state.known);
   Aabb box;
   if (!state.isPosed) return box;
-  const auto& volumes = world_->kindOf(body).volumes;
+  const auto& volumes = world_->kindOf(body).asked();
   for (std::size_t link = 0; link < volumes.size(); ++link) {
     for (const Lss& lss : volumes[link]) {
       double rounding = 0.0;
@@ -162,6 +170,7 @@ Aabb InstantBodies::boxOfPlaces(BodyId body) {
       box.add(one);
     }
   }
+  if (box.min.x() <= box.max.x()) box.grow(skinSlack(world_->kindOf(body), box));
   return box;
 }
 

@@ -54,7 +54,9 @@ const Aabb* RoughBoxes::at(const WorldBody& body, const BodyKind& kind, std::int
   const Track& track = episode->track;
   if (utimeUs < track.knownFromUs() || utimeUs >= track.knownUntilUs()) return nullptr;
   const std::int64_t length = std::int64_t{1} << kStretchShift;
-  if (!isSame || kept.episodeUs != episode->beginUs || utimeUs < kept.fromUs) {
+  // What was forgotten since cannot be added to any more.
+  const bool goesOn = kept.untilUs >= track.knownFromUs();
+  if (!isSame || !goesOn || kept.episodeUs != episode->beginUs || utimeUs < kept.fromUs) {
     kept.reach.clear();
     kept.stretch = stretch;
     kept.lastEpisodeUs = lastEpisodeUs;
@@ -63,10 +65,12 @@ const Aabb* RoughBoxes::at(const WorldBody& body, const BodyKind& kind, std::int
   }
   const std::int64_t endUs =
       std::min({(stretch + 1) * length, track.knownUntilUs(), body.nextEpisodeUs(utimeUs)});
-  for (std::int64_t us = kept.untilUs; us < endUs; us = track.nextKnotUs(us)) {
+  for (std::int64_t us = kept.untilUs; us < endUs;) {
     const TrackPiece piece = track.pieceAt(us);
-    kept.reach.add(kind.skeleton, *piece.from);
+    // Where one piece ends, the next one begins.
+    if (us == kept.fromUs) kept.reach.add(kind.skeleton, *piece.from);
     kept.reach.add(kind.skeleton, *piece.to);
+    us = piece.endUs;
   }
   kept.untilUs = endUs;
   kept.box = kept.reach.box(kind);

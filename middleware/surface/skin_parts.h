@@ -20,6 +20,7 @@ struct SkinParts {
   // The vertices in the form for lanes: vertex v has the shares [firstShare[v], firstShare[v+1]).
   std::vector<LaneShare> shares;
   std::vector<std::int32_t> firstShare;
+  std::size_t mostShares = 0;                // of any vertex
   std::uint64_t avatarIdentity = 0;          // of the avatar that it was built for
   std::shared_ptr<const BlendTable> blends;  // of that avatar
 

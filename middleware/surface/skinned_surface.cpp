@@ -66,6 +66,7 @@ std::optional<Error> problemOf(const Avatar& avatar, const Skin& skin) {
 void addShares(internal::SkinParts& parts) {
   for (const std::vector<SkinInfluence>& vertex : parts.skin.vertices) {
     parts.firstShare.push_back(static_cast<std::int32_t>(parts.shares.size()));
+    parts.mostShares = std::max(parts.mostShares, vertex.size());
     for (const SkinInfluence& influence : vertex) {
       parts.shares.push_back(
           internal::laneShare(influence.link, influence.weight, influence.p_L.data()));

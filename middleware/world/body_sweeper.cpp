@@ -44,9 +44,11 @@ Result<Done> BodySweeper::sweep(BodyId body, BodySweep& sweep, std::vector<World
   while (spans.next()) {
     SpanPart part{spans.beginUs(), spans.endUs(), 0};
     const bool isWhole = spans.widen(shareFor(window_));
+    // Part of a piece that was, before poses went, may have the same ends.
+    const bool maybeKnown = isWhole && spans.endUs() >= world_.thinnedUs;
     const std::int64_t episodeUs = spans.members().front().episode->beginUs;
     const std::ptrdiff_t known =
-        isWhole ? sweep.placeOf(episodeUs, spans.beginUs(), spans.endUs(), question) : -1;
+        maybeKnown ? sweep.placeOf(episodeUs, spans.beginUs(), spans.endUs(), question) : -1;
     part.sweep = known >= 0 ? static_cast<std::size_t>(known) : sweep.freePlace(window_.number);
     SpanSweep& span = sweep.spans[part.sweep];
     if (known < 0) {

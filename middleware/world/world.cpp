@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "articulated/try.h"
+#include "middleware/surface/skin_parts.h"
 #include "middleware/world/world_parts.h"
 
 namespace foretouch {
@@ -115,7 +116,13 @@ Result<Done> checkedSurface(const Avatar& avatar, const BodyOptions& options) {
   return Done{};
 }
 
-bool isSameSurface(const std::optional<AvatarSurface>& x, const std::optional<AvatarSurface>& y) {
+Result<Done> checkedSkin(const Avatar& avatar, const BodyOptions& options) {
+  if (!options.skin || options.skin->parts().avatarIdentity == avatar.identity()) return Done{};
+  return Error::in("skin", ErrorCode::Mismatch, "expected the skin of this avatar");
+}
+
+template <typename Surface>
+bool isSameSurface(const std::optional<Surface>& x, const std::optional<Surface>& y) {
   return x.has_value() == y.has_value() && (!x || &x->parts() == &y->parts());
 }
 
@@ -148,6 +155,11 @@ Result<Done> checkedChange(const WorldParts& parts, BodyId id, std::int64_t utim
 Result<Done> checkedCarrier(const WorldParts& parts, BodyId id, const Carrier& carrier,
                             std::int64_t utimeUs) {
   FORETOUCH_CHECK(checkedBody(parts, carrier.body));
+  if (utimeUs < parts.thinnedUs) {
+    return bodyError(id, ErrorCode::OutOfRange,
+                     "cannot be attached at " + std::to_string(utimeUs) + " us: all before " +
+                         std::to_string(parts.thinnedUs) + " us is thinned");
+  }
   const std::int32_t links = parts.kindOf(carrier.body).skeleton.numJoints();
   if (carrier.link < 0 || carrier.link >= links) {
     return bodyError(carrier.body, ErrorCode::UnknownName,
@@ -210,13 +222,14 @@ Result<BodyId> World::add(const Avatar& avatar, const BodyOptions& options) {
     return Error::in("self", ErrorCode::Mismatch, "expected the pair rules of this avatar");
   }
   FORETOUCH_CHECK(checkedSurface(avatar, options));
+  FORETOUCH_CHECK(checkedSkin(avatar, options));
   std::vector<BodyKind>& kinds = parts_->kinds;
   const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const BodyKind& kind) {
     return kind.avatar && kind.avatar->identity() == avatar.identity() &&
-           isSameSurface(kind.surface, options.surface);
+           isSameSurface(kind.surface, options.surface) && isSameSurface(kind.skin, options.skin);
   });
   const auto kind = static_cast<std::int32_t>(known - kinds.begin());
-  if (known == kinds.end()) kinds.push_back(internal::bodyKindOf(avatar, options.surface));
+  if (known == kinds.end()) kinds.push_back(internal::bodyKindOf(avatar, options));
   const std::int32_t rules = options.self ? placeOfRules(*parts_, *options.self) : -1;
   parts_->mostLss = std::max(parts_->mostLss, kinds[slotOf(kind)].linkOf.size());
   parts_->bodies.push_back({kind, options, rules, {}});
@@ -229,8 +242,8 @@ Result<BodyId> World::add(const Scene& mesh, const BodyOptions& options) {
   if (options.self) {
     return Error::in("self", ErrorCode::Mismatch, "expected none: a mesh has no links of its own");
   }
-  if (options.surface) {
-    return Error::in("surface", ErrorCode::Mismatch,
+  if (options.surface || options.skin) {
+    return Error::in(options.surface ? "surface" : "skin", ErrorCode::Mismatch,
                      "expected none: a mesh touches by its triangles anyway");
   }
   std::vector<BodyKind>& kinds = parts_->kinds;
@@ -348,20 +361,6 @@ std::optional<std::int64_t> World::knownUntilUs() const {
     latest = latest ? std::max(*latest, last) : last;
   }
   return latest;
-}
-
-void World::forgetBefore(std::int64_t utimeUs) {
-  ++parts_->changes;
-  parts_->forgottenUs = std::max(parts_->forgottenUs, utimeUs);
-  // The motions that end there, too: of who is put elsewhere there, the last place is told.
-  const std::int64_t keptUs = std::max(utimeUs, -kMostUtimeUs) - 1;
-  for (WorldBody& body : parts_->bodies) {
-    std::vector<Episode>& episodes = body.episodes;
-    std::size_t over = 0;
-    while (over + 1 < episodes.size() && episodes[over + 1].beginUs <= keptUs) ++over;
-    episodes.erase(episodes.begin(), episodes.begin() + static_cast<std::ptrdiff_t>(over));
-    for (Episode& episode : episodes) episode.track.forgetBefore(keptUs);
-  }
 }
 
 }  // namespace foretouch

@@ -113,6 +113,21 @@ class World {
   /// say where it was. Poses at or before it are refused from now on, and so are windows that
   /// begin before it.
   void forgetBefore(std::int64_t utimeUs);
+  /// The same by memory: lets go of the oldest poses of all until poseBytes() is at most `bytes`,
+  /// or nothing is left before knownUntilUs(). Returns the instant before which it has forgotten.
+  std::int64_t forgetBeyond(std::size_t bytes);
+  /// What the poses that are kept take: of a pose of n joints 56 n + 256, an allocator's share
+  /// included. O(bodies).
+  [[nodiscard]] std::size_t poseBytes() const;
+
+  /// Lets go of poses before `utimeUs` between others that say nearly the same: no point of any
+  /// body, of what it carries included, is ever farther than `metres` from where all poses that
+  /// were pushed have it, however often this is called (world.md 7). What is answered about
+  /// instants from `utimeUs` on is the same, to the bit; about earlier ones, from now on, what is
+  /// true of the motion that is left. First and last poses are kept, and those at which a carrier
+  /// changes. Bodies can no longer be attached before `utimeUs`. Errors: metres that are not
+  /// finite, or below 0. O(joints) per pose that is new since the last call.
+  Result<Done> thinBefore(std::int64_t utimeUs, double metres);
 
   /// For the query's own sources.
   [[nodiscard]] const internal::WorldParts& parts() const { return *parts_; }

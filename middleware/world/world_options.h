@@ -58,6 +58,10 @@ struct BodyOptions {
   /// The avatar touches by these triangles (exact fidelity), whatever it meets, and so do its own
   /// links; an LSS that holds none of its link's triangles is its own surface. Nothing: by its LSS.
   std::optional<AvatarSurface> surface;
+  /// Of the same avatar: what questions at an instant (askWorld()) meet of the links that have
+  /// triangles of it, bent as it is then. First contacts, events and depths go by the LSS or the
+  /// surface, as if there were no skin.
+  std::optional<SkinnedSurface> skin;
   /// A volume that others are in, as a trigger's is: solid bodies go through it.
   bool isVolume = false;
 };

@@ -9,26 +9,32 @@
 #include "articulated/try.h"
 #include "lss/fit.h"
 #include "lss/rounding.h"
+#include "middleware/surface/blend_table.h"
 #include "middleware/surface/link_surface.h"
+#include "middleware/surface/skin_parts.h"
 
 namespace foretouch::internal {
 namespace {
 
-double reachOf(const std::vector<std::vector<Lss>>& volumes) {
+/// Of the axes of clusters and parts.
+double reachOfAxes(const BlendTable& blends) {
   double reach = 0.0;
-  for (const std::vector<Lss>& link : volumes) {
-    for (const Lss& lss : link) {
-      reach = std::max(reach, std::max(lss.a.norm(), lss.b.norm()) + lss.radius);
+  const auto take = [&](const BlendedLss& blend) {
+    for (std::int32_t i = 0; i < blend.numShares; ++i) {
+      reach = std::max(reach, blends.shares(blend)[i].rho);
     }
-  }
-  return reach * kInflation;
+  };
+  for (std::int32_t i = 0; i < blends.size(); ++i) take(blends[i]);
+  for (std::int32_t i = 0; i < blends.numParts(); ++i) take(blends.part(i));
+  return reach;
 }
 
 void measure(BodyKind& kind) {
   for (std::size_t link = 0; link < kind.volumes.size(); ++link) {
     kind.linkOf.insert(kind.linkOf.end(), kind.volumes[link].size(), static_cast<LinkId>(link));
+    kind.rho = std::max(kind.rho, reachOf(kind.volumes[link]));
   }
-  kind.rho = reachOf(kind.volumes);
+  for (const std::vector<Lss>& link : kind.carried) kind.rho = std::max(kind.rho, reachOf(link));
 }
 
 /// Of one link, whose one LSS holds the triangles that `held` names.
@@ -51,16 +57,40 @@ std::vector<Episode>::const_iterator episodeAfter(const std::vector<Episode>& ep
 
 }  // namespace
 
+double reachOf(const std::vector<Lss>& volumes) {
+  double reach = 0.0;
+  for (const Lss& lss : volumes) {
+    reach = std::max(reach, std::max(lss.a.norm(), lss.b.norm()) + lss.radius);
+  }
+  return reach * kInflation;
+}
+
 const LinkSurface* surfaceOf(const BodyKind& kind, LinkId link) {
   if (!kind.surface) return nullptr;
   const LinkSurface& own = *kind.surface->parts().links[slotOf(link)];
   return own.triangles().empty() ? nullptr : &own;
 }
 
-BodyKind bodyKindOf(const Avatar& avatar, const std::optional<AvatarSurface>& surface) {
-  BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, surface, {}, 0.0};
+double skinSlack(const BodyKind& kind, const Aabb& box) {
+  if (!kind.skin || box.min.x() > box.max.x()) return 0.0;
+  return kind.skin->parts().blends->sumError() * (box.min.norm() + box.max.norm()) * kInflation;
+}
+
+BodyKind bodyKindOf(const Avatar& avatar, const BodyOptions& options) {
+  BodyKind kind{avatar.skeleton(), avatar, std::nullopt, {}, options.surface, {},
+                options.skin,      {},     0.0};
   for (LinkId link = 0; link < avatar.numLinks(); ++link) kind.volumes.push_back(avatar.lss(link));
+  if (kind.skin) {
+    kind.carried.resize(kind.volumes.size());
+    const LssTable& carried = kind.skin->parts().blends->carried();
+    for (std::int32_t i = 0; i < carried.size(); ++i) {
+      const LssTable::Entry& one = carried[i];
+      kind.carried[slotOf(one.link)].push_back(
+          {Eigen::Vector3d(one.a), Eigen::Vector3d(one.b), one.radius});
+    }
+  }
   measure(kind);
+  if (kind.skin) kind.rho = std::max(kind.rho, reachOfAxes(*kind.skin->parts().blends));
   return kind;
 }
 
@@ -68,7 +98,7 @@ Result<BodyKind> bodyKindOf(const Scene& mesh, bool meetsMeshes) {
   RawSkeleton raw;
   raw.joints = {{"mesh", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
   FORETOUCH_TRY(Skeleton skeleton, Skeleton::build(raw));
-  BodyKind kind{std::move(skeleton), std::nullopt, mesh, {}, {}, {}, 0.0};
+  BodyKind kind{std::move(skeleton), std::nullopt, mesh, {}, {}, {}, {}, {}, 0.0};
   std::vector<Eigen::Vector3d> points;
   std::vector<Triangle> triangles(mesh.numTriangles());
   std::vector<std::int32_t> finite;

@@ -13,6 +13,7 @@
 #include "middleware/scene/scene.h"
 #include "middleware/surface/link_surface.h"
 #include "middleware/world/world_options.h"
+#include "tessellation/aabb.h"
 
 namespace foretouch::internal {
 
@@ -25,8 +26,22 @@ struct BodyKind {
   // Of an avatar that brings one, and of a mesh that is a link with triangles; else nothing.
   std::optional<AvatarSurface> surface;
   std::vector<LinkId> linkOf;  // of each of them
-  double rho = 0.0;            // no point of them is farther from its link's origin
+  // Of an avatar that brings one; and, per link, what it carries of it (BlendTable::carried()).
+  std::optional<SkinnedSurface> skin;
+  std::vector<std::vector<Lss>> carried;
+  double rho = 0.0;  // no point of all these is farther from its link's origin
+
+  /// What questions at an instant meet is within these.
+  [[nodiscard]] const std::vector<std::vector<Lss>>& asked() const {
+    return skin ? carried : volumes;
+  }
 };
+/// A skin's weights do not add up to 1 to the last bit, so a box around what its links carry does
+/// not hold it to the last bit either: by how much it is to grow (m); 0 without a skin.
+[[nodiscard]] double skinSlack(const BodyKind& kind, const Aabb& box);
+
+/// No point of a link's volumes is farther from its origin (m).
+[[nodiscard]] double reachOf(const std::vector<Lss>& volumes);
 
 /// Larger meshes are frames that others are seen from, however they turn (world.md 1): their
 /// hierarchies take seconds to build.
@@ -36,8 +51,7 @@ inline constexpr std::size_t kMostSpinningTriangles = 100'000;
 [[nodiscard]] const LinkSurface* surfaceOf(const BodyKind& kind, LinkId link);
 
 /// Of an avatar, by its LSS or by its surface; and of a mesh.
-[[nodiscard]] BodyKind bodyKindOf(const Avatar& avatar,
-                                  const std::optional<AvatarSurface>& surface);
+[[nodiscard]] BodyKind bodyKindOf(const Avatar& avatar, const BodyOptions& options);
 /// Error (OutOfRange): the LSS around the mesh, which is larger than the mesh, leaves the limit.
 Result<BodyKind> bodyKindOf(const Scene& mesh, bool meetsMeshes);
 
@@ -74,7 +88,9 @@ struct WorldParts {
   std::array<std::uint32_t, kNumBodyGroups> asked{};  // bit b of row a
   std::uint32_t askedStill = 0;
   std::int64_t forgottenUs = -kMostUtimeUs - 1;
-  Pose ofOneJoint;  // memory of push()
+  std::int64_t thinnedUs = -kMostUtimeUs - 1;
+  double thinnedBy = 0.0;  // no point has been moved farther by thinning (m)
+  Pose ofOneJoint;         // memory of push()
 
   [[nodiscard]] const WorldBody& body(BodyId id) const { return bodies[slotOf(id)]; }
   [[nodiscard]] const BodyKind& kindOf(BodyId id) const { return kinds[slotOf(body(id).kind)]; }

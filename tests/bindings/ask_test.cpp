@@ -170,6 +170,69 @@ struct Hall {
   std::int64_t drawUs() { return random.below(static_cast<int>(kEndUs)); }
 };
 
+TEST(CAskSkin, IsMetAsItIsBentAndRefusedByName) {
+  RawSkeleton raw;
+  raw.joints = {{"root", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
+  const Avatar ball =
+      Avatar::build(Skeleton::build(raw).value(), {{{Vector3d::Zero(), Vector3d::Zero(), 0.1}}})
+          .value();
+  const test::AvatarHandle avatar = test::makeAvatar(ball);
+  // A sheet of one triangle that follows the root.
+  const std::int32_t first[] = {0, 1, 2, 3}, links[] = {0, 0, 0}, triangle[] = {0, 1, 2},
+                     owner[] = {0};
+  const double weights[] = {1, 1, 1}, points[] = {-5, -5, 3, 5, -5, 3, 0, 5, 3};
+  ft_skin skin{};
+  skin.size = sizeof skin;
+  skin.vertex_count = 3;
+  skin.first_share = first;
+  skin.share_links = links;
+  skin.share_weights = weights;
+  skin.share_points = points;
+  skin.triangles = triangle;
+  skin.triangle_links = owner;
+  skin.triangle_count = 1;
+  ASSERT_EQ(ft_avatar_set_skin(avatar.get(), &skin), FT_OK) << ft_last_error();
+  const auto world = test::makeWorld();
+  std::int32_t body = -1;
+  ASSERT_EQ(ft_world_add_avatar(world.get(), avatar.get(), nullptr, &body), FT_OK);
+  const double rotation[] = {1, 0, 0, 0}, translation[] = {0, 0, 0};
+  ft_pose pose{};
+  pose.size = sizeof pose;
+  pose.joint_count = 1;
+  pose.rotations = rotation;
+  pose.translations = translation;
+  ASSERT_EQ(ft_world_push(world.get(), body, 0, &pose), FT_OK) << ft_last_error();
+  ft_question question{};
+  ASSERT_EQ(ft_question_init(&question, sizeof question), FT_OK);
+  question.shape.a[2] = question.shape.b[2] = 10.0;
+  question.direction[2] = -1.0;
+  question.reach = 50.0;
+  std::int32_t verdict = -1;
+  ASSERT_EQ(ft_world_probe(world.get(), &question, &verdict), FT_OK) << ft_last_error();
+  ASSERT_EQ(verdict, FT_ASK_HIT);
+  ft_world_hit hit{};
+  hit.size = sizeof hit;
+  ASSERT_EQ(ft_world_hits(world.get(), &hit, 1, nullptr), FT_OK);
+  EXPECT_NEAR(hit.distance, 7.0, 1e-9);
+  EXPECT_EQ(hit.what.triangle, 0);
+  const std::int32_t none[] = {0, 1, 1, 3}, far[] = {99}, corner[] = {0, 1, 7};
+  ft_skin bad = skin;
+  bad.first_share = none;
+  test::expectRefused(ft_avatar_set_skin(avatar.get(), &bad), FT_ERROR_OUT_OF_RANGE,
+                      {"first_share"});
+  bad = skin;
+  bad.triangle_links = far;
+  test::expectRefused(ft_avatar_set_skin(avatar.get(), &bad), FT_ERROR_OUT_OF_RANGE,
+                      {"triangle_links", "99"});
+  bad = skin;
+  bad.triangles = corner;
+  test::expectRefused(ft_avatar_set_skin(avatar.get(), &bad), FT_ERROR_OUT_OF_RANGE, {"vertices"});
+  bad = skin;
+  bad.share_weights = nullptr;
+  test::expectRefused(ft_avatar_set_skin(avatar.get(), &bad), FT_ERROR_NULL_ARGUMENT,
+                      {"share_weights"});
+}
+
 TEST(CAsk, AnswersAreThoseOfTheLibrary) {
   int hits = 0, clear = 0, unknown = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {

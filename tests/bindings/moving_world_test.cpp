@@ -238,6 +238,32 @@ TEST(CMovingWorld, AWindowThatIsRefusedLeavesTheLastAnswer) {
   world.answer(50, 100);
 }
 
+TEST(CMovingWorld, ThePastIsThinnedAndBoundedAsInCxx) {
+  MovingWorld world;
+  const BodyId body = world.add(ball());
+  for (std::int64_t k = 0; k < 100; ++k) {
+    world.push(body, 1000 * k, at(1e-5 * static_cast<double>(k * k), 0, 0));
+  }
+  ft_world* const c = world.c.get();
+  std::size_t all = 0, left = 0;
+  ASSERT_EQ(ft_world_pose_bytes(c, &all), FT_OK);
+  EXPECT_EQ(all, world.cxx.poseBytes());
+  ASSERT_EQ(ft_world_thin_before(c, 90'000, 1e-3), FT_OK);
+  ASSERT_TRUE(world.cxx.thinBefore(90'000, 1e-3).ok());
+  ASSERT_EQ(ft_world_pose_bytes(c, &left), FT_OK);
+  EXPECT_EQ(left, world.cxx.poseBytes());
+  EXPECT_LT(left, all / 2);
+  world.answer(0, 99'000);
+  std::int64_t us = 0;
+  ASSERT_EQ(ft_world_forget_beyond(c, left / 2, &us), FT_OK);
+  EXPECT_EQ(us, world.cxx.forgetBeyond(left / 2));
+  EXPECT_GT(us, 0);
+  ASSERT_EQ(ft_world_forget_beyond(c, 0, nullptr), FT_OK);
+  test::expectRefused(ft_world_thin_before(c, 0, -1.0), FT_ERROR_OUT_OF_RANGE,
+                      {"ft_world_thin_before: metres", "-1"});
+  test::expectRefused(ft_world_pose_bytes(c, nullptr), FT_ERROR_NULL_ARGUMENT, {"bytes"});
+}
+
 TEST(CMovingWorld, APoseThatIsRefusedChangesNothing) {
   MovingWorld world;
   const BodyId body = world.add(ball()), wall = world.add(test::doorScene());

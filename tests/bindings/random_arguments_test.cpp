@@ -419,6 +419,9 @@ class Caller : public test::RandomCaller {
     take(ft_world_body_count(maybe(world), maybe(&required)));
     probe(world, known);
     if (random_.chance(0.1)) take(ft_world_forget_before(world, instant()));
+    if (random_.chance(0.1)) take(ft_world_thin_before(world, instant(), number()));
+    if (random_.chance(0.1)) take(ft_world_forget_beyond(maybe(world), index(), maybe(&known)));
+    take(ft_world_pose_bytes(world, maybe(&required)));
   }
   void probe(ft_world* world, std::int64_t known) {
     const ft_ask_part part{index(), index(), index()};

@@ -278,7 +278,10 @@ class Calls {
     const std::int32_t body = supply_.byte() % 4 - (supply_.byte() == 0 ? 1 : 0);
     if (body == 2) next.joint_count = 1;
     known(ft_world_push(world_, body, instant(), &next));
-    if (supply_.byte() < 16) known(ft_world_forget_before(world_, instant()));
+    if (supply_.byte() < 16) {
+      known(ft_world_forget_before(world_, instant()));
+      known(ft_world_thin_before(world_, instant(), supply_.number()));
+    }
     if (supply_.byte() < 16) {
       known(ft_world_ask(world_, supply_.byte() % 33, supply_.byte() % 33, supply_.byte() % 3));
       known(ft_world_ask_still(world_, supply_.byte() % 33, supply_.byte() % 3));

@@ -72,6 +72,21 @@ test("what is not known is no miss", () => {
   refuses(() => world.probe(499_999, [0, 5, 0], { direction: [0, 1, 0] }), /forgotten/);
 });
 
+test("the past is thinned, and kept within bytes", () => {
+  const { world, body } = hall();
+  for (let i = 1; i <= 50; ++i) world.push(body, 1_000_000 + 1000 * i, [[1 + 0.001 * i, 0, 0]]);
+  const all = world.poseBytes();
+  assert.equal(all, 52 * (56 + 256));
+  world.thinBefore(1_050_000, 1e-6);
+  assert.ok(world.poseBytes() < all / 4);
+  isAt(world.probe(1_025_000, [-3, 0, 0], { direction: [1, 0, 0] }).hits[0].distance, 3.525);
+  refuses(() => world.thinBefore(0, -1), /metres/);
+  refuses(() => world.thinBefore(0, "1"), /metres/);
+  const untilUs = world.forgetBeyond(2 * (56 + 256));
+  assert.ok(untilUs > 0 && world.poseBytes() <= 2 * (56 + 256));
+  refuses(() => world.probe(untilUs - 1, [0, 5, 0], { direction: [0, 1, 0] }), /forgotten/);
+});
+
 test("boxes are cast, overlap and are near; points are inside of what is closed", () => {
   const { world, body } = hall();
   isAt(world.probe(0, { hull: box, a: [-3, 0, 0] }, { direction: [1, 0, 0] }).hits[0].distance, 2.25);

@@ -66,6 +66,16 @@ namespace Foretouch {
       return us;
     }
     public void ForgetBefore(long timeUs) { Ft.Must(FtNative.ft_world_forget_before(this, timeUs)); }
+    /// <summary>The instant before which all is forgotten; by memory (PoseBytes).</summary>
+    public long ForgetBeyond(ulong bytes) {
+      long us;
+      Ft.Must(FtNative.ft_world_forget_beyond(this, (UIntPtr)bytes, out us));
+      return us;
+    }
+    /// <summary>No point is ever farther than so many metres from where all poses have it.</summary>
+    public void ThinBefore(long timeUs, double metres) {
+      Ft.Must(FtNative.ft_world_thin_before(this, timeUs, metres));
+    }
 
     public void Answer(long fromUs, long toUs) { Ft.Must(FtNative.ft_world_answer(this, fromUs, toUs)); }
 

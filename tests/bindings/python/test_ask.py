@@ -51,9 +51,57 @@ class Ask(unittest.TestCase):
         self.assertAlmostEqual(cast.hits[0].distance, 1.65, places=8)
         capsule = ([1, 0.5, 0], [2, 0.5, 0], 0.1)
         self.assertEqual(self.world.probe(0, capsule).verdict, "clear")
+        of_arrays = (np.array([1, 0.5, 0]), np.array([2, 0.5, 0]), 0.1)
+        self.assertEqual(self.world.probe(0, of_arrays).verdict, "clear")
+        self.assertEqual(self.world.probe(0, tuple(np.array([0, 0.5, 0]))).verdict, "hit")
         near = self.world.probe(0, capsule, within=1.0)
         self.assertAlmostEqual(near.hits[0].distance, 0.8, places=8)
         self.assertEqual(self.world.probe(0, ([0, 0.5, 0.2], 0.15)).verdict, "hit")
+
+    def test_a_skin_is_met_as_it_is_bent(self):
+        arm = ft.Avatar.from_arrays(
+            ["upper", "lower"], [-1, 0], [[0, 0, 0], [0, 1, 0]], None,
+            [[((0, 0, 0), (0, 1, 0), 0.1)], [((0, 0, 0), (0, 1, 0), 0.1)]])
+        # A sheet across the elbow, whose corners follow both links half and half.
+        corners = np.array([[-1, 1, 0.5], [1, 1, 0.5], [0, 2, 0.5]], float)
+        links = np.tile([0, 1], (3, 1))
+        points = np.stack([corners, corners - [0, 1, 0]], axis=1)
+        make = lambda **more: ft.Skin.from_arrays(
+            **{"avatar": arm, "triangles": [[0, 1, 2]], "triangle_links": [1], "links": links,
+               "weights": np.full((3, 2), 0.5), "points": points, **more})
+        skin = make()
+        self.assertEqual((skin.avatar, skin.num_triangles), (arm, 1))
+        world = ft.World()
+        body = world.add(arm, skin=skin)
+        half = np.sqrt(0.5)
+        straight = np.array([[1.0, 0, 0, 0]] * 2)
+        bent = np.array([[1.0, 0, 0, 0], [half, half, 0, 0]])  # a quarter about x
+        offsets = np.array([[0.0, 0, 0], [0, 1, 0]])
+        world.push(body, 0, (straight, offsets))
+        world.push(body, 1000, (bent, offsets))
+        ask = lambda us: world.probe(us, [0, 1.4, 5], direction=[0, 0, -1]).hits[0]
+        (hit, late) = ask(0), ask(1000)
+        self.assertAlmostEqual(hit.distance, 4.5, places=8)
+        self.assertEqual((hit.what.link, hit.what.triangle), ("lower", 0))
+        # Half of it is turned a quarter about the elbow: linear blend skinning, by hand.
+        turned = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
+        there = 0.5 * corners + 0.5 * ((corners - [0, 1, 0]) @ turned.T + [0, 1, 0])
+        (a, b, c) = there
+        normal = np.cross(b - a, c - a)
+        z = a[2] - (normal[0] * (0 - a[0]) + normal[1] * (1.4 - a[1])) / normal[2]
+        inside = world.probe(1000, [0, 1.4, 5], direction=[0, 0, -1]).verdict
+        self.assertEqual(inside, "hit")
+        self.assertAlmostEqual(late.distance, 5 - max(z, late.what.point[2]), places=7)
+        for bad, words in [({"triangle_links": [2]}, "links of the avatar"),
+                           ({"triangles": [[0, 1, 3]]}, "vertices of the skin"),
+                           ({"weights": np.full((3, 2), 0.4)}, "sum to one"),
+                           ({"links": np.tile([0, 5], (3, 1))}, "a link of the avatar")]:
+            with self.assertRaisesRegex(ft.InputError, words):
+                make(**bad)
+        with self.assertRaisesRegex(ft.InputError, "skin: expected a foretouch.Skin"):
+            world.add(arm, skin=1)
+        with self.assertRaisesRegex(ft.InputError, "skin of this avatar"):
+            world.add(rod(), skin=skin)
 
     def test_filters_by_body_and_link(self):
         for part in (self.rod, (self.rod, "rod")):

@@ -71,6 +71,12 @@ class Depth(unittest.TestCase):
         np.testing.assert_allclose(deep.way_out, [-0.02, 0, 0], atol=1e-9)
         with self.assertRaises(ft.InputError):
             world.depth(0, one, 7)
+        by_link = world.depth(0, one, other, link="ball", other_link=0)
+        self.assertEqual(by_link.lower, deep.lower)
+        with self.assertRaisesRegex(ft.InputError, "link"):
+            world.depth(0, one, other, link="hand")
+        with self.assertRaisesRegex(ft.InputError, "other_link: expected None"):
+            world.depth(0, one, other_link=0)
 
 
 if __name__ == "__main__":

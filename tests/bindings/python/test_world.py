@@ -142,6 +142,35 @@ class Answers(unittest.TestCase):
         with self.assertRaisesRegex(InputError, "utime_us: .*in the past"):
             World.push(world, slow, 150, at(1))
 
+    def test_forget_and_thin_what_they_keep(self):
+        world = World()
+        body = world.add(ball())
+        for k in range(100):
+            world.push(body, 1000 * k, at(1e-5 * k * k))
+        every = world.pose_bytes
+        self.assertEqual(every, 100 * (56 + 256))
+        world.thin_before(90_000, 1e-3)
+        self.assertLess(world.pose_bytes, every / 2)
+        hit = world.probe(45_500, (5, 0, 0), direction=(-1, 0, 0)).hits[0]
+        alone = World()
+        alone.add(ball())
+        for k in range(100):
+            alone.push(body, 1000 * k, at(1e-5 * k * k))
+        self.assertAlmostEqual(
+            hit.distance, alone.probe(45_500, (5, 0, 0), direction=(-1, 0, 0)).hits[0].distance,
+            delta=1e-3)
+        until = world.forget_beyond(world.pose_bytes // 2)
+        self.assertGreater(until, 0)
+        with self.assertRaisesRegex(InputError, "forgotten"):
+            world.probe(until - 1, (5, 0, 0), direction=(-1, 0, 0))
+        for metres in [-1.0, float("nan"), float("inf")]:
+            with self.assertRaisesRegex(InputError, "metres"):
+                world.thin_before(95_000, metres)
+        with self.assertRaisesRegex(TypeError, "metres"):
+            world.thin_before(95_000, "much")
+        with self.assertRaises(TypeError):
+            world.forget_beyond(-1)
+
     def test_show_themselves(self):
         world = World()
         world.add(ball())

@@ -124,6 +124,7 @@ void count(const AskedWorld& world, const WorldQuestion& question, const WorldAn
   if (!question.only.empty() || !question.without.empty()) ++tally.filtered;
   for (const WorldHit& hit : answer.hits) {
     if (hit.what.triangle >= 0) ++tally.ofTriangles;
+    if (hit.what.triangle >= 0 && world.hasSkin(hit.what.body)) ++tally.ofSkins;
     if (hit.what.lss >= 0 && hit.what.triangle < 0) ++tally.ofLss;
     if (hit.distance == 0.0) ++tally.starts;
     if (hit.what.lss < 0 && hit.what.triangle < 0) ++tally.inside;
@@ -137,7 +138,7 @@ AskTally judgeQuestions(std::uint64_t seed, int numQuestions, const AskTamper& t
                         int firstKind) {
   Random random(seed);
   AskTally tally;
-  AskedWorld world(random);
+  AskedWorld world(random, true);
   Scratch scratch;
   WorldAnswer answer;
   WorldTime time;
@@ -181,6 +182,7 @@ void AskTally::add(const AskTally& more) {
   unknown += more.unknown;
   ofTriangles += more.ofTriangles;
   ofLss += more.ofLss;
+  ofSkins += more.ofSkins;
   starts += more.starts;
   inside += more.inside;
   open += more.open;
@@ -199,8 +201,9 @@ std::string summaryOf(const AskTally& tally) {
         << " with a hit\n";
   }
   out << "hits: " << tally.ofLss << " of LSS, " << tally.ofTriangles << " of triangles, "
-      << tally.ofCarried << " of what is carried, " << tally.starts << " where they begin, "
-      << tally.inside << " inside of objects; " << tally.open << " objects that are open\n"
+      << tally.ofSkins << " of them of skins, " << tally.ofCarried << " of what is carried, "
+      << tally.starts << " where they begin, " << tally.inside << " inside of objects; "
+      << tally.open << " objects that are open\n"
       << tally.unknown << " unknown, " << tally.filtered << " filtered, " << tally.parts
       << " parts judged, largest gap at a hit " << static_cast<double>(tally.widest) << " m\n"
       << tally.problems.size() << " problems\n";

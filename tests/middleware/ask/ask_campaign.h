@@ -19,7 +19,7 @@ namespace foretouch::test {
 struct AskTally {
   std::map<std::string, int> questions, hits;  ///< By kind; answers with a hit.
   int unknown = 0, ofTriangles = 0, ofLss = 0, starts = 0, ofCarried = 0, filtered = 0, inside = 0,
-      open = 0;
+      open = 0, ofSkins = 0;
   std::int64_t parts = 0;   ///< Looked at.
   oracle::Real widest = 0;  ///< Gap at a reported distance (m).
   std::vector<std::string> problems;

@@ -166,6 +166,34 @@ TEST(AskHistory, RemembersASecondInAsManyBytesAsItsPosesHave) {
 #endif
 }
 
+// Boxes around what a body does are kept for a quarter of a second of world time. What was
+// forgotten in between is no part of one that is gone on with.
+TEST(AskHistory, GoesOnAfterPosesWereForgottenThatItHasNotSeen) {
+  Played played(5);
+  Scratch scratch;
+  WorldAnswer kept, anew;
+  test::Random random(6);
+  int hits = 0;
+  std::int64_t us = 0;
+  for (int round = 0; round < 40; ++round) {
+    // A few ticks are asked about; then many come, and go, that nobody asks about.
+    for (int tick = 0; tick < 20; ++tick, us += kTickUs) {
+      played.tick(us);
+      played.world.forgetBefore(us - 3 * kTickUs);
+      if (tick > 1 && tick < 17) continue;
+      for (int i = 0; tick > 1 && i < 4; ++i) {
+        const WorldQuestion question = drawn(random, us - 2 * kTickUs, us);
+        ASSERT_TRUE(askWorld(played.world, question, scratch, kept).ok());
+        Scratch other;
+        ASSERT_TRUE(askWorld(played.world, question, other, anew).ok());
+        expectSame(anew, kept);
+        hits += kept.hits.empty() ? 0 : 1;
+      }
+    }
+  }
+  EXPECT_GT(hits, 50);
+}
+
 // A replay of the poses, asked in another order by a memory of its own.
 TEST(AskHistory, AReplayOfTheLogHasTheSameVerdicts) {
   Played played(3), replay(3);

@@ -33,6 +33,7 @@ TEST(AskOracle, QuestionsNowAndThenAreAnsweredAsTheJudgeSees) {
   EXPECT_GT(tally.unknown, 50);
   EXPECT_GT(tally.ofLss, 200);
   EXPECT_GT(tally.ofTriangles, 1000);
+  EXPECT_GT(tally.ofSkins, 400);
   EXPECT_GT(tally.ofCarried, 20);
   EXPECT_GT(tally.starts, 100);
   EXPECT_GT(tally.inside, 25);

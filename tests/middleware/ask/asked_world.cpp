@@ -72,9 +72,63 @@ std::vector<JudgedPart> AskedWorld::partsAt(const WorldQuestion& question) const
     const auto why = whyUnknown(body, time);
     if (why && why != AskUnknown::Assumed) continue;
     const Real us = static_cast<Real>(time.us) + static_cast<Real>(time.fraction);
-    appendParts(body, both_.oracle.partsAt(body, -1, 0, us), all);
+    if (hasSkin(body)) {
+      appendSkin(body, us, all);
+    } else {
+      appendParts(body, both_.oracle.partsAt(body, -1, 0, us), all);
+    }
   }
   return all;
+}
+
+RandomSkin AskedWorld::skinOf(const Avatar& avatar, Random& random) {
+  const Pose rest = restPose(avatar.skeleton());
+  const ChainMotion motion(avatar.skeleton(), rest, rest);
+  RandomSkin made =
+      randomSkin(avatar, motion, random, 1 + random.below(random.chance(0.2) ? 90 : 9));
+  std::size_t kept = 0, first = 0;
+  for (std::size_t& count : made.counts) {
+    const std::size_t own = count;
+    if (kept > 0 && random.chance(0.2)) count = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      made.skin.triangles[kept++] = made.skin.triangles[first + i];
+    }
+    first += own;
+  }
+  made.skin.triangles.resize(kept);
+  return made;
+}
+
+void AskedWorld::appendSkin(BodyId body, Real us, std::vector<JudgedPart>& all) const {
+  const RandomSkin& skin = *skins_[slotOf(body)];
+  const Avatar& avatar = *avatars_[slotOf(body)];
+  std::vector<oracle::MovingFrame<Real>> frames;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    frames.push_back(both_.oracle.frameAt(body, link, 0, us, false));
+  }
+  JudgedPart judged;
+  judged.side.body = body;
+  std::size_t triangle = 0;
+  for (LinkId link = 0; link < avatar.numLinks(); ++link) {
+    judged.side.link = link;
+    for (std::size_t i = 0; i < skin.counts[slotOf(link)]; ++i) {
+      judged.side.triangle = static_cast<TriangleId>(i);
+      judged.part = {link, 3, {}, 0.0};
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        oracle::Vec3r sum;
+        const auto vertex = slotOf(skin.skin.triangles[triangle][corner]);
+        for (const SkinInfluence& share : skin.skin.vertices[vertex]) {
+          sum = sum + static_cast<Real>(share.weight) *
+                          frames[slotOf(share.link)].at(plain(share.p_L).as<Real>());
+        }
+        judged.part.corners[corner] = sum.as<double>();
+      }
+      all.push_back(judged);
+      ++triangle;
+    }
+    const bool isBare = skin.counts[slotOf(link)] == 0;
+    if (isBare) appendParts(body, both_.oracle.partsAt(body, link, 0, us), all);
+  }
 }
 
 void AskedWorld::addClosed(RawScene& raw, Random& random, double size) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/middleware/ask/ask_campaign.h"
+#include "tests/middleware/mesh_body.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/middleware/world/random_worlds.h"
 
@@ -15,10 +16,13 @@ namespace foretouch::test {
 /// A world of both kinds, and what its bodies are.
 class AskedWorld {
  public:
-  explicit AskedWorld(Random& random)
+  /// Without skins, if flights are asked about: these are not followed as they bend.
+  AskedWorld(Random& random, bool hasSkins)
       : still_(stillScene(random)), both_(still_, WorldOptions{1e-3}) {
     const int walkers = 1 + random.below(3);
-    for (int i = 0; i < walkers; ++i) addWalker(random, i == 0 || random.chance(0.3));
+    for (int i = 0; i < walkers; ++i) {
+      addWalker(random, i == 0 || random.chance(0.3), hasSkins && random.chance(0.4));
+    }
     const int meshes = 1 + random.below(2);
     for (int i = 0; i < meshes; ++i) {
       const Scene mesh = clutterOf(random, 1 + random.below(12), 1 + random.below(3));
@@ -34,6 +38,9 @@ class AskedWorld {
     return static_cast<int>(both_.oracle.bodies[slotOf(body)].parents.size());
   }
   [[nodiscard]] bool isCarried(BodyId body) const { return body == tool_; }
+  [[nodiscard]] bool hasSkin(BodyId body) const {
+    return body >= 0 && slotOf(body) < skins_.size() && skins_[slotOf(body)];
+  }
   [[nodiscard]] const BodyOptions& options(BodyId body) const { return options_[slotOf(body)]; }
   [[nodiscard]] const std::optional<Scene>& still() const { return still_; }
   /// Of the body itself, and of who carries it; nothing if all is known.
@@ -77,10 +84,16 @@ class AskedWorld {
     return both_.add(mesh, optionsOf(random));
   }
 
-  void addWalker(Random& random, bool hasSurface) {
+  void addWalker(Random& random, bool hasSurface, bool hasSkin) {
     Walker walker = randomWalker(random, random.inBox(0.8), random.uniform(0.0, 0.1));
     BodyOptions options = optionsOf(random);
     if (hasSurface) options.surface = randomSurface(walker.avatar, random);
+    if (hasSkin) {
+      skins_.resize(slotOf(numBodies() + 1));
+      skins_.back() = skinOf(walker.avatar, random);
+      options.skin =
+          SkinnedSurface::build(walker.avatar, skins_.back()->skin, skins_.back()->counts).value();
+    }
     meshes_.emplace_back();
     surfaces_.push_back(options.surface);
     avatars_.emplace_back(walker.avatar);
@@ -98,6 +111,10 @@ class AskedWorld {
                  RigidPose{random.rotation(), random.inBox(0.1)});
   }
 
+  /// Some links have no triangles.
+  static RandomSkin skinOf(const Avatar& avatar, Random& random);
+  /// As the judge's links carry it then.
+  void appendSkin(BodyId body, Real us, std::vector<JudgedPart>& all) const;
   void appendParts(BodyId body, const std::vector<oracle::OraclePart>& parts,
                    std::vector<JudgedPart>& all) const;
   [[nodiscard]] const OracleBody& bodyOf(BodyId body) const {
@@ -110,6 +127,7 @@ class AskedWorld {
   std::vector<std::optional<Scene>> meshes_;
   std::vector<std::optional<AvatarSurface>> surfaces_;
   std::vector<std::optional<Avatar>> avatars_;
+  std::vector<std::optional<RandomSkin>> skins_;  // of the first bodies
   BodyId tool_ = -1;
 };
 

@@ -222,7 +222,7 @@ AskTally judgeFlights(std::uint64_t seed, int count,
                       const std::function<void(FlightQuestion&)>& tamper) {
   Random random(seed);
   AskTally tally;
-  AskedWorld world(random);
+  AskedWorld world(random, false);
   Scratch scratch;
   FlightAnswer answer;
   for (int i = 0; i < count; ++i) {

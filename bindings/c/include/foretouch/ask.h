@@ -1,8 +1,9 @@
 /* ask.h: questions to a moving world at an instant, in C99 and C++: what a ray hits, what a moved
- * sphere, capsule or convex solid hits first, what a shape overlaps, what is nearest, what a point is
- * inside of; and what a shape that flies hits first while the bodies move. At any instant that the
- * world knows, of the past and between poses too. What they are good for, task by task: docs/ask.md.
- * Units, frames, errors, memory and sizes of structs are as in foretouch.h; time is as in world.h. */
+ * sphere, capsule or convex solid hits first, what a shape overlaps, what is nearest, what a point
+ * is inside of; and what a shape that flies hits first while the bodies move. At any instant that
+ * the world knows, of the past and between poses too. What they are good for, task by task:
+ * docs/ask.md. Units, frames, errors, memory and sizes of structs are as in foretouch.h; time is as
+ * in world.h. */
 #ifndef FORETOUCH_ASK_H
 #define FORETOUCH_ASK_H
 
@@ -11,6 +12,30 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* ---- What is met ---- */
+
+/* Triangles that bend with several links. Vertex v is at the sum of weight times (the link's pose
+ * applied to the point), over the shares from first_share[v] to before first_share[v + 1]; the
+ * weights of a vertex add up to 1. */
+typedef struct ft_skin {
+  uint32_t size;
+  uint32_t reserved; /* 0 */
+  size_t vertex_count;
+  const int32_t* first_share; /* one more than vertices; 0 first */
+  const int32_t* share_links;
+  const double* share_weights;   /* above 0 */
+  const double* share_points;    /* the vertex in the link's frame, where it was bound; metres */
+  const int32_t* triangles;      /* three vertices each */
+  const int32_t* triangle_links; /* whose hit each is */
+  size_t triangle_count;
+} ft_skin;
+
+/* From now on questions meet bodies of this avatar, which are added later, by the skin, as it is
+ * bent at the instant; links without triangles of it as they touch. First contacts and events go on
+ * by LSS or triangles. The arrays are not kept. Errors: bad arrays; ft_last_error_index() is the
+ * vertex or triangle. */
+FT_API ft_status ft_avatar_set_skin(ft_avatar* avatar, const ft_skin* skin);
 
 /* ---- Whom ---- */
 
@@ -33,9 +58,9 @@ typedef struct ft_ask_instant {
 /* Whom a question is about: everybody, unless it says less. */
 typedef struct ft_ask_whom {
   uint32_t size;
-  uint32_t groups;    /* bit g: bodies of group g; default all */
-  int32_t asks_still; /* 1, the default: what is still as well; 0 */
-  int32_t reserved;   /* 0 */
+  uint32_t groups;         /* bit g: bodies of group g; default all */
+  int32_t asks_still;      /* 1, the default: what is still as well; 0 */
+  int32_t reserved;        /* 0 */
   const ft_ask_part* only; /* nothing but these; none: everybody */
   size_t only_count;
   const ft_ask_part* without; /* not these */
@@ -70,7 +95,7 @@ typedef struct ft_question {
   double reach;        /* of a cast: how far it moves; of nearest: no farther; up to 1e8 m */
   int64_t time_us;     /* the instant, */
   double time_fraction;
-  const ft_ask_whom* whom;         /* NULL: everybody */
+  const ft_ask_whom* whom;        /* NULL: everybody */
   const ft_ask_instant* instants; /* these bodies at these instants, all others at time_us */
   size_t instant_count;
   /* Three numbers each, from shape.a: corners of the convex solid that takes the place of the axis,
@@ -101,15 +126,15 @@ enum {
  * answer stays. */
 FT_API ft_status ft_world_probe(ft_world* world, const ft_question* question, int32_t* verdict);
 
-/* An LSS or a triangle that was hit or is near; or, without either, an object that is solid and holds
- * the shape's place, which is its point then. */
+/* An LSS or a triangle that was hit or is near; or, without either, an object that is solid and
+ * holds the shape's place, which is its point then. */
 typedef struct ft_world_hit {
   uint32_t size;
-  int32_t is_assumed;  /* 1: it rests on a body that was silent, and was taken to hold still */
-  ft_world_side what;  /* its point: on its surface */
-  double distance;     /* of a cast: along the way, free before; else how far apart; rounded down */
-  double normal[3];    /* unit, to the shape, W; zero if none is told */
-  double weights[3];   /* of a triangle: the point as a sum of its corners; else zero */
+  int32_t is_assumed; /* 1: it rests on a body that was silent, and was taken to hold still */
+  ft_world_side what; /* its point: on its surface */
+  double distance;    /* of a cast: along the way, free before; else how far apart; rounded down */
+  double normal[3];   /* unit, to the shape, W; zero if none is told */
+  double weights[3];  /* of a triangle: the point as a sum of its corners; else zero */
 } ft_world_hit;
 
 /* What one of many questions found: its hits are the next hit_count of ft_world_hits(), after those
@@ -121,8 +146,8 @@ typedef struct ft_probed {
 } ft_probed;
 
 /* Many questions in one call, each answered as ft_world_probe() answers it, to the bit, whatever
- * their order; cheaper where they are at the same instants. All have the same size. If one is refused,
- * none is answered, and the message names it. `probed` has room for `count`. */
+ * their order; cheaper where they are at the same instants. All have the same size. If one is
+ * refused, none is answered, and the message names it. `probed` has room for `count`. */
 FT_API ft_status ft_world_probe_many(ft_world* world, const ft_question* questions, size_t count,
                                      ft_probed* probed);
 
@@ -133,11 +158,12 @@ FT_API ft_status ft_world_hits(const ft_world* world, ft_world_hit* hits, size_t
                                size_t* required);
 
 enum {
-  FT_ASK_ASSUMED = 0,   /* silent, and taken to hold still: hits of it are assumed */
-  FT_ASK_SILENT = 1,    /* nothing is known after its last pose; it was left out */
-  FT_ASK_NOT_THERE = 2, /* before its first pose; it was left out */
+  FT_ASK_ASSUMED = 0,    /* silent, and taken to hold still: hits of it are assumed */
+  FT_ASK_SILENT = 1,     /* nothing is known after its last pose; it was left out */
+  FT_ASK_NOT_THERE = 2,  /* before its first pose; it was left out */
   FT_ASK_UNRESOLVED = 3, /* of a flight: more triangles, or steps, than are followed in motion */
-  FT_ASK_OPEN = 4 /* of solids: an object of it, or of what is still, has no inside: it is not closed */
+  FT_ASK_OPEN =
+      4 /* of solids: an object of it, or of what is still, has no inside: it is not closed */
 };
 
 /* A body that was asked about and is not known then; or an object that has no inside. */
@@ -148,8 +174,8 @@ typedef struct ft_unknown_body {
   int32_t object; /* of FT_ASK_OPEN, unless it is a link's surface; else FT_EVERY_OBJECT */
 } ft_unknown_body;
 
-/* Of the last ft_world_probe(), ft_world_probe_many() or ft_world_fly(), whichever came last; by body,
- * of many questions one after the other. */
+/* Of the last ft_world_probe(), ft_world_probe_many() or ft_world_fly(), whichever came last; by
+ * body, of many questions one after the other. */
 FT_API ft_status ft_world_unknown(const ft_world* world, ft_unknown_body* bodies, size_t capacity,
                                   size_t* required);
 
@@ -158,9 +184,9 @@ FT_API ft_status ft_world_unknown(const ft_world* world, ft_unknown_body* bodies
 /* A sphere, capsule or convex solid on its way, at constant speed and without a turn. */
 typedef struct ft_flight {
   uint32_t size;
-  uint32_t reserved;       /* 0 */
-  ft_lss shape;            /* where it is at from_us */
-  double way[3];           /* to where it is at to_us; zero: it waits */
+  uint32_t reserved; /* 0 */
+  ft_lss shape;      /* where it is at from_us */
+  double way[3];     /* to where it is at to_us; zero: it waits */
   int64_t from_us, to_us;
   const ft_ask_whom* whom; /* NULL: everybody */
   const double* hull;      /* as in ft_question */
@@ -172,13 +198,13 @@ FT_API ft_status ft_flight_init(ft_flight* flight, size_t size);
 /* The first hit of all. */
 typedef struct ft_flight_hit {
   uint32_t size;
-  int32_t verdict;      /* FT_ASK_CLEAR, _HIT or _UNKNOWN: the rest is zero but of FT_ASK_HIT */
-  int64_t time_us;      /* rounded down: nothing is hit before */
+  int32_t verdict; /* FT_ASK_CLEAR, _HIT or _UNKNOWN: the rest is zero but of FT_ASK_HIT */
+  int64_t time_us; /* rounded down: nothing is hit before */
   double time_fraction;
-  int32_t is_assumed;   /* as in ft_world_hit, as all that follows */
-  int32_t reserved;     /* 0 */
+  int32_t is_assumed; /* as in ft_world_hit, as all that follows */
+  int32_t reserved;   /* 0 */
   ft_world_side what;
-  double distance;      /* along the way */
+  double distance; /* along the way */
   double normal[3];
   double weights[3];
 } ft_flight_hit;

@@ -108,6 +108,18 @@ FT_API ft_status ft_world_known_until(const ft_world* world, int64_t* utime_us, 
 /* Lets go of what no window from `utime_us` on needs. Earlier poses and windows are refused from
  * now on. */
 FT_API ft_status ft_world_forget_before(ft_world* world, int64_t utime_us);
+/* The same by memory: lets go of the oldest poses of all until ft_world_pose_bytes() is at most
+ * `bytes`, or nothing is left before ft_world_known_until(). Stores in *utime_us the instant before
+ * which it has forgotten; may be NULL. */
+FT_API ft_status ft_world_forget_beyond(ft_world* world, size_t bytes, int64_t* utime_us);
+/* What the poses that are kept take: of a pose of n joints 56 n + 256. */
+FT_API ft_status ft_world_pose_bytes(const ft_world* world, size_t* bytes);
+/* Lets go of poses before `utime_us` between others that say nearly the same: no point of any body,
+ * of what it carries included, is ever farther than `metres` from where all poses that were pushed
+ * have it, however often this is called. Answers about instants from `utime_us` on stay as they
+ * are, to the bit. Nobody can be attached before it any more. Errors: metres that are not finite,
+ * or below 0. */
+FT_API ft_status ft_world_thin_before(ft_world* world, int64_t utime_us, double metres);
 
 /* ---- The question ---- */
 

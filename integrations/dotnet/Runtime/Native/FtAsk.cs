@@ -3,6 +3,28 @@ using System;
 using System.Runtime.InteropServices;
 
 namespace Foretouch {
+  /// <summary>Triangles that bend with several links. Vertex v is at the sum of weight times (the link's
+  /// pose applied to the point), over the shares from first_share[v] to before first_share[v + 1]; the
+  /// weights of a vertex add up to 1.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  public unsafe partial struct FtSkin {
+    public uint size;
+    /// <summary>0</summary>
+    public uint reserved;
+    public ulong vertexCount;
+    /// <summary>one more than vertices; 0 first</summary>
+    public int* firstShare;
+    public int* shareLinks;
+    /// <summary>above 0</summary>
+    public double* shareWeights;
+    /// <summary>the vertex in the link's frame, where it was bound; metres</summary>
+    public double* sharePoints;
+    /// <summary>three vertices each</summary>
+    public int* triangles;
+    /// <summary>whose hit each is</summary>
+    public int* triangleLinks;
+    public ulong triangleCount;
+  }
   /// <summary>A body, one of its links, or an object of it: of a mesh, or of what is still
   /// (FT_STILL_SCENE).</summary>
   [StructLayout(LayoutKind.Sequential)]
@@ -250,6 +272,11 @@ namespace Foretouch {
     }
   }
   public static unsafe partial class FtNative {
+    /// <summary>From now on questions meet bodies of this avatar, which are added later, by the skin, as it
+    /// is bent at the instant; links without triangles of it as they touch. First contacts and events go on
+    /// by LSS or triangles. The arrays are not kept. Errors: bad arrays; ft_last_error_index() is the
+    /// vertex or triangle.</summary>
+    [DllImport(Library)] public static extern int ft_avatar_set_skin(FtAvatar avatar, FtSkin* skin);
     [DllImport(Library)] public static extern int ft_ask_whom_init(FtAskWhom* whom, ulong size);
     [DllImport(Library)] public static extern int ft_question_init(FtQuestion* question, ulong size);
     /// <summary>Answers, and stores FT_ASK_CLEAR, _HIT or _UNKNOWN in *verdict, which may be NULL. Never

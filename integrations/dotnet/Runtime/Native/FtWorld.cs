@@ -252,6 +252,18 @@ namespace Foretouch {
     /// <summary>Lets go of what no window from `utime_us` on needs. Earlier poses and windows are refused
     /// from now on.</summary>
     [DllImport(Library)] public static extern int ft_world_forget_before(FtWorld world, long utimeUs);
+    /// <summary>The same by memory: lets go of the oldest poses of all until ft_world_pose_bytes() is at
+    /// most `bytes`, or nothing is left before ft_world_known_until(). Stores in *utime_us the instant
+    /// before which it has forgotten; may be NULL.</summary>
+    [DllImport(Library)] public static extern int ft_world_forget_beyond(FtWorld world, ulong bytes, out long utimeUs);
+    /// <summary>What the poses that are kept take: of a pose of n joints 56 n + 256.</summary>
+    [DllImport(Library)] public static extern int ft_world_pose_bytes(FtWorld world, out ulong bytes);
+    /// <summary>Lets go of poses before `utime_us` between others that say nearly the same: no point of any
+    /// body, of what it carries included, is ever farther than `metres` from where all poses that were
+    /// pushed have it, however often this is called. Answers about instants from `utime_us` on stay as they
+    /// are, to the bit. Nobody can be attached before it any more. Errors: metres that are not finite, or
+    /// below 0.</summary>
+    [DllImport(Library)] public static extern int ft_world_thin_before(FtWorld world, long utimeUs, double metres);
     /// <summary>Finds the first contact, in the window, of every two links of different bodies that are
     /// asked, of every link and what is still, and of own links where a body has rules. Allocates nothing
     /// once memory has grown, as long as nobody is added or carried in another way. Errors: a window
