@@ -71,7 +71,14 @@ LD_LIBRARY_PATH='' mono "$folder/errors.exe" absent
 echo "== components, in a player of our own"
 compile Unity.dll -target:library -define:UNITY_5_3_OR_NEWER "$package"/Runtime/{,Native/,Engine/,Unity/}*.cs "$here"/Fake*.cs
 compile components.exe -r:"$folder/Unity.dll" "$here"/{Components,Check}.cs "$package"/Samples~/*/*.cs
-mono "$folder/components.exe"
+files=()
+if [ -x "$(dirname "$importer")/foretouch" ]; then
+  "$(dirname "$importer")/foretouch" avatar colliders "$examples/dancer.avatar.json" -o "$folder/dancer.json"
+  files=("$examples/dancer.avatar.json" "$folder/dancer.json")
+else
+  echo "left out: colliders, which need the program"
+fi
+mono "$folder/components.exe" "${files[@]}"
 compile garbage.exe -r:"$folder/Unity.dll" "$here"/{Garbage,Check}.cs
 mono "$folder/garbage.exe"
 

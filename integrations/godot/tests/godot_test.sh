@@ -77,6 +77,15 @@ cmp "$folder/ticks.bin" "$folder/c_ticks.bin"
 echo "$(wc -c <"$folder/steps.bin") and $(wc -c <"$folder/ticks.bin") bytes of the bundled clips: the same"
 "$folder/answers" own "$folder/own.bin"
 
+echo "== colliders of an avatar"
+if [ -x "$(dirname "$importer")/foretouch" ]; then
+  "$(dirname "$importer")/foretouch" avatar colliders "$examples/dancer.avatar.json" --godot 3 -o "$project/dancer.tscn"
+  must "$project" colliders.gd
+  grep ' checks, ' "$folder/said.txt"
+else
+  echo "left out: they need the program"
+fi
+
 echo "== the demo"
 cp -r "$package/demo" "$folder/demo"
 cp -r "$project/addons" "$folder/demo/"

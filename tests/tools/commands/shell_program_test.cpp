@@ -340,6 +340,7 @@ TEST(Quiet, MeansTheSameToEveryCommand) {
       {"avatar", "mesh", wall, "-o", out + "json"},
       {"avatar", "urdf", robot, "-o", out + "json"},
       {"avatar", "check", man},
+      {"avatar", "colliders", man, "-o", out + "glb"},
       {"avatar", "pairs", FORETOUCH_EXAMPLE_FOLDER "/dancer.avatar.json"},
       {"scene", "check", wall},
       {"scene", "bake", wall, "-o", out + "ftscene"},
