@@ -16,8 +16,8 @@ files=("$scratch/vrm_0.vrm" "$scratch/vrm_1.vrm" "$@")
 if [ -n "${FORETOUCH:-}" ]; then
   for file in "${files[@]}"; do
     name=$scratch/$(basename "$file" .vrm)
-    "$FORETOUCH" --quiet avatar mesh "$file" -o "$name.json" >/dev/null
-    "$FORETOUCH" --quiet avatar colliders "$name.json" --into "$file" -o "$name.more.vrm" >/dev/null
+    "$FORETOUCH" avatar mesh "$file" -o "$name.json" --quiet >/dev/null
+    "$FORETOUCH" avatar colliders "$name.json" --into "$file" -o "$name.more.vrm" --quiet >/dev/null
     files+=("$name.more.vrm")
   done
 fi
