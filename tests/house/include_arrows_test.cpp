@@ -283,8 +283,8 @@ TEST(IncludeArrows, JsonIsParsedInFewRooms) {
   }
   EXPECT_EQ(rooms,
             (std::set<std::string>{"assets/avatar", "assets/bounds", "assets/clip", "assets/import",
-                                   "assets/mesh", "tools/batch", "tools/glb", "tools/inputs",
-                                   "tools/solid", "tools/sweep"}));
+                                   "assets/mesh", "tools/batch", "tools/colliders", "tools/glb",
+                                   "tools/inputs", "tools/solid", "tools/sweep"}));
 }
 
 /// A header and its source are one unit.
