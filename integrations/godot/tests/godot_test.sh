@@ -4,6 +4,7 @@
 #   godot_test.sh FOLDER_OF_LIBRARY IMPORTER FOLDER_OF_EXAMPLES                all tests
 #   godot_test.sh FOLDER_OF_LIBRARY IMPORTER FOLDER_OF_EXAMPLES --cost         what the border costs, measured
 #   godot_test.sh FOLDER_OF_LIBRARY IMPORTER FOLDER_OF_EXAMPLES --hands [N]    N hands led at a thin board (10,000)
+#   godot_test.sh FOLDER_OF_LIBRARY IMPORTER FOLDER_OF_EXAMPLES --film         the demo, a line per frame
 set -euo pipefail
 library=$(realpath "$1") importer=$(realpath "$2") examples=$(realpath "$3")
 here=$(cd "$(dirname "$0")" && pwd)
@@ -45,6 +46,13 @@ case "${4:-}" in
     cc_here cost "$here/cost.c"
     must "$project" cost.gd
     "$folder/cost" "$examples" "$folder/poses.bin" "$folder/said.txt"
+    exit
+    ;;
+  --film)
+    cp -r "$package/demo" "$folder/demo"
+    cp -r "$project/addons" "$here/film.gd" "$folder/demo/"
+    godot "$folder/demo" --fixed-fps 60 -s film.gd
+    sed -n 's/^film: //p' "$folder/said.txt"
     exit
     ;;
   --hands)
