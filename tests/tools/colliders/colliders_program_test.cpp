@@ -429,6 +429,43 @@ TEST(Colliders, RefuseAnAvatarThatRestsElsewhere) {
   EXPECT_TRUE(holds(ended.err, "m from its node")) << ended.err;
 }
 
+/// The JSON is changed in the program itself: it refuses what would take its stack, and survives
+/// all.
+TEST(Colliders, SurviveDamagedVrmAvatars) {
+  const TempFolder folder;
+  VrmSample sample = vrmSample(VrmVersion::One);
+  const std::string body = folder.write("body.vrm", sample.file.glb()), file = folder / "body.json";
+  ASSERT_EQ(runForetouch({"avatar", "mesh", body, "-o", file}).exitCode, 0);
+  const auto add = [&](const std::string& vrm) {
+    return runForetouch({"avatar", "colliders", file, "--into", vrm, "-o", folder / "more.vrm"});
+  };
+  json nested = json::array();
+  for (int i = 0; i < 300; ++i) nested = json::array({nested});
+  sample.file.root["extras"] = nested;
+  const Ended deep = add(folder.write("deep.vrm", sample.file.glb()));
+  EXPECT_EQ(deep.exitCode, 2);
+  EXPECT_TRUE(holds(deep.err, "nests at most 256 deep")) << deep.err;
+  sample.file.root.erase("extras");
+  for (const char* const part : {"springs", "colliders", "colliderGroups"}) {
+    VrmSample odd = vrmSample(VrmVersion::One);
+    odd.extension("VRMC_springBone").erase(part);
+    EXPECT_EQ(add(folder.write("odd.vrm", odd.file.glb())).exitCode, 0) << part;
+  }
+  const std::string whole = contentOf(body);
+  int refused = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    Random random(seed);
+    std::string damaged = whole;
+    for (int i = 0; i < 3; ++i) {
+      damaged[static_cast<std::size_t>(random.below(4000))] = static_cast<char>(random.below(256));
+    }
+    const Ended ended = add(folder.write("damaged.vrm", damaged));
+    EXPECT_EQ(ended.signal, 0) << seed;
+    refused += ended.exitCode == 2 ? 1 : 0;
+  }
+  EXPECT_GT(refused, 20);
+}
+
 /// glTF of other hands: two radii, a scale, a collider that is its own bone, and shapes that are
 /// none.
 TEST(Colliders, OfGltfByOthersAreRead) {

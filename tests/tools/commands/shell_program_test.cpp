@@ -55,7 +55,7 @@ TEST(Completion, OffersCommandsOptionsWordsAndFilesInBash) {
   folder.write("notes.txt", "");
   EXPECT_EQ(offersOfBash(folder, "foretouch re"), (Offers{"repair", "replay"}));
   EXPECT_EQ(offersOfBash(folder, "foretouch avatar ''"),
-            (Offers{"bvh", "check", "mesh", "pairs", "urdf"}));
+            (Offers{"bvh", "check", "colliders", "mesh", "pairs", "urdf"}));
   EXPECT_EQ(offersOfBash(folder, "foretouch avatar check --clip-s"), Offers{"--clip-scale"});
   EXPECT_EQ(offersOfBash(folder, "foretouch replay --fidelity l"), Offers{"link"});
   EXPECT_EQ(offersOfBash(folder, "foretouch serve --fidelity ''"), (Offers{"exact", "link"}));
