@@ -32,6 +32,6 @@ if [ "${1:-}" = --package ]; then
 fi
 case "${1:---cost}" in --cost) ;; *) echo "run: dotnet: expected --cost, --package or --generate, found '$1'" >&2; exit 2 ;; esac
 configure release -DFORETOUCH_BENCH=ON
-cmake --build --preset release --target foretouch_c foretouch-import example >&2
+cmake --build --preset release --target foretouch_c foretouch foretouch-import example >&2
 exec $package/tests/dotnet_test.sh build/release/bindings/c build/release/bin/foretouch-import \
   build/release/share/foretouch/examples "$@"

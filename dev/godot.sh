@@ -29,6 +29,6 @@ case "${1:-}" in
 esac
 install_group godot
 configure release -DFORETOUCH_BENCH=ON
-cmake --build --preset release --target foretouch_c foretouch-import example >&2
+cmake --build --preset release --target foretouch_c foretouch foretouch-import example >&2
 exec $package/tests/godot_test.sh build/release/bindings/c build/release/bin/foretouch-import \
   build/release/share/foretouch/examples "$@"

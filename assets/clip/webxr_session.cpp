@@ -87,20 +87,32 @@ struct Instant {
 
 class SessionReader {
  public:
-  Result<Done> read(const json& session) {
-    const bool isSession = session.is_object() && session.contains("schema") &&
-                           session.contains("frames") && session["schema"].is_array() &&
-                           session["frames"].is_array();
-    if (!isSession) return wrong("expected a session of iwer's recorder: 'schema' and 'frames'");
-    FORETOUCH_CHECK(readSchema(session["schema"]));
-    if (session["frames"].size() < 2)
-      return wrong("expected at least two frames", ErrorCode::Empty);
-    constexpr std::size_t kChannels = 7;
-    if (session["frames"].size() * names_.size() * kChannels > kMaxBvhValues) {
-      return wrong("expected at most 2^26 values", ErrorCode::LimitExceeded);
+  /// Every part of the session as it is parsed: `depth` is that of what holds it. False: it has
+  /// been read, and need not be kept. A session may have many more frames than fit into memory as
+  /// JSON.
+  bool take(int depth, json::parse_event_t event, const json& part) {
+    using Event = json::parse_event_t;
+    if (event == Event::key && depth == 1) key_ = part.get<std::string>();
+    const bool isWhole =
+        event == Event::array_end || event == Event::object_end || event == Event::value;
+    if (!isWhole || !read_.ok()) return read_.ok();
+    if (depth == 1 && key_ == "schema") {
+      if (!names_.empty()) read_ = wrong("expected one 'schema', found two");
+      if (read_.ok()) read_ = part.is_array() ? readSchema(part) : noSession();
+    } else if (depth == 2 && key_ == "frames") {
+      read_ = names_.empty() ? wrong("expected 'schema' before 'frames'") : readFrame(part);
+      return false;
     }
-    std::int64_t number = 0;
-    for (const json& frame : session["frames"]) FORETOUCH_CHECK(readFrame(frame, number++));
+    return true;
+  }
+
+  /// `rest`: what take() has left of it.
+  Result<Done> finish(const json& rest) {
+    FORETOUCH_CHECK(read_);
+    const bool isSession = rest.is_object() && rest.contains("schema") && rest.contains("frames") &&
+                           rest["frames"].is_array();
+    if (!isSession) return noSession();
+    if (instants_.size() < 2) return wrong("expected at least two frames", ErrorCode::Empty);
     return Done{};
   }
 
@@ -131,6 +143,10 @@ class SessionReader {
   }
 
  private:
+  static Error noSession() {
+    return wrong("expected a session of iwer's recorder: 'schema' and 'frames'");
+  }
+
   std::size_t addJoint(const std::string& name, JointId parent) {
     names_.push_back(name);
     parents_.push_back(parent);
@@ -197,7 +213,12 @@ class SessionReader {
     return Done{};
   }
 
-  Result<Done> readFrame(const json& frame, std::int64_t number) {
+  Result<Done> readFrame(const json& frame) {
+    const auto number = static_cast<std::int64_t>(instants_.size());
+    constexpr std::size_t kChannels = 7;
+    if ((instants_.size() + 1) * names_.size() * kChannels > kMaxBvhValues) {
+      return wrong("expected at most 2^26 values", ErrorCode::LimitExceeded);
+    }
     if (!frame.is_array() || frame.empty() || !frame[0].is_number()) {
       return wrong("expected a time and places", ErrorCode::Syntax, number);
     }
@@ -320,6 +341,8 @@ class SessionReader {
   }
 
   inline static const json kNothing = json();
+  std::string key_;  // of the session's part that is being parsed
+  Result<Done> read_ = Done{};
   std::vector<std::string> names_;
   std::vector<JointId> parents_;
   std::vector<bool> isSeen_;
@@ -335,9 +358,13 @@ class SessionReader {
 
 Result<Clip> parseWebXrSession(std::string_view text, const std::string& name,
                                std::optional<double> rateHz) {
-  json session;
+  SessionReader reader;
+  json rest;
   try {
-    session = json::parse(text.begin(), text.end());
+    rest = json::parse(text.begin(), text.end(),
+                       [&](int depth, json::parse_event_t event, const json& part) {
+                         return reader.take(depth, event, part);
+                       });
   } catch (const json::parse_error& error) {
     const std::size_t place = std::min(error.byte, text.size());
     const auto line =
@@ -347,8 +374,7 @@ Result<Clip> parseWebXrSession(std::string_view text, const std::string& name,
   } catch (const json::exception&) {
     return Error::in(name, ErrorCode::Syntax, "expected JSON with numbers that a double holds");
   }
-  SessionReader reader;
-  const auto read = reader.read(session);
+  const auto read = reader.finish(rest);
   if (!read.ok()) return inFile(read.error(), name);
   return inFile(reader.take(rateHz), name);
 }

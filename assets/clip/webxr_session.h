@@ -16,7 +16,9 @@
 
 namespace foretouch {
 
-inline constexpr std::size_t kMaxSessionBytes = std::size_t{64} << 20;
+/// Of text, which is in memory as a whole; its frames become poses one by one. Three quarters of an
+/// hour of two hands at 72 Hz.
+inline constexpr std::size_t kMaxSessionBytes = std::size_t{512} << 20;
 
 /// Metres, +Y up, as WebXR has them. Joints: "viewer"; of an input with a hand WebXR's 25 ("left
 /// index-finger-tip"), the wrist a root; of another one "left grip", or "left ray". Frames come

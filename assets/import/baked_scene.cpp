@@ -96,6 +96,11 @@ std::optional<FileMark> markOf(const std::string& path) {
   return FileMark{state.bytes, XXH3_64bits(content.get(), state.bytes)};
 }
 
+/// A count, where memory may have 32 bits. What it counts is in memory.
+std::size_t counted(std::uint64_t count) {
+  return static_cast<std::size_t>(count);
+}
+
 /// A baked file in memory.
 struct Baked {
   std::shared_ptr<const char> content;
@@ -104,7 +109,7 @@ struct Baked {
 
   template <typename T>
   [[nodiscard]] FrozenArray<T> array(std::uint64_t place, std::uint64_t count) const {
-    return {reinterpret_cast<const T*>(content.get() + place), count, content};
+    return {reinterpret_cast<const T*>(content.get() + place), counted(count), content};
   }
 };
 
@@ -153,7 +158,7 @@ Result<Baked> opened(const std::string& path) {
   if (!(header.metresPerUnit > 0.0) || !std::isfinite(header.metresPerUnit)) {
     return damaged(path, "its unit is no length");
   }
-  auto texts = textsIn({baked.content.get() + sizeof(Header), header.textBytes},
+  auto texts = textsIn({baked.content.get() + sizeof(Header), counted(header.textBytes)},
                        1 + header.objects + header.notes);
   if (!texts) return damaged(path, "its names cannot be read");
   baked.texts = std::move(*texts);
@@ -174,11 +179,11 @@ FileFrame frameOf(const Header& header) {
 
 SceneImportReport reportOf(const Baked& baked) {
   const auto& numbers = baked.header.report;
-  return {numbers[0],
-          numbers[1],
-          numbers[2],
-          numbers[3],
-          numbers[4],
+  return {counted(numbers[0]),
+          counted(numbers[1]),
+          counted(numbers[2]),
+          counted(numbers[3]),
+          counted(numbers[4]),
           {baked.texts.end() - static_cast<std::ptrdiff_t>(baked.header.notes), baked.texts.end()}};
 }
 
@@ -237,14 +242,9 @@ Eigen::Vector3d vectorOf(const double (&numbers)[3]) {
 
 SceneAudit auditOf(const Header& header) {
   const auto& counts = header.audit;
-  return {counts[0],
-          counts[1],
-          counts[2],
-          counts[3],
-          vectorOf(header.boxMin),
-          vectorOf(header.boxMax),
-          header.shortestEdge,
-          header.longestEdge};
+  return {counted(counts[0]),  counted(counts[1]),      counted(counts[2]),
+          counted(counts[3]),  vectorOf(header.boxMin), vectorOf(header.boxMax),
+          header.shortestEdge, header.longestEdge};
 }
 
 /// In which order a triangle's vertices came: the first's place among the sorted ones, and three
@@ -277,9 +277,9 @@ class Pieces {
   void add(const void* data, std::uint64_t bytes) {
     static constexpr std::array<char, kAlignment> kZeros{};
     if (const std::uint64_t over = size_ % kAlignment; over != 0 && !pieces_.empty()) {
-      push({kZeros.data(), kAlignment - over});
+      push({kZeros.data(), counted(kAlignment - over)});
     }
-    push({static_cast<const char*>(data), bytes});
+    push({static_cast<const char*>(data), counted(bytes)});
   }
   template <typename Array>
   void add(const Array& array) {

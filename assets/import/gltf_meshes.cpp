@@ -2,6 +2,7 @@
 #include <limits>
 #include <utility>
 
+#include "assets/import/gltf_physics.h"
 #include "assets/import/gltf_scene.h"
 #include "assets/import/placed_meshes.h"
 #include "lss/index.h"
@@ -34,6 +35,10 @@ PlacedMeshes placedMeshesOfGltf(const std::string& path) {
     }
   }
   placed.notes = scene.notes();
+  if (!gltfColliders(scene.document()).colliders.empty()) {
+    placed.notes.emplace_back(
+        "its spheres and capsules are colliders of a body, and no part of a scene: its meshes are");
+  }
   return placed;
 }
 

@@ -1,9 +1,12 @@
 // A model from glTF: assets/import/model.h.
 #include <utility>
 
+#include <Eigen/SVD>
+
 #include "articulated/quoted.h"
 #include "assets/import/failure.h"
 #include "assets/import/gltf_json.h"
+#include "assets/import/gltf_physics.h"
 #include "assets/import/gltf_scene.h"
 #include "assets/import/gltf_vrm.h"
 #include "assets/import/model.h"
@@ -24,7 +27,11 @@ class GltfModel {
 
   void build() {
     addNodes();
-    addColliders();
+    const GltfColliders physics = gltfColliders(scene_.document());
+    addColliders(physics.colliders);
+    for (const std::string& note : physics.notes) builder_.note(note);
+    addColliders(vrm_.colliders);
+    noteBonesOutside();
     for (std::size_t i = 0; i < nodes_.size(); ++i) addMeshes(static_cast<std::int32_t>(i));
     for (std::size_t i = 0; i < sizeOf(scene_.document(), "animations"); ++i) addAnimation(i);
     for (const std::string& note : vrm_.notes) builder_.note(note);
@@ -44,6 +51,7 @@ class GltfModel {
       node.parent = from.parent;
       node.toParent = from.toParent;
       node.isOnlooker = from.isOnlooker;
+      node.fileNode = from.index ? static_cast<std::int32_t>(*from.index) : -1;
       ModelSize more;
       more.nodes = 1;
       more.nameBytes = node.name.size();
@@ -55,15 +63,32 @@ class GltfModel {
     }
   }
 
-  void addColliders() {
-    for (const VrmCollider& collider : vrm_.colliders) {
+  void addColliders(const std::vector<NodeCollider>& colliders) {
+    for (const NodeCollider& collider : colliders) {
       const std::int32_t position = positions_[collider.node];
       if (position < 0) {
         builder_.note(collider.place + ": its node is not in the scene, so it is left out");
+        continue;
+      }
+      const GltfNode& node = nodes_[slotOf(position)];
+      if (collider.isAlone && node.parent >= 0) {
+        builder_.addLss(node.parent, placed(node.toParent, collider.lss));
       } else {
         builder_.addLss(position, collider.lss);
       }
     }
+  }
+
+  /// An uneven scale makes one that holds the result.
+  static Lss placed(const Affine& frame, const Lss& lss) {
+    const Eigen::Matrix3d square = frame.linear.transpose() * frame.linear;
+    const bool isRigid = (square - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= 1e-12;
+    const double largest =
+        isRigid ? 1.0 : Eigen::JacobiSVD<Eigen::Matrix3d>(frame.linear).singularValues()[0];
+    return {frame * lss.a, frame * lss.b, largest * lss.radius};
+  }
+
+  void noteBonesOutside() {
     for (const auto& [node, bone] : vrm_.boneOfNode) {
       if (positions_[node] >= 0) continue;
       builder_.note("the bone " + inQuotes(bone) + " is a node that the scene does not hold");

@@ -23,7 +23,7 @@ using nlohmann::json;
 
 /// Read, and those that say how surfaces look or what they are called, which nobody asks here. What
 /// VRM adds of motion that is not followed gets notes of its own (assets/import/gltf_vrm.h).
-constexpr std::array<std::string_view, 18> kUnderstood{"KHR_mesh_quantization",
+constexpr std::array<std::string_view, 20> kUnderstood{"KHR_mesh_quantization",
                                                        kMeshoptCompression,
                                                        kDracoCompression,
                                                        kInstancing,
@@ -40,7 +40,9 @@ constexpr std::array<std::string_view, 18> kUnderstood{"KHR_mesh_quantization",
                                                        "VRMC_vrm",
                                                        "VRMC_springBone",
                                                        "VRMC_springBone_extended_collider",
-                                                       "VRMC_node_constraint"};
+                                                       "VRMC_node_constraint",
+                                                       "KHR_implicit_shapes",
+                                                       "KHR_physics_rigid_bodies"};
 
 bool isUnderstood(std::string_view extension) {
   constexpr std::string_view kMaterials = "KHR_materials_", kOfVrm = "VRMC_materials_";

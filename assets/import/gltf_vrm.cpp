@@ -117,13 +117,7 @@ class VrmReader {
   }
 
   void addCollider(std::size_t node, const std::string& place, const Lss& lss) {
-    const double farthest = std::max(lss.a.cwiseAbs().maxCoeff(), lss.b.cwiseAbs().maxCoeff());
-    if (!(lss.radius >= 0.0 && std::max(farthest, lss.radius) <= kMaxCoordinate)) {
-      refuseAt(place,
-               "expected a radius of at least 0, and numbers within 1e7, found a radius of " +
-                   inDigits(lss.radius) + " and " + inDigits(farthest));
-    }
-    vrm_.colliders.push_back({node, place, lss});
+    vrm_.colliders.push_back(checkedCollider({node, place, lss}));
   }
 
   static Vector3d vectorIn(const json& object, std::string_view key) {
@@ -196,7 +190,7 @@ class VrmReader {
   void noteSprings() {
     if (!vrm_.colliders.empty()) {
       double largest = 0.0;
-      for (const VrmCollider& collider : vrm_.colliders) {
+      for (const NodeCollider& collider : vrm_.colliders) {
         largest = std::max(largest, collider.lss.radius);
       }
       vrm_.notes.push_back(std::to_string(vrm_.colliders.size()) +

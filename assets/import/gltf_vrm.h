@@ -11,19 +11,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "lss/lss.h"
+#include "assets/import/gltf_physics.h"
 
 namespace foretouch::internal {
 
-struct VrmCollider {
-  std::size_t node = 0;  ///< In the file.
-  std::string place;     ///< In the JSON.
-  Lss lss;               ///< In the node's frame, as glTF has it: right-handed.
-};
-
 struct Vrm {
   std::map<std::size_t, std::string> boneOfNode;  ///< By the node's number in the file.
-  std::vector<VrmCollider> colliders;
+  std::vector<NodeCollider> colliders;
   std::vector<std::string> notes;  ///< What is not followed or not held, one sentence each.
 };
 

@@ -91,6 +91,7 @@ void ModelReader::parseNode(std::string_view payload) {
   node.upperLimit = head.upperLimit;
   node.joint = static_cast<ModelJointType>(head.joint);
   node.isOnlooker = head.isOnlooker != 0;
+  node.fileNode = head.fileNode;
   if (head.joint > static_cast<std::uint32_t>(ModelJointType::Planar) || !isFinite(node.toParent) ||
       !(std::abs(node.axis.norm() - 1.0) < 1e-6) || !std::isfinite(head.lowerLimit) ||
       !std::isfinite(head.upperLimit)) {

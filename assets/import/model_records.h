@@ -39,7 +39,7 @@ struct NodeHead {
   double lowerLimit, upperLimit;
   std::int32_t parent;
   std::uint32_t joint, lss, nameBytes, isOnlooker;  // LSS, the name and the joint's name follow
-  std::uint32_t unused;
+  std::int32_t fileNode;
 };
 using LssRecord = std::array<double, 7>;
 struct MimicRecord {

@@ -60,7 +60,7 @@ void ModelWriter::writeNode(const ModelNode& node) {
                       static_cast<std::uint32_t>(node.lss.size()),
                       static_cast<std::uint32_t>(name.size()),
                       node.isOnlooker ? 1u : 0u,
-                      0};
+                      node.fileNode};
   std::string payload(bytesOf(head));
   for (const Lss& lss : node.lss) payload += bytesOf(recordOf(lss));
   payload += name;

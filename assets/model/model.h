@@ -42,6 +42,7 @@ struct ModelNode {
   ModelJointType joint = ModelJointType::Free;
   std::string jointName;    ///< URDF and MJCF name joints apart from links; else empty.
   bool isOnlooker = false;  ///< A camera or a light: what it does is no motion of a body.
+  std::int32_t fileNode = -1;  ///< Of glTF: its number in the file; -1: none has it.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< The joint's, in the node's frame, unit.
   double lowerLimit = 0.0, upperLimit = 0.0;        ///< Radians or metres; equal: none stated.
 };

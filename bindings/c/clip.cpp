@@ -20,11 +20,25 @@ ft_clip_options defaultClipOptions() {
   return options;
 }
 
+/// Of a clip: its rows are a microsecond apart at least.
+constexpr double kMostRowsPerSecond = 1e6;
+
 /// How to read a clip, and its placement.
 struct ClipReading {
   ClipFileOptions file;
   Placement placement;
 };
+
+/// What the formats of motion research want beside their file.
+ft_status readMotionOptions(const ft_clip_options& known, ClipFileOptions& options) {
+  if (known.skeleton != nullptr) options.skeleton = known.skeleton;
+  if (!(known.row_rate_hz >= 0.0 && known.row_rate_hz <= kMostRowsPerSecond)) {
+    return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "row_rate_hz: expected 0 to 1e6, found %g",
+                   known.row_rate_hz);
+  }
+  if (known.row_rate_hz > 0.0) options.table.rateHz = known.row_rate_hz;
+  return FT_OK;
+}
 
 ft_status readClipOptions(const ft_clip_options* given, ClipReading& reading) {
   ft_clip_options known = defaultClipOptions();
@@ -46,7 +60,7 @@ ft_status readClipOptions(const ft_clip_options* given, ClipReading& reading) {
   if (!(reading.placement.origin.cwiseAbs().array() <= kMaxCoordinate).all()) {
     return failure(FT_ERROR_OUT_OF_RANGE, kNoIndex, "origin: expected coordinates within 1e7 m");
   }
-  return FT_OK;
+  return readMotionOptions(known, reading.file);
 }
 
 }  // namespace
@@ -67,6 +81,11 @@ ft_status ft_clip_create_from_file(const char* path, const ft_avatar* avatar,
     if (const auto s = checked(avatar); s != FT_OK) return s;
     ClipReading reading;
     if (const auto s = readClipOptions(options, reading); s != FT_OK) return s;
+    const ClipFormat format = clipFormatOf(path);
+    if (!reading.file.skeleton.empty() && format != ClipFormat::Acclaim) {
+      return failure(FT_ERROR_MISMATCH, kNoIndex,
+                     "skeleton: expected NULL: only an .amc has one in another file");
+    }
     FORETOUCH_TRY_OR(failure, auto read, readClipFile(path, reading.file));
     if (read.isUpright) reading.placement.motionUpZ = false;
     FORETOUCH_TRY_OR(

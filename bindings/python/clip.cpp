@@ -30,6 +30,14 @@ void refuseUnused(ClipFormat format, const ClipFileOptions& options) {
   if (format == ClipFormat::JointTable && options.robot.empty()) {
     refuse(ErrorCode::Mismatch, "robot", "expected the URDF whose joints the table is about");
   }
+  if (format != ClipFormat::Acclaim && !options.skeleton.empty()) {
+    refuse(ErrorCode::Mismatch, "skeleton",
+           "expected none: only an .amc has one in another file, its .asf");
+  }
+  if (format != ClipFormat::Acclaim && format != ClipFormat::WebXr && options.table.rateHz) {
+    refuse(ErrorCode::Mismatch, "row_rate_hz",
+           "expected none: it is for an .amc, or a session of WebXR");
+  }
   if (format != ClipFormat::Model && options.import.up) {
     refuse(ErrorCode::Mismatch, "up",
            "expected none: Clip.poses(up=) turns a BVH clip, and robots stand on z");
@@ -39,6 +47,7 @@ void refuseUnused(ClipFormat format, const ClipFileOptions& options) {
 SharedClip loadClip(const Shown<shown::Path>& file, const Shown<shown::Number>& scale,
                     const Shown<shown::Text>& up, const Shown<shown::Text>& animation,
                     const Shown<shown::Number>& rateHz, const Shown<shown::Path>& robot,
+                    const Shown<shown::Path>& skeleton, const Shown<shown::Number>& rowRateHz,
                     const Shown<shown::Path>& importer) {
   const std::string from = path(file, "path");
   ClipFileOptions options;
@@ -48,6 +57,8 @@ SharedClip loadClip(const Shown<shown::Path>& file, const Shown<shown::Number>& 
   options.animation = text(animation, "animation");
   options.rateHz = number(rateHz, "rate_hz");
   if (!robot.is_none()) options.robot = path(robot, "robot");
+  if (!skeleton.is_none()) options.skeleton = path(skeleton, "skeleton");
+  if (!rowRateHz.is_none()) options.table.rateHz = number(rowRateHz, "row_rate_hz");
   refuseUnused(clipFormatOf(from), options);
   const py::gil_scoped_release free;
   return std::make_shared<Clip>(valueOf(readClipFile(from, options), from).clip);
@@ -134,11 +145,16 @@ void bindClip(py::module_& module) {
       .def_static(
           "load", &loadClip, py::arg("path"), py::arg("scale") = py::none(), py::kw_only(),
           py::arg("up") = py::none(), py::arg("animation") = "", py::arg("rate_hz") = usual.rateHz,
-          py::arg("robot") = py::none(), py::arg("importer") = py::none(),
+          py::arg("robot") = py::none(), py::arg("skeleton") = py::none(),
+          py::arg("row_rate_hz") = py::none(), py::arg("importer") = py::none(),
           "A BVH file; an animated model (.glb, .gltf, .fbx, .dae, .x): up is its axis, animation\n"
           "its animation's name or number ('': the first), rate_hz how often that is sampled; or\n"
-          "a table of the joint positions (.csv) of the URDF robot. scale: metres per unit of the\n"
-          "file (0.01 for centimetres).")
+          "a table of the joint positions (.csv) of the URDF robot; Acclaim's .amc, about the "
+          ".asf\n"
+          "skeleton (None: the one beside it); Xsens' .mvnx; or a session of WebXR (.json).\n"
+          "row_rate_hz: poses a second of an .amc or a session. scale: metres per unit of the "
+          "file\n"
+          "(0.01 for centimetres).")
       .def("poses", &poses, py::arg("avatar"), py::kw_only(), py::arg("joint_map") = py::none(),
            py::arg("up") = "y", py::arg("origin") = origin, py::arg("yaw_deg") = 0.0,
            "Every frame as a pose of the avatar: Poses. Joints match by name, or by joint_map\n"

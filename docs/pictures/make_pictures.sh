@@ -11,6 +11,8 @@ for picture in table_and_cup solid_tick hand_that_stops touches proven_edges; do
   PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$(realpath "$(dirname "$program")/../lib/python3/dist-packages")" \
     /usr/bin/python3 "$pictures/$picture.py"  # numpy is that of Debian's own Python
 done
+PYTHONDONTWRITEBYTECODE=1 python3 "$pictures/colliders.py" "$program"
+PYTHONDONTWRITEBYTECODE=1 python3 "$pictures/engines.py" "$(dirname "$program")/.."
 cd "$work"
 "$program" demo --output demo.jsonl --report demo.html >/dev/null
 inputs=(--scene "$example/room.obj" --avatar "$example/dancer.avatar.json" --motion "$example/dancer.bvh")

@@ -133,6 +133,14 @@ TEST(WebXrSession, NamesWhatIsWrong) {
       {"{\"schema\":[[0,{\"hasHand\":true,\"jointSequence\":[\"thumb-tip\"]}]],\"frames\":[]}",
        "expected a 'jointSequence' that begins with 'wrist'"},
       {"{\"schema\":[[0,{}],[0,{}]],\"frames\":[]}", "two inputs have one number"},
+      {"{\"frames\":[" + one + "],\"schema\":" + schema() + "}",
+       "expected 'schema' before 'frames'"},
+      {"{\"schema\":" + schema() + ",\"schema\":" + schema() + ",\"frames\":[]}",
+       "expected one 'schema', found two"},
+      {"{\"schema\":3,\"frames\":[]}", "expected a session of iwer's recorder"},
+      {"{\"schema\":" + schema() + "}", "expected a session of iwer's recorder"},
+      {session({"3"}), "frame 0: expected a time and places"},
+      {session({"{}", one}), "frame 0: expected a time and places"},
   };
   for (const auto& [text, expected] : cases) {
     const auto read = parseWebXrSession(text, "s.json");

@@ -225,6 +225,53 @@ TEST(CFiles, ClipsGivePosesOfTheAvatar) {
   expectRefused(ft_clip_get_info(made, nullptr), FT_ERROR_NULL_ARGUMENT, {});
 }
 
+/// Acclaim's format has the skeleton in a file of its own.
+TEST(CFiles, AcclaimIsReadAboutTheSkeletonThatIsNamed) {
+  const test::TempFolder folder;
+  const std::string amc = folder.write(
+      "walk.amc",
+      ":FULLY-SPECIFIED\n:DEGREES\n1\nroot 0 2 0 0 0 0\nstick 0 0 30\n2\nroot 0 4 0 0 0 "
+      "0\nstick 0 0 60\n");
+  const auto skeleton = [&](const char* name, const char* length) {
+    return folder.write(name, std::string(":version 1.10\n:units\n length ") + length +
+                                  "\n angle deg\n:root\n order TX TY TZ RX RY RZ\n axis XYZ\n "
+                                  "position 0 0 0\n orientation 0 0 0\n:bonedata\n begin\n id 1\n "
+                                  "name stick\n direction 0 -1 0\n length 1\n axis 0 0 0 XYZ\n dof "
+                                  "rx ry rz\n end\n:hierarchy\n begin\n root stick\n end\n");
+  };
+  const std::string first = skeleton("first.asf", "1"), second = skeleton("second.asf", "0.5");
+  const test::SmallWorld world;
+  auto options = test::initialised(ft_clip_options_init);
+  options.scale = 0.01;
+  ft_clip* clip = nullptr;
+  for (const std::string& asf : {first, second}) {
+    options.skeleton = asf.c_str();
+    options.row_rate_hz = 50;
+    ASSERT_EQ(ft_clip_create_from_file(amc.c_str(), world.avatar.get(), &options, &clip), FT_OK)
+        << ft_last_error();
+    const test::ClipHandle handle(clip);
+    ft_clip_info info{};
+    info.size = sizeof info;
+    ASSERT_EQ(ft_clip_get_info(clip, &info), FT_OK);
+    EXPECT_EQ(info.frame_count, 2u);
+    EXPECT_EQ(info.frame_time_s, 0.02);
+    double rotation[4], translation[3];
+    std::size_t count = 0;
+    ASSERT_EQ(ft_clip_pose(clip, 1, rotation, translation, 1, &count), FT_OK) << ft_last_error();
+    EXPECT_NEAR(rotation[0], std::cos(30 * 3.14159265358979323846 / 180), 1e-12);
+  }
+  options.skeleton = nullptr;  // there are two beside it
+  expectRefused(ft_clip_create_from_file(amc.c_str(), world.avatar.get(), &options, &clip),
+                FT_ERROR_MISMATCH, {});
+  options.skeleton = first.c_str();
+  const std::string bvh = folder.write("walk.bvh", kClip);
+  expectRefused(ft_clip_create_from_file(bvh.c_str(), world.avatar.get(), &options, &clip),
+                FT_ERROR_MISMATCH, {"skeleton", ".amc"});
+  options.row_rate_hz = -1;
+  expectRefused(ft_clip_create_from_file(amc.c_str(), world.avatar.get(), &options, &clip),
+                FT_ERROR_OUT_OF_RANGE, {"row_rate_hz"});
+}
+
 TEST(CFiles, BadClipsAreRefused) {
   const test::TempFolder folder;
   const test::SmallWorld world;

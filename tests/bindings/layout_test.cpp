@@ -69,11 +69,13 @@ AT(ft_pose, joint_count, 4);
 AT(ft_pose, rotations, 8);
 AT(ft_pose, translations, 16);
 
-static_assert(sizeof(ft_clip_options) == 48);
+static_assert(sizeof(ft_clip_options) == 64);
 AT(ft_clip_options, up, 4);
 AT(ft_clip_options, scale, 8);
 AT(ft_clip_options, yaw_deg, 16);
 AT(ft_clip_options, origin, 24);
+AT(ft_clip_options, skeleton, 48);
+AT(ft_clip_options, row_rate_hz, 56);
 
 static_assert(sizeof(ft_clip_info) == 24);
 AT(ft_clip_info, matched_joints, 4);

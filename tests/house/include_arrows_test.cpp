@@ -95,6 +95,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"ask", {"world", "inputs", "settings", ""}},
       {"stream", {"world", "touches", "inputs", "settings", ""}},
       {"glb", {"world", "solid", "replay", "touches", "inputs", "settings", ""}},
+      {"colliders", {"glb", "inputs", "settings", ""}},
       {"sweep", {"glb", "inputs", "settings", ""}},
       {"log", {"stream", "replay", "touches", "inputs", "settings", ""}},
       {"report",
@@ -108,9 +109,9 @@ const std::map<std::string, Rooms> kRooms = {
       {"person", {"inputs", "settings", ""}},
       {"certificate", {"inputs", "settings", ""}},
       {"commands",
-       {"ask",    "batch",   "certificate", "feet",   "floor",    "repair", "person", "view",
-        "report", "log",     "sweep",       "glb",    "world",    "solid",  "stream", "replay",
-        "setup",  "touches", "audit",       "inputs", "settings", ""}}}},
+       {"ask",    "batch",  "certificate", "colliders", "feet",   "floor",    "repair", "person",
+        "view",   "report", "log",         "sweep",     "glb",    "world",    "solid",  "stream",
+        "replay", "setup",  "touches",     "audit",     "inputs", "settings", ""}}}},
 };
 
 /// Libraries that only these folders may include, by the include's first word.
@@ -282,8 +283,8 @@ TEST(IncludeArrows, JsonIsParsedInFewRooms) {
   }
   EXPECT_EQ(rooms,
             (std::set<std::string>{"assets/avatar", "assets/bounds", "assets/clip", "assets/import",
-                                   "assets/mesh", "tools/batch", "tools/glb", "tools/inputs",
-                                   "tools/solid", "tools/sweep"}));
+                                   "assets/mesh", "tools/batch", "tools/colliders", "tools/glb",
+                                   "tools/inputs", "tools/solid", "tools/sweep"}));
 }
 
 /// A header and its source are one unit.

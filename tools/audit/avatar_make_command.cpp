@@ -195,7 +195,7 @@ Command avatarMeshCommand() {
       .required("a rigged model");
   addModelSettings(settings, *asked, "Metres per unit of the model");
   settings.flag("--mesh-alone", asked->meshAlone,
-                "Leave out the colliders of a VRM avatar: LSS around its triangles alone");
+                "Leave out the colliders of a VRM avatar or a glTF file: LSS around its triangles alone");
   Command command{"mesh", "Make an avatar from a rigged model: LSS that contain its triangles",
                   "Example:\n  foretouch avatar mesh man.glb -o man.avatar.json\n\n"
                   "The links' triangles go beside it, to man.avatar.mesh.glb.",

@@ -9,6 +9,7 @@
 #include "tools/audit/scene_command.h"
 #include "tools/batch/batch_command.h"
 #include "tools/certificate/certify_command.h"
+#include "tools/colliders/avatar_colliders_command.h"
 #include "tools/commands/completion_command.h"
 #include "tools/commands/demo_command.h"
 #include "tools/commands/log_replay_command.h"
@@ -59,7 +60,9 @@ std::vector<Command> allCommands() {
   add("Live", serveCommand());
   add("Live", publishCommand());
   add("Live", listenCommand());
-  add("Files", avatarCommand());
+  Command avatar = avatarCommand();
+  avatar.commands.push_back(avatarCollidersCommand());
+  add("Files", std::move(avatar));
   add("Files", sceneCommand());
   add("Files", boundsCommand());
   Command log = logCommand();

@@ -51,12 +51,18 @@ std::size_t GltfDocument::add(const char* list, json entry) {
   return entries.size() - 1;
 }
 
+void GltfDocument::extend(const char* extension, json content) {
+  add("extensionsUsed", extension);
+  if (!content.is_null()) root_["extensions"][extension] = std::move(content);
+}
+
 Result<std::string> GltfDocument::glbHead() const {
   json root = root_;
   if (binaryBytes_ > 0) root["buffers"] = json::array({{{"byteLength", binaryBytes_}}});
   std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace);
   text.resize((text.size() + kAlignment - 1) / kAlignment * kAlignment, ' ');
-  const std::size_t total = kHeadBytes + 2 * kChunkHeadBytes + text.size() + binaryBytes_;
+  const std::size_t chunks = binaryBytes_ > 0 ? 2 : 1;  // an empty one should be left out
+  const std::size_t total = kHeadBytes + chunks * kChunkHeadBytes + text.size() + binaryBytes_;
   if (total > kMostBytes) {
     return Error::of(ErrorCode::LimitExceeded,
                      "a GLB file holds at most 4 GiB, and this one would take " +
@@ -68,6 +74,7 @@ Result<std::string> GltfDocument::glbHead() const {
     appendBytes(head, static_cast<std::uint32_t>(word));
   }
   head += text;
+  if (binaryBytes_ == 0) return head;
   appendBytes(head, static_cast<std::uint32_t>(binaryBytes_));
   appendBytes(head, kBinaryChunk);
   return head;

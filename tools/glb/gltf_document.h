@@ -44,6 +44,9 @@ class GltfDocument {
   [[nodiscard]] nlohmann::json& at(const char* list, std::size_t index) {
     return root_[list][index];
   }
+  /// Says that the document uses the extension; `content`: what the document holds of it as a
+  /// whole, or null.
+  void extend(const char* extension, nlohmann::json content);
   /// Adds a node to the scene.
   void show(std::size_t node) { root_["scenes"][0]["nodes"].push_back(node); }
 

@@ -13,6 +13,7 @@
 #include "tools/report/inspection.h"
 #include "tools/report/report_file.h"
 #include "tools/results_output.h"
+#include "tools/setup/placement_check.h"
 
 namespace foretouch::tools {
 namespace {

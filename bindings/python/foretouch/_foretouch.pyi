@@ -237,6 +237,8 @@ class Clip:
         animation: str = "",
         rate_hz: float = 30.0,
         robot: Optional[_Path] = None,
+        skeleton: Optional[_Path] = None,
+        row_rate_hz: Optional[float] = None,
         importer: Optional[_Path] = None,
     ) -> Clip: ...
     def poses(

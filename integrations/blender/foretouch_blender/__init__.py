@@ -21,6 +21,7 @@ CLASSES = (
     operators.FORETOUCH_OT_check,
     operators.FORETOUCH_OT_make_solid,
     operators.FORETOUCH_OT_sweep,
+    operators.FORETOUCH_OT_capsules,
     operators.FORETOUCH_OT_jump,
     operators.FORETOUCH_OT_clear,
     operators.FORETOUCH_OT_copy_install_line,

@@ -2,11 +2,14 @@
 found again and removed."""
 
 import bpy
-from mathutils import Vector
+import numpy as np
+from mathutils import Matrix, Vector
+
+from .capsules import mesh_around, placed_along
 
 MARK = "foretouch"
 """The custom property of all that the add-on made."""
-TOUCH, SWEEP, FOLDER = "touch", "sweep", "folder"
+TOUCH, SWEEP, CAPSULE, FOLDER = "touch", "sweep", "capsule", "folder"
 
 
 def show(scene, touches, axes):
@@ -26,6 +29,7 @@ def clear(scene):
     """Everything, but the actions that were made solid."""
     clear_touches(scene)
     _remove(scene, SWEEP)
+    _remove(scene, CAPSULE)
     folder = _folder(scene)
     if folder is not None and not folder.objects:
         bpy.data.collections.remove(folder)
@@ -41,6 +45,25 @@ def add_sweep(scene, name, swept, axes):
     thing.color = (1.0, 0.55, 0.1, 0.5)
     _make_folder(scene).objects.link(thing)
     return thing
+
+
+def add_capsules(scene, rig, capsules):
+    """An object for each of capsules.capsules_of(); those of before are replaced. Returns them."""
+    _remove(scene, CAPSULE)
+    added = []
+    for name, bone, ends, radius in capsules:
+        length = float(np.linalg.norm(ends[1] - ends[0]))
+        thing = bpy.data.objects.new(name, mesh_around(name, length, radius))
+        thing[MARK], thing["radius"], thing["length"] = CAPSULE, float(radius), length
+        thing.parent = rig
+        if bone is not None:
+            thing.parent_type, thing.parent_bone = "BONE", bone.name
+        thing.matrix_basis = Matrix(placed_along(ends))
+        thing.display_type = "WIRE"
+        thing.hide_render = True
+        _make_folder(scene).objects.link(thing)
+        added.append(thing)
+    return added
 
 
 def _mark_timeline(scene, touches):

@@ -3,8 +3,12 @@
 import bpy
 
 from . import library, marks
+from .axes import Axes
+from .body import body_of
+from .capsules import capsules_of, one_scale
 from .follow import Following
 from .job import Job, scaled
+from .rig import armature_of, rest_stretch
 from .sampled import CHUNK, sampling
 from .settings import active_touch
 from .solid import baking, refuse_what_a_bake_cannot_hold, showing
@@ -136,6 +140,28 @@ class FORETOUCH_OT_sweep(Job, bpy.types.Operator):
         return active.name, None
 
 
+class FORETOUCH_OT_capsules(bpy.types.Operator):
+    """Make an object of each capsule of the body, which moves with its bone: a collider for rigid bodies"""
+
+    bl_idname = "foretouch.capsules"
+    bl_label = "Capsules as Objects"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        scene = context.scene
+        try:
+            rig = armature_of(scene)
+            axes = Axes.of(scene)
+            one_scale(rig)
+            body = body_of(rig, scene, axes, rest_stretch(rig.matrix_world))
+            added = marks.add_capsules(scene, rig, capsules_of(body, rig, axes))
+        except Told as told:
+            self.report({"ERROR"}, str(told))
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"{len(added)} capsules of '{rig.name}'")
+        return {"FINISHED"}
+
+
 class FORETOUCH_OT_jump(bpy.types.Operator):
     """Go to the frame of the chosen touch, and select its empty"""
 
@@ -164,7 +190,7 @@ class FORETOUCH_OT_jump(bpy.types.Operator):
 
 
 class FORETOUCH_OT_clear(bpy.types.Operator):
-    """Remove all markers, empties and sweeps that the add-on made; baked actions stay"""
+    """Remove all markers, empties, sweeps and capsules that the add-on made; baked actions stay"""
 
     bl_idname = "foretouch.clear"
     bl_label = "Remove Results"

@@ -46,6 +46,7 @@ class FORETOUCH_PT_panel(bpy.types.Panel):
         column.operator("foretouch.make_solid", icon="PHYSICS")
         column.prop(asked, "skin")
         column.prop(asked, "floor")
+        layout.operator("foretouch.capsules", icon="MESH_CAPSULE")
         if asked.touches or any("foretouch" in child for child in context.scene.collection.children):
             layout.operator("foretouch.clear", icon="TRASH")
         for line in asked.notes.splitlines():

@@ -71,7 +71,7 @@ def meshes_of(rig, scene):
     """Those that move with the armature, shown ones alone."""
     found = []
     for thing in scene.objects:
-        if thing.type != "MESH" or not thing.visible_get():
+        if thing.type != "MESH" or not thing.visible_get() or "foretouch" in thing:
             continue
         if thing.parent == rig or _armature_modifiers(thing, rig):
             found.append(thing)

@@ -363,7 +363,63 @@ static class Components {
     Check.That(onDesk > 50, "it lies on the desk for a while: " + onDesk);
   }
 
-  static int Main() {
+  /// Transforms of the avatar file's names, as a rig has them.
+  static Transform RigOf(List<object> links) {
+    var rig = new Transform("Rig", null);
+    var made = new Dictionary<string, Transform>();
+    foreach (Dictionary<string, object> link in links) {
+      var parent = (string)link["parent"];
+      made.Add((string)link["name"], new Transform((string)link["name"], parent == null ? rig : made[parent]));
+    }
+    return rig;
+  }
+
+  static double[] Numbers(object list) { return ((List<object>)list).Select(n => (double)n).ToArray(); }
+
+  /// How far a point of the avatar's frame, mirrored in z, is from the axis of a collider of the joint.
+  static double Distance(Transform place, float half, double[] point) {
+    Vector3 way = place.localRotation * new Vector3(0, 1, 0), middle = place.localPosition;
+    double[] axis = { way.x, way.y, way.z }, from = { point[0] - middle.x, point[1] - middle.y, -point[2] - middle.z };
+    double along = Math.Max(-half, Math.Min(half, axis.Zip(from, (a, b) => a * b).Sum()));
+    return Math.Sqrt(axis.Zip(from, (a, b) => (b - along * a) * (b - along * a)).Sum());
+  }
+
+  /// What `foretouch avatar colliders` wrote of the bundled avatar, beside the avatar file.
+  static void CollidersOfAnAvatarHoldItsCapsules(string avatar, string colliders) {
+    var links = (List<object>)((Dictionary<string, object>)new FakeJson(System.IO.File.ReadAllText(avatar)).Whole())["links"];
+    Transform rig = RigOf(links);
+    Transform[] added = ForetouchColliders.Add(rig, System.IO.File.ReadAllText(colliders));
+    int next = 0;
+    foreach (Dictionary<string, object> link in links) {
+      foreach (Dictionary<string, object> lss in (List<object>)link["lss"]) {
+        Transform place = added[next++];
+        var capsule = place.GetComponents<CapsuleCollider>().SingleOrDefault();
+        float radius = capsule != null ? capsule.radius : place.GetComponents<SphereCollider>().Single().radius;
+        float half = capsule != null ? 0.5f * capsule.height - radius : 0;
+        Check.That(capsule == null || capsule.direction == 1, "a capsule along y");
+        Check.Equal(place.parent.name, (string)link["name"], "below its joint");
+        double expected = (double)lss["radius"];
+        foreach (string end in new[] { "a", "b" }) {
+          double lack = Distance(place, half, Numbers(lss[end])) + expected - radius;
+          Check.That(lack <= 1e-7, link["name"] + " holds " + end + " but for " + lack);
+        }
+        Check.That(radius - expected < 1e-6, link["name"] + " is no thicker than floats need");
+      }
+    }
+    Check.Equal(next, added.Length, "as many as the avatar has");
+    Check.That(next > 20, "many of them");
+    var body = rig.AddComponent<ForetouchBody>();
+    Player.Enable(body);
+    Check.That(body.IsReady, "a body of these colliders");
+    NothingSaid("a body of these colliders");
+    Check.Equal(body.Joints.Length, added.Length, "each of them moves with the body");
+    Check.Throws<HostProblem>(() => ForetouchColliders.Add(new Transform("Other", null), System.IO.File.ReadAllText(colliders)),
+                              "'Other' has no transform called 'Hips'");
+    Check.Throws<HostProblem>(() => ForetouchColliders.Add(rig, "{\"format\": \"other\"}"), "expected a file of foretouch avatar colliders");
+  }
+
+  static int Main(string[] files) {
+    if (files.Length == 2) CollidersOfAnAvatarHoldItsCapsules(files[0], files[1]);
     TheSampleStaysOnItsDesk();
     ABodyTellsWhatTheLibrarySays();
     ScaleAndWhatLiesBetweenCount();

@@ -3,6 +3,7 @@
 # the C compiler puts them, are all answers those of C, what do components say, and does a step make garbage?
 #   dotnet_test.sh FOLDER_OF_LIBRARY IMPORTER FOLDER_OF_EXAMPLES        all tests
 #   dotnet_test.sh FOLDER_OF_LIBRARY IMPORTER FOLDER_OF_EXAMPLES --cost what the border costs, measured
+#   dotnet_test.sh FOLDER_OF_LIBRARY IMPORTER FOLDER_OF_EXAMPLES --film the sample, a line per fixed update
 set -euo pipefail
 library=$(realpath "$1") importer=$(realpath "$2") examples=$(realpath "$3")
 here=$(cd "$(dirname "$0")" && pwd)
@@ -28,6 +29,16 @@ if [ "${4:-}" = --cost ]; then
   cc_here libcost.so -shared -fPIC "$here/cost.c"
   compile cost.exe -r:"$folder/Foretouch.dll" "$here/Cost.cs"
   mono "$folder/cost.exe" "$examples"
+  exit
+fi
+
+player() {  # the components, and what plays Unity
+  compile Unity.dll -target:library -define:UNITY_5_3_OR_NEWER "$package"/Runtime/{,Native/,Engine/,Unity/}*.cs "$here"/Fake*.cs
+}
+if [ "${4:-}" = --film ]; then
+  player
+  compile film.exe -r:"$folder/Unity.dll" "$here/Film.cs" "$package"/Samples~/*/*.cs
+  mono "$folder/film.exe" | sed -n 's/^film: //p'
   exit
 fi
 
@@ -69,9 +80,16 @@ mono "$folder/errors.exe"
 LD_LIBRARY_PATH='' mono "$folder/errors.exe" absent
 
 echo "== components, in a player of our own"
-compile Unity.dll -target:library -define:UNITY_5_3_OR_NEWER "$package"/Runtime/{,Native/,Engine/,Unity/}*.cs "$here"/Fake*.cs
+player
 compile components.exe -r:"$folder/Unity.dll" "$here"/{Components,Check}.cs "$package"/Samples~/*/*.cs
-mono "$folder/components.exe"
+files=()
+if [ -x "$(dirname "$importer")/foretouch" ]; then
+  "$(dirname "$importer")/foretouch" avatar colliders "$examples/dancer.avatar.json" -o "$folder/dancer.json"
+  files=("$examples/dancer.avatar.json" "$folder/dancer.json")
+else
+  echo "left out: colliders, which need the program"
+fi
+mono "$folder/components.exe" "${files[@]}"
 compile garbage.exe -r:"$folder/Unity.dll" "$here"/{Garbage,Check}.cs
 mono "$folder/garbage.exe"
 

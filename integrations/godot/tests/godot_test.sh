@@ -4,6 +4,7 @@
 #   godot_test.sh FOLDER_OF_LIBRARY IMPORTER FOLDER_OF_EXAMPLES                all tests
 #   godot_test.sh FOLDER_OF_LIBRARY IMPORTER FOLDER_OF_EXAMPLES --cost         what the border costs, measured
 #   godot_test.sh FOLDER_OF_LIBRARY IMPORTER FOLDER_OF_EXAMPLES --hands [N]    N hands led at a thin board (10,000)
+#   godot_test.sh FOLDER_OF_LIBRARY IMPORTER FOLDER_OF_EXAMPLES --film         the demo, a line per frame
 set -euo pipefail
 library=$(realpath "$1") importer=$(realpath "$2") examples=$(realpath "$3")
 here=$(cd "$(dirname "$0")" && pwd)
@@ -47,6 +48,13 @@ case "${4:-}" in
     "$folder/cost" "$examples" "$folder/poses.bin" "$folder/said.txt"
     exit
     ;;
+  --film)
+    cp -r "$package/demo" "$folder/demo"
+    cp -r "$project/addons" "$here/film.gd" "$folder/demo/"
+    godot "$folder/demo" --fixed-fps 60 -s film.gd
+    sed -n 's/^film: //p' "$folder/said.txt"
+    exit
+    ;;
   --hands)
     export FORETOUCH_HANDS=${5:-10000}
     for engine in Bullet GodotPhysics; do
@@ -76,6 +84,15 @@ cmp "$folder/steps.bin" "$folder/c_steps.bin"
 cmp "$folder/ticks.bin" "$folder/c_ticks.bin"
 echo "$(wc -c <"$folder/steps.bin") and $(wc -c <"$folder/ticks.bin") bytes of the bundled clips: the same"
 "$folder/answers" own "$folder/own.bin"
+
+echo "== colliders of an avatar"
+if [ -x "$(dirname "$importer")/foretouch" ]; then
+  "$(dirname "$importer")/foretouch" avatar colliders "$examples/dancer.avatar.json" --godot 3 -o "$project/dancer.tscn"
+  must "$project" colliders.gd
+  grep ' checks, ' "$folder/said.txt"
+else
+  echo "left out: they need the program"
+fi
 
 echo "== the demo"
 cp -r "$package/demo" "$folder/demo"

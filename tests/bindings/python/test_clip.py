@@ -1,6 +1,8 @@
 """Clips as poses of an avatar."""
 
+import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -38,6 +40,25 @@ class Clips(unittest.TestCase):
         np.testing.assert_array_equal(moved[:, 0] - moved[:, 0], 0)
         np.testing.assert_array_equal(self.clip.poses(self.avatar, origin=(1, 2, 3)).rotations,
                                       plain.rotations)
+
+    def test_of_acclaim_are_about_the_skeleton_that_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            amc = Path(folder, "walk.amc")
+            amc.write_text(":FULLY-SPECIFIED\n:DEGREES\n1\nroot 0 2 0 0 0 0\nstick 0 0 30\n2\nroot 0 4 0 0 0 0\n"
+                           "stick 0 0 60\n")
+            for name in ("first.asf", "second.asf"):
+                Path(folder, name).write_text(
+                    ":version 1.10\n:units\n length 1\n angle deg\n:root\n order TX TY TZ RX RY RZ\n axis XYZ\n"
+                    " position 0 0 0\n orientation 0 0 0\n:bonedata\n begin\n id 1\n name stick\n direction 0 -1 0\n"
+                    " length 1\n axis 0 0 0 XYZ\n dof rx ry rz\n end\n:hierarchy\n begin\n root stick\n end\n")
+            clip = foretouch.Clip.load(amc, skeleton=Path(folder, "first.asf"), row_rate_hz=50)
+            self.assertEqual((len(clip), clip.frame_time_s), (2, 0.02))
+            self.assertIn("stick", clip.joint_names)
+            with self.assertRaises(foretouch.InputError):
+                foretouch.Clip.load(amc)  # there are two beside it
+            for unfit in ({"skeleton": amc}, {"row_rate_hz": 50}):
+                with self.assertRaisesRegex(foretouch.InputError, next(iter(unfit))):
+                    foretouch.Clip.load(Path(folder, "walk.bvh"), **unfit)
 
     def test_joints_match_by_name_or_map(self):
         match = self.clip.match(self.avatar)

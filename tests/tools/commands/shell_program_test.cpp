@@ -55,7 +55,7 @@ TEST(Completion, OffersCommandsOptionsWordsAndFilesInBash) {
   folder.write("notes.txt", "");
   EXPECT_EQ(offersOfBash(folder, "foretouch re"), (Offers{"repair", "replay"}));
   EXPECT_EQ(offersOfBash(folder, "foretouch avatar ''"),
-            (Offers{"bvh", "check", "mesh", "pairs", "urdf"}));
+            (Offers{"bvh", "check", "colliders", "mesh", "pairs", "urdf"}));
   EXPECT_EQ(offersOfBash(folder, "foretouch avatar check --clip-s"), Offers{"--clip-scale"});
   EXPECT_EQ(offersOfBash(folder, "foretouch replay --fidelity l"), Offers{"link"});
   EXPECT_EQ(offersOfBash(folder, "foretouch serve --fidelity ''"), (Offers{"exact", "link"}));
@@ -340,6 +340,7 @@ TEST(Quiet, MeansTheSameToEveryCommand) {
       {"avatar", "mesh", wall, "-o", out + "json"},
       {"avatar", "urdf", robot, "-o", out + "json"},
       {"avatar", "check", man},
+      {"avatar", "colliders", man, "-o", out + "glb"},
       {"avatar", "pairs", FORETOUCH_EXAMPLE_FOLDER "/dancer.avatar.json"},
       {"scene", "check", wall},
       {"scene", "bake", wall, "-o", out + "ftscene"},

@@ -268,11 +268,14 @@ typedef struct ft_clip_options {
   double scale;     /* likewise */
   double yaw_deg;   /* then turned about +Y, */
   double origin[3]; /* then moved. */
+  /* Since FT_ABI_VERSION 11. */
+  const char* skeleton; /* of an .amc: its .asf; NULL: the one beside it. Of others: NULL */
+  double row_rate_hz;   /* poses a second of an .amc or a session of WebXR; 0: as the file has it */
 } ft_clip_options;
 
 FT_API ft_status ft_clip_options_init(ft_clip_options* options, size_t size);
-/* Reads a BVH clip, or the first animation of a model (.glb, .gltf, .fbx, .dae, .x) in 30 poses a
- * second. Its joints drive those of the avatar that have the same name; the others keep their rest
+/* Reads a BVH clip, the first animation of a model (.glb, .gltf, .fbx, .dae, .x) in 30 poses a
+ * second, or motions of Acclaim (.amc), Xsens (.mvnx) and WebXR (.json). Its joints drive those of the avatar that have the same name; the others keep their rest
  * pose. Error if no name matches. `options` may be NULL. */
 FT_API ft_status ft_clip_create_from_file(const char* path, const ft_avatar* avatar,
                                           const ft_clip_options* options, ft_clip** clip);

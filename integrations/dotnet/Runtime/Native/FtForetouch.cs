@@ -194,7 +194,7 @@ namespace Foretouch {
     public const int ZUpLeft = 2;
   }
   [StructLayout(LayoutKind.Sequential)]
-  public partial struct FtClipOptions {
+  public unsafe partial struct FtClipOptions {
     public uint size;
     /// <summary>of the file, as in ft_import_options</summary>
     public int up;
@@ -204,6 +204,11 @@ namespace Foretouch {
     public double yawDeg;
     /// <summary>then moved.</summary>
     public FtVector origin;
+    /// <summary>Since FT_ABI_VERSION 11. of an .amc: its .asf; NULL: the one beside it. Of others:
+    /// NULL</summary>
+    public byte* skeleton;
+    /// <summary>poses a second of an .amc or a session of WebXR; 0: as the file has it</summary>
+    public double rowRateHz;
   }
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtClipInfo {
@@ -912,9 +917,10 @@ namespace Foretouch {
     [DllImport(Library)] public static extern int ft_rotations_from_floats(float* xyzw, ulong count, int axes, double* wxyz);
     [DllImport(Library)] public static extern int ft_rotations_to_floats(double* wxyz, ulong count, int axes, float* xyzw);
     [DllImport(Library)] public static extern int ft_clip_options_init(FtClipOptions* options, ulong size);
-    /// <summary>Reads a BVH clip, or the first animation of a model (.glb, .gltf, .fbx, .dae, .x) in 30
-    /// poses a second. Its joints drive those of the avatar that have the same name; the others keep their
-    /// rest pose. Error if no name matches. `options` may be NULL.</summary>
+    /// <summary>Reads a BVH clip, the first animation of a model (.glb, .gltf, .fbx, .dae, .x) in 30 poses
+    /// a second, or motions of Acclaim (.amc), Xsens (.mvnx) and WebXR (.json). Its joints drive those of
+    /// the avatar that have the same name; the others keep their rest pose. Error if no name matches.
+    /// `options` may be NULL.</summary>
     [DllImport(Library)] public static extern int ft_clip_create_from_file(byte* path, FtAvatar avatar, FtClipOptions* options, out FtClip clip);
     [DllImport(Library)] public static extern int ft_clip_get_info(FtClip clip, FtClipInfo* info);
     /// <summary>Frame `frame` as a pose of the avatar; otherwise like ft_avatar_rest_pose().</summary>
