@@ -18,12 +18,12 @@ ft_status checkedArrays(const ft_skin& skin) {
   const auto vertices =
       neededArray(skin.first_share, skin.vertex_count, kMostCorners, "first_share");
   if (vertices != FT_OK) return vertices;
-  for (const auto& [array, name] :
-       {std::pair<const void*, const char*>{skin.triangles, "triangles"},
-        {skin.triangle_links, "triangle_links"}}) {
-    const auto s = neededArray(array, skin.triangle_count, kMaxSurfaceTriangles, name);
-    if (s != FT_OK) return s;
-  }
+  const std::size_t triangles = skin.triangle_count;
+  const auto corners = neededArray(skin.triangles, triangles, kMaxSurfaceTriangles, "triangles");
+  if (corners != FT_OK) return corners;
+  const auto owners =
+      neededArray(skin.triangle_links, triangles, kMaxSurfaceTriangles, "triangle_links");
+  if (owners != FT_OK) return owners;
   const std::int32_t shares = skin.vertex_count == 0 ? 0 : skin.first_share[skin.vertex_count];
   if (shares <= 0) return FT_OK;
   for (const auto& [array, name] :

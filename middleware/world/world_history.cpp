@@ -12,7 +12,6 @@
 namespace foretouch {
 namespace {
 
-using internal::BodyKind;
 using internal::Episode;
 using internal::WorldBody;
 using internal::WorldParts;
@@ -88,7 +87,7 @@ class Hanging {
   /// Per link of the body: no point of it, or of what hangs on it meanwhile, is farther from the
   /// link's origin (m).
   [[nodiscard]] std::vector<double> reachOf(const Stay& stay) const {
-    const BodyKind& kind = world_.kindOf(stay.body);
+    const internal::BodyKind& kind = world_.kindOf(stay.body);
     std::vector<double> reach(kind.volumes.size(), 0.0);
     for (std::size_t link = 0; link < reach.size(); ++link) {
       reach[link] = internal::reachOf(kind.volumes[link]);

@@ -69,8 +69,13 @@ namespace Foretouch {
     /// <summary>The instant before which all is forgotten; by memory (PoseBytes).</summary>
     public long ForgetBeyond(ulong bytes) {
       long us;
-      Ft.Must(FtNative.ft_world_forget_beyond(this, (UIntPtr)bytes, out us));
+      Ft.Must(FtNative.ft_world_forget_beyond(this, bytes, out us));
       return us;
+    }
+    public ulong PoseBytes() {
+      ulong bytes;
+      Ft.Must(FtNative.ft_world_pose_bytes(this, out bytes));
+      return bytes;
     }
     /// <summary>No point is ever farther than so many metres from where all poses have it.</summary>
     public void ThinBefore(long timeUs, double metres) {

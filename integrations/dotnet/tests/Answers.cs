@@ -113,7 +113,10 @@ static class Answers {
           body = body, link = Ft.EveryLink, fromBody = door, fromLink = Ft.EveryLink, timeUs = until - 1000, timeFraction = 0.25
         }));
         Ask(moving, body, door, until);
+        moving.ThinBefore(until - stride * usPerFrame, 1e-3);
+        ulong kept = moving.PoseBytes();
         moving.ForgetBefore(until - stride * usPerFrame);
+        if (moving.PoseBytes() > kept || moving.ForgetBeyond(kept) < until - stride * usPerFrame) throw new Exception("remembers more than it did");
       }
     }
   }

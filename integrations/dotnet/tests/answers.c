@@ -273,6 +273,7 @@ static void world(size_t stride, int64_t us_per_frame) {
       ONE(ft_depth, &depth);
     }
     ask(moving, body, door, until);
+    must(ft_world_thin_before(moving, until - (int64_t)stride * us_per_frame, 1e-3));
     must(ft_world_forget_before(moving, until - (int64_t)stride * us_per_frame));
   }
   ft_world_destroy(moving);
