@@ -4,9 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "lss/index.h"
 #include "lss/rounding.h"
-#include "middleware/scene/flat_bvh_lanes.h"
 
 namespace foretouch::internal {
 namespace {
@@ -72,6 +70,14 @@ bool LeafSearch::isFound(const LinkInPiece& piece, const BracketSearch& search, 
   return true;
 }
 
+std::optional<double> LeafSearch::findAmongPairs(double from, double to, SidesPair& witness) {
+  if (pairs_.empty()) return std::nullopt;
+  piece_->sides.addBoxes(pairs_.size());
+  piece_->sides.limitTo(pairs_, true);
+  return bracketer_.find(piece_->sides, piece_->growth, piece_->resolution, search_, from, to,
+                         witness);
+}
+
 std::optional<double> LeafSearch::find(const LinkInPiece& piece, const BracketSearch& search,
                                        double from, const NearLeaves* leaves, SidesPair& witness) {
   begin(piece, search);
@@ -93,13 +99,7 @@ std::optional<double> LeafSearch::find(const LinkInPiece& piece, const BracketSe
       window = kShrink * (next - t);
       continue;
     }
-    if (count > 0) {
-      piece.sides.addBoxes(count);
-      piece.sides.limitTo(pairs_, true);
-      const auto found =
-          bracketer_.find(piece.sides, piece.growth, piece.resolution, search, t, next, witness);
-      if (found) return found;
-    }
+    if (const auto found = findAmongPairs(t, next, witness)) return found;
     refused = kMostPairs;
     if (2 * count <= kFewPairs) window *= 2.0;
     t = next;

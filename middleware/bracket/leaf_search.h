@@ -48,6 +48,7 @@ class LeafSearch {
   void begin(const LinkInPiece& piece, const BracketSearch& search);
   void setTubes(double from, double to);
   void collectPairs(double from, double to, const NearLeaves* leaves);
+  [[nodiscard]] std::optional<double> findAmongPairs(double from, double to, SidesPair& witness);
 
   const LinkInPiece* piece_ = nullptr;
   BracketSearch search_;
