@@ -23,7 +23,9 @@
 #include "bench/options.h"
 #include "bench/person/ahead_trial.h"
 #include "bench/person/pair_trial.h"
+#include "bench/person/person_tables.h"
 #include "bench/person/person_trial.h"
+#include "bench/person/reach_trial.h"
 #include "bench/report.h"
 #include "bench/solid/busy_places.h"
 #include "bench/solid/cast.h"
@@ -43,6 +45,7 @@ struct PersonBenchRequest {
   std::vector<double> ratesHz{60.0, 30.0, 15.0, 10.0, 5.0};  ///< Of given poses.
   std::vector<MotionModel> models{MotionModel::ConstantRate, MotionModel::Cubic,
                                   MotionModel::CubicLate};
+  std::vector<Asked> asked{Asked::Scene, Asked::OwnLinks, Asked::OtherPerson};
   int places = 1;           ///< Per clip and scene.
   double seconds = 4.0;     ///< At each.
   int instants = 3;         ///< That the judge looks at per frame.
@@ -52,6 +55,7 @@ struct PersonBenchRequest {
   /// one's; touches that are missed or invented are then counted, and no violation.
   double learned = 0.0;
   double aheadS = 0.0;  ///< Above 0: instead, what is said of this long after each pose.
+  int reaches = 0;      ///< Above 0: instead, so many reaches for a table.
   FigureFiles figures;
 };
 
@@ -61,19 +65,6 @@ constexpr double kMostRateShare = 0.51;
 /// Another person stands so far from this one (m), and is given at this share of the rate, so that
 /// the steps of the two do not begin together.
 constexpr double kBesideM = 0.35, kOthersShare = 0.7;
-
-enum class Asked : std::uint8_t { Scene, OwnLinks, OtherPerson };
-const char* toString(Asked asked) {
-  switch (asked) {
-    case Asked::Scene: return "scene";
-    case Asked::OwnLinks: return "own links";
-    case Asked::OtherPerson: return "other person";
-  }
-  return "scene";
-}
-
-/// What is asked, the rate, the model.
-using Kind = std::tuple<Asked, double, MotionModel>;
 
 /// The clip's part at a place.
 SolidActor partOf(const SolidActor& actor, const BusyPlace& place, double seconds) {
@@ -85,96 +76,6 @@ SolidActor partOf(const SolidActor& actor, const BusyPlace& place, double second
   frames.resize(std::min(frames.size(), static_cast<std::size_t>(seconds / frameTimeS) + 1));
   return part;
 }
-
-class PersonTable {
- public:
-  explicit PersonTable(double learned)
-      : table_{learned > 0.0 ? "strangers" : "oracle",
-               learned > 0.0
-                   ? fmt::format("Brackets by bounds of strangers, at the quantile {:g}", learned)
-                   : "Brackets of persons whose poses are held back, by the bounds of their clip",
-               {{"asked", "asked"},
-                {"rate_hz", "Hz", 0},
-                {"between", "between"},
-                {"intervals", "links and steps"},
-                {"missed", "missed"},
-                {"lied", "lied"},
-                {"undecided_percent", "undecided %", 2},
-                {"fresh", "began"},
-                {"missed_by_poses", "of them no pose shows"},
-                {"missed_between", "missed by the constant rate"},
-                {"invented_between", "invented by it"},
-                {"certain_percent", "certain %", 1},
-                {"passed", "passed a surface"},
-                {"width_p50_ms", "bracket p50 ms", 2},
-                {"width_p90_ms", "p90 ms", 1},
-                {"growth_p50_mm", "bound p50 mm", 2},
-                {"pieces", "pieces", 1},
-                {"cost", "times a plain step", 1}},
-               {}} {}
-
-  void add(const Kind& kind, const PersonTally& t) {
-    const Percentiles widths = percentilesOf(t.widthsMs), growths = percentilesOf(t.growthsMm);
-    const auto& [asked, rateHz, model] = kind;
-    const double steps = static_cast<double>(std::max<std::uint64_t>(t.steps, 1));
-    table_.rows.push_back(
-        {std::string(toString(asked)), rateHz, std::string(toString(model)), cell(t.intervals),
-         cell(t.missed), cell(t.lied), percent(t.possible, t.intervals), cell(t.fresh),
-         cell(t.missedByPoses), cell(t.missedBetween), cell(t.inventedBetween),
-         percent(t.freshCertain, t.fresh), cell(t.passed), widths.p50, widths.p90, growths.p50,
-         static_cast<double>(t.pieces) / steps, t.plainUs > 0.0 ? t.bracketUs / t.plainUs : 0.0});
-  }
-  [[nodiscard]] const BenchTable& table() const { return table_; }
-
- private:
-  BenchTable table_;
-};
-
-/// What is said before it happens, by rate and way.
-class AheadTable {
- public:
-  void add(double rateHz, const std::vector<AheadTally>& tallies) {
-    auto& rows = tallies_[-rateHz];
-    rows.resize(std::max(rows.size(), tallies.size()));
-    for (std::size_t way = 0; way < tallies.size(); ++way) rows[way].add(tallies[way]);
-  }
-  [[nodiscard]] std::uint64_t late() const {
-    std::uint64_t sum = 0;
-    for (const auto& [rate, rows] : tallies_) {
-      for (const AheadTally& tally : rows) sum += tally.late;
-    }
-    return sum;
-  }
-  [[nodiscard]] BenchTable table(double horizonS) const {
-    BenchTable table{
-        "ahead",
-        fmt::format("Not before: what may be touched within {:g} s of a pose", horizonS),
-        {{"rate_hz", "Hz", 0},
-         {"by", "by"},
-         {"asked", "links and poses"},
-         {"touched", "touched"},
-         {"late", "later than the truth"},
-         {"early_p50_ms", "early p50 ms", 1},
-         {"early_p90_ms", "p90 ms", 1},
-         {"alarms_percent", "false alarms %", 2},
-         {"us", "us per pose", 1}},
-        {}};
-    for (const auto& [rate, rows] : tallies_) {
-      for (std::size_t way = 0; way < rows.size(); ++way) {
-        const AheadTally& t = rows[way];
-        const Percentiles early = percentilesOf(t.earlyMs);
-        table.rows.push_back({-rate, std::string(toString(static_cast<AheadWay>(way))),
-                              cell(t.asked), cell(t.touched), cell(t.late), early.p50, early.p90,
-                              percent(t.alarms, t.asked - t.touched),
-                              t.poses > 0 ? t.us / static_cast<double>(t.poses) : 0.0});
-      }
-    }
-    return table;
-  }
-
- private:
-  std::map<double, std::vector<AheadTally>> tallies_;  // by falling rate
-};
 
 /// The names of clips begin with who made them.
 std::string makerOf(const SolidActor& actor) {
@@ -213,18 +114,21 @@ class PersonRuns {
   PersonRuns(const PersonBenchRequest& request, const SolidStage& stage, const Cast& cast)
       : request_(request), stage_(stage), cast_(cast) {}
 
-  void addAhead(const SolidActor& actor, AheadTable& table) const {
+  void addAhead(const SolidActor& actor, AheadTallies& tallies) const {
     const BusyPlaceRequest places = placesOf(actor);
     for (const BusyPlace& place : busyPlaces(stage_, actor, places)) {
       const SolidActor part = partOf(actor, place, places.seconds);
       for (const double rateHz : request_.ratesHz) {
         if (rateHz * actor.clip.frameTimeS > 1.0 + 1e-9) continue;
-        table.add(rateHz, judgeAhead(stage_, part, place.placement, {rateHz, request_.aheadS}));
+        const auto judged = judgeAhead(stage_, part, place.placement, {rateHz, request_.aheadS});
+        auto& rows = tallies[-rateHz];
+        rows.resize(judged.size());
+        for (std::size_t way = 0; way < judged.size(); ++way) rows[way].add(judged[way]);
       }
     }
   }
 
-  void add(const SolidActor& actor, std::map<Kind, PersonTally>& tallies) const {
+  void add(const SolidActor& actor, PersonTallies& tallies) const {
     const BusyPlaceRequest places = placesOf(actor);
     std::optional<Strangers> strangers;
     if (request_.learned > 0.0) strangers.emplace(request_, cast_.actors, actor);
@@ -239,15 +143,17 @@ class PersonRuns {
             bounds = strangers->of(model, rateHz);
             if (bounds.empty()) continue;
           }
-          for (const Asked asked : {Asked::Scene, Asked::OwnLinks}) {
+          for (const Asked asked : request_.asked) {
+            if (asked == Asked::OtherPerson) {
+              if (!strangers) addPair({part, place.placement, {}}, next, rateHz, model, tallies);
+              continue;
+            }
             PersonTrial trial{
                 rateHz,           model, true, asked == Asked::OwnLinks, request_.boundShare,
                 request_.instants};
             trial.bounds = bounds;
             tallies[{asked, -rateHz, model}].add(judgePerson(stage_, part, place.placement, trial));
           }
-          if (strangers) continue;
-          addPair({part, place.placement, {}}, next, rateHz, model, tallies);
         }
       }
     }
@@ -275,7 +181,7 @@ class PersonRuns {
   }
 
   void addPair(PersonOfPair one, const SolidActor& next, double rateHz, MotionModel model,
-               std::map<Kind, PersonTally>& tallies) const {
+               PersonTallies& tallies) const {
     BusyPlaceRequest anyPlace = placesOf(next);
     anyPlace.count = 1;
     const auto places = busyPlaces(stage_, next, anyPlace);
@@ -295,13 +201,23 @@ class PersonRuns {
   const Cast& cast_;
 };
 
+JudgedReport measureReaches(const PersonBenchRequest& request) {
+  JudgedReport bench{startedReport("body", "Who is warned before a hand touches a table")};
+  ReachRequest reach;
+  reach.reaches = request.reaches;
+  reach.seed = request.seed;
+  bench.add(reachTable(reach));
+  return bench;
+}
+
 /// One thread.
 Result<JudgedReport> measurePerson(const PersonBenchRequest& request) {
+  if (request.reaches > 0) return measureReaches(request);
   FORETOUCH_TRY(const auto cast, loadCast(request.dataFolder, request.scenes, request.clips));
   JudgedReport bench{startedReport("body", "What the person touched, who is not the model")};
   BenchReport& report = bench.report;
-  std::map<Kind, PersonTally> tallies;
-  AheadTable ahead;
+  PersonTallies tallies;
+  AheadTallies ahead;
   ProgressBar progress("body", static_cast<std::int64_t>(cast.stages.size() * cast.actors.size()));
   std::int64_t done = 0;
   for (const SolidStage& stage : cast.stages) {
@@ -311,16 +227,20 @@ Result<JudgedReport> measurePerson(const PersonBenchRequest& request) {
       progress.advanceTo(++done);
     }
   }
-  PersonTable table(request.learned);
   for (const auto& [kind, tally] : tallies) {
-    const auto& [asked, rateHz, model] = kind;
-    table.add({asked, -rateHz, model}, tally);
-    if (request.learned > 0.0) continue;
+    if (request.learned > 0.0) break;
     bench.violations += tally.missed + tally.lied;
     for (const std::string& finding : tally.findings) report.notes.push_back(finding);
   }
-  report.tables.push_back(request.aheadS > 0.0 ? ahead.table(request.aheadS) : table.table());
-  bench.violations += ahead.late();
+  for (const auto& [rate, rows] : ahead) {
+    for (const AheadTally& tally : rows) bench.violations += tally.late;
+  }
+  if (request.aheadS > 0.0) {
+    report.tables.push_back(aheadTable(ahead, request.aheadS));
+  } else {
+    report.tables.push_back(bracketTable(tallies, request.learned));
+    report.tables.push_back(widthTable(tallies));
+  }
   std::vector<std::string> clips;
   for (const SolidActor& actor : cast.actors) clips.push_back(actor.name);
   report.workload.emplace_back("clips", listed(clips));
@@ -331,12 +251,19 @@ Result<JudgedReport> measurePerson(const PersonBenchRequest& request) {
 struct AskedPerson {
   PersonBenchRequest request;
   std::vector<std::string> models{"constant-rate", "cubic", "cubic-late"};
+  std::vector<std::string> asked{"scene", "own-links", "other-person"};
 };
 
 ExitCode run(AskedPerson& asked) {
   PersonBenchRequest& request = asked.request;
   request.models.clear();
   for (const std::string& word : asked.models) request.models.push_back(*motionModelNamed(word));
+  request.asked.clear();
+  for (const std::string& word : asked.asked) {
+    request.asked.push_back(word == "scene"       ? Asked::Scene
+                            : word == "own-links" ? Asked::OwnLinks
+                                                  : Asked::OtherPerson);
+  }
   FORETOUCH_TRY_OR(failed, const auto bench, measurePerson(request));
   return finished(bench, "touches were missed or invented", request.figures);
 }
@@ -344,7 +271,8 @@ ExitCode run(AskedPerson& asked) {
 }  // namespace
 
 Command bodyCommand() {
-  constexpr int kMostPlaces = 1000, kMostInstants = 100, kMostSeed = 1'000'000'000;
+  constexpr int kMostReaches = 100'000, kMostPlaces = 1000, kMostInstants = 100,
+                kMostSeed = 1'000'000'000;
   const auto asked = std::make_shared<AskedPerson>();
   PersonBenchRequest& request = asked->request;
   Settings settings;
@@ -357,6 +285,8 @@ Command bodyCommand() {
              "Given poses per second, of clips that have twice as many");
   addWords(settings, "--between", "WORD,...", asked->models,
            {"constant-rate", "cubic", "cubic-late"}, "Models of the motion between two poses");
+  addWords(settings, "--asked", "WORD,...", asked->asked, {"scene", "own-links", "other-person"},
+           "What the person may touch");
   settings.whole("--places", "N", request.places, 1, kMostPlaces, "Busy places per clip and scene");
   settings.number("--seconds", "S", request.seconds, kAboveZero, "Of the clip at each place");
   settings.whole("--instants", "N", request.instants, 1, kMostInstants,
@@ -368,6 +298,10 @@ Command bodyCommand() {
                   "Instead by bounds of the clips of other makers, learned at this quantile");
   settings.number("--ahead", "S", request.aheadS, NumberRange{0.0, 2.0},
                   "Instead: what is said of this long after each pose, beside grown capsules");
+  settings.whole(
+      "--reaches", "N", request.reaches, 0, kMostReaches,
+      "Instead: how long before a touch so many hands are warned that reach for a table, "
+      "at 90 Hz");
   addFigures(settings, request.figures, "Also write the table to a file");
   Command command{"body",
                   "What brackets say of persons whose poses are held back; exit code 1 where a "

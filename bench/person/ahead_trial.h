@@ -4,21 +4,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "bench/person/ahead_ways.h"
 #include "bench/person/bounded_person.h"
 #include "bench/solid/stage.h"
 
 namespace foretouch::tools {
-
-/// What stands for the person after the last pose.
-enum class AheadWay : std::uint8_t {
-  Chain,        ///< Foretouch: joints go on turning, and their links with them.
-  Capsule,      ///< Each capsule goes on in a line and grows, as the ACCEL model of SaRA has it.
-  WiderCapsule  ///< Each capsule stays and grows by its greatest speed, as the VEL model has it.
-};
-[[nodiscard]] const char* toString(AheadWay way);
 
 struct AheadTally {
   std::uint64_t asked = 0;    ///< Links at poses that touch nothing there.

@@ -131,6 +131,17 @@ std::vector<LinkBound> BoundedPerson::learn() {
   return bounds;
 }
 
+void BoundedPerson::growths(const HeldBackStep& step, std::vector<double>& most) {
+  bendsOf(step, most);
+  for (std::size_t link = 0; link < most.size(); ++link) {
+    const LinkBound& bound = bounds_[link];
+    const double followed = std::isfinite(most[link])
+                                ? bound.followFloor + bound.followShare * most[link]
+                                : LinkBound::kNone;
+    most[link] = std::min(bound.acceleration * seconds_ * seconds_ / 8.0, followed);
+  }
+}
+
 PosedStep BoundedPerson::posed(const HeldBackStep& step) const {
   const bool isLate = trial_.model == MotionModel::CubicLate;
   PosedStep posed;

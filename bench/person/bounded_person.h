@@ -41,6 +41,9 @@ class BoundedPerson {
     return static_cast<double>(step.from) * seconds_ / static_cast<double>(every_);
   }
   [[nodiscard]] const std::vector<LinkBound>& bounds() const { return bounds_; }
+  /// The largest distance from the model that the bounds allow in a step, beside the error of poses
+  /// (m), per link.
+  void growths(const HeldBackStep& step, std::vector<double>& most);
   [[nodiscard]] PosedStep posed(const HeldBackStep& step) const;
   /// Instants of a step at which the judge looks, less one.
   [[nodiscard]] int looks() const { return trial_.instants * static_cast<int>(every_); }

@@ -48,6 +48,43 @@ void checkCertain(const LinkBracket& bracket, const JudgedSides& sides, PersonTa
   }
 }
 
+/// The first instant of [from, to] at which the model is within `share` growths of the other side;
+/// `to` if there is none at the looks.
+double firstWithin(const JudgedSides& sides, double share, double from, double to) {
+  constexpr int kLooks = 64, kHalvings = 20;
+  const auto isWithin = [&](double t) {
+    return sides.modelApartAt(t) <= share * sides.growthAt(t);
+  };
+  double before = from;
+  for (int i = 0; i <= kLooks; ++i) {
+    double t = from + (to - from) * i / kLooks;
+    if (!isWithin(t)) {
+      before = t;
+      continue;
+    }
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = 0.5 * (before + t);
+      (isWithin(middle) ? t : before) = middle;
+    }
+    return t;
+  }
+  return to;
+}
+
+/// Nobody within the bounds touches before its begin, and there are two persons within them of whom
+/// one touches a plane there, and the other not until its end.
+void measureWidth(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& tally) {
+  const double ms = 1e3 * sides.seconds * (bracket.certainFrom - bracket.possibleFrom);
+  tally.widthsMs.push_back(ms);
+  if (!sides.modelApartAt || bracket.certainUntil < bracket.certainFrom) return;
+  const double begin = firstWithin(sides, 1.0, bracket.possibleFrom, bracket.certainFrom);
+  const double end = firstWithin(sides, -1.0, begin, bracket.certainFrom);
+  const double leastMs = 1e3 * sides.seconds * (end - begin);
+  const double way = sides.modelApartAt(begin) - sides.modelApartAt(end);
+  const double approach = leastMs > 0.0 ? 1e3 * way / leastMs : 0.0;
+  tally.widths.push_back({approach, ms, leastMs, 1e3 * sides.growthAt(begin)});
+}
+
 }  // namespace
 
 bool judge(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& tally) {
@@ -74,7 +111,7 @@ bool judge(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& ta
   if (!touchesLast) ++tally.missedByPoses;
   if (bracket.verdict != BracketVerdict::Certain) return true;
   ++tally.freshCertain;
-  tally.widthsMs.push_back(1e3 * sides.seconds * (bracket.certainFrom - bracket.possibleFrom));
+  measureWidth(bracket, sides, tally);
   return true;
 }
 

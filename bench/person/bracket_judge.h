@@ -15,6 +15,9 @@ struct JudgedSides {
   int looks = 0;                                ///< Instants that are looked at, less one.
   std::function<double(int look)> apartAtLook;  ///< Their separation (m) at t = look / looks.
   std::function<double(double t)> apartAt;
+  /// Of the model, and by how much the person may be elsewhere (m): for the least width that any
+  /// answer from the same bounds has. Both or none.
+  std::function<double(double t)> modelApartAt = {}, growthAt = {};
 };
 
 /// Whether the two touched at an instant that is looked at.

@@ -168,6 +168,16 @@ double HeldBack::fromScene(const std::vector<Axis>& axes, int link, double cutof
   return least;
 }
 
+double HeldBack::fromScene(const Vec3d& point, double cutoff) const {
+  oracle::Box box;
+  box.add(point);
+  double least = cutoff;
+  scene_.visitNear(box, least, [&](int id) {
+    least = std::min(least, oracle::closestPoints(point, point, scene_.triangle(id)).distance);
+  });
+  return least;
+}
+
 double HeldBack::fromLinkOf(const HeldBack& other, const std::vector<Axis>& axes, int link,
                             const std::vector<Axis>& otherAxes, int otherLink) const {
   double least = oracle::Box::kEmpty;

@@ -46,11 +46,14 @@ class HeldBack {
   /// The least separation of a link's capsules from the scene, or of two links; `cutoff` if nothing
   /// is nearer.
   [[nodiscard]] double fromScene(const std::vector<Axis>& axes, int link, double cutoff) const;
+  /// Of a point; `cutoff` if nothing is nearer.
+  [[nodiscard]] double fromScene(const oracle::Vec3d& point, double cutoff) const;
   [[nodiscard]] double fromLink(const std::vector<Axis>& axes, int link, int other) const {
     return fromLinkOf(*this, axes, link, axes, other);
   }
   [[nodiscard]] double fromLinkOf(const HeldBack& other, const std::vector<Axis>& axes, int link,
                                   const std::vector<Axis>& otherAxes, int otherLink) const;
+  [[nodiscard]] double radiusOf(std::size_t capsule) const { return radii_[capsule]; }
   /// What a link's capsules lie in.
   [[nodiscard]] oracle::Box boxOf(const std::vector<Axis>& axes, int link) const;
 

@@ -17,6 +17,7 @@ void PersonTally::add(const PersonTally& o) {
   missedBetween += o.missedBetween;
   inventedBetween += o.inventedBetween;
   widthsMs.insert(widthsMs.end(), o.widthsMs.begin(), o.widthsMs.end());
+  widths.insert(widths.end(), o.widths.begin(), o.widths.end());
   growthsMm.insert(growthsMm.end(), o.growthsMm.begin(), o.growthsMm.end());
   bracketUs += o.bracketUs;
   plainUs += o.plainUs;

@@ -7,6 +7,14 @@
 
 namespace foretouch::tools {
 
+/// A bracket of a begin, beside the least one that the same bounds allow: who was ahead of the
+/// model by all of the bound touched at its begin, who was behind it, at its end.
+struct BracketWidth {
+  double approach = 0.0;  ///< Of the model, through the least bracket (m/s).
+  double ms = 0.0, leastMs = 0.0;
+  double growthMm = 0.0;  ///< At the least bracket's begin.
+};
+
 struct PersonTally {
   std::uint64_t intervals = 0;  ///< Links (or pairs) times steps, of what has a surface.
   std::uint64_t missed = 0, lied = 0;
@@ -18,6 +26,7 @@ struct PersonTally {
   /// Of the scene, by who takes the constant rate for what the person did, at a millimetre.
   std::uint64_t missedBetween = 0, inventedBetween = 0;
   std::vector<double> widthsMs;           ///< Of certain fresh touches: from possible to certain.
+  std::vector<BracketWidth> widths;       ///< Of those, where the least is known.
   std::vector<double> growthsMm;          ///< Largest, per interval.
   double bracketUs = 0.0, plainUs = 0.0;  ///< Of all steps, bracketed and plain.
   std::uint64_t pieces = 0, steps = 0;

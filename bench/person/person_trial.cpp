@@ -83,6 +83,7 @@ class Trial {
       return;
     }
     askPlainly(step);
+    person_.growths(step, growths_);
     for (const LinkBracket& bracket : brackets_.links) {
       if (avatar_.lss(bracket.link).empty()) continue;
       const bool hasTouched = judgeBracket(step, bracket, bracket.link, -1);
@@ -98,10 +99,19 @@ class Trial {
   }
 
   bool judgeBracket(const HeldBackStep& step, const LinkBracket& bracket, int link, int other) {
-    const JudgedSides sides{
+    JudgedSides sides{
         fmt::format("link {} {} step {}", link, other, step.from), person_.stepS(), person_.looks(),
         [&](int i) { return separation(truths_[slotOf(i)], link, other); },
         [&](double t) { return separation(person_.held().truthAt(step, t), link, other); }};
+    if (other < 0) {
+      sides.growthAt = [&](double t) {
+        return person_.bounds()[slotOf(link)].error + 4.0 * growths_[slotOf(link)] * t * (1.0 - t);
+      };
+      sides.modelApartAt = [&](double t) {
+        return person_.held().fromScene(person_.held().modelAt(step, trial_.model, t), link,
+                                        sides.growthAt(t) + 1e-3);
+      };
+    }
     return foretouch::tools::judge(bracket, sides, tally_);
   }
 
@@ -115,7 +125,8 @@ class Trial {
   StepBrackets brackets_;
   StepContacts contacts_;
   ChainMotion motion_;
-  std::vector<std::vector<HeldBack::Axis>> truths_;  // of the step at hand
+  std::vector<std::vector<HeldBack::Axis>> truths_;  // of the step at hand, and
+  std::vector<double> growths_;                      // the same, per link
   PersonTally tally_;
 };
 

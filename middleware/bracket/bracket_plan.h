@@ -64,6 +64,8 @@ struct BracketMemory : ScratchPart {
   /// Nothing else can touch the person, whatever finer pieces do (bracket.md 3).
   std::vector<NearLeaves> leaves;
   std::vector<NearPairs> near;
+  NearPairs ofWhole;             ///< Of a link in the whole step, or at an instant.
+  bool arePiecesWalked = false;  ///< `ofPieces` is of the link at hand.
   std::vector<std::uint8_t> areLeavesKnown, arePairsKnown;  ///< Per piece.
   LeafSearch search;
   LinkTubes tubes;

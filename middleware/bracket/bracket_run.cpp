@@ -102,7 +102,7 @@ class BracketRun : private StepSweep {
     memory_.leaves.resize(memory_.near.size());
     memory_.areLeavesKnown.assign(count, 0);
     memory_.arePairsKnown.assign(count, 0);
-    if (isListed(asked) && isCrowded(asked.link)) walkPieces(asked.link);
+    memory_.arePiecesWalked = false;
     memory_.isLimited = !isListed(asked) && growth <= kSmallGrowth;
     if (!memory_.isLimited) return;
     for (std::size_t k = 0; k < count; ++k) {
@@ -143,8 +143,8 @@ class BracketRun : private StepSweep {
   }
 
   /// What the bracket says already holds, and is made narrower. `isLast`: no finer level follows;
-  /// else certainty is of use only where it closes the bracket, as it may on what touches
-  /// throughout.
+  /// else more than the first instant is of use only where it closes the bracket, as it may on what
+  /// touches throughout.
   void bracketOn(int level, const Asked& asked, bool isLast, LinkBracket& bracket) {
     const bool isNew = bracket.verdict == BracketVerdict::Excluded;
     const double earliest = isNew ? 0.0 : bracket.possibleFrom;
@@ -155,7 +155,7 @@ class BracketRun : private StepSweep {
     if (isNew) bracket.verdict = BracketVerdict::Possible;
     bracket.possibleFrom = *first;
     if (asked.other == kNoParent && !witness.isNone()) bracket.triangle = witness.other.triangle;
-    if (ask_.isAhead) return;
+    if (ask_.isAhead || (!isLast && bracket.possibleFrom > 0.0)) return;
     SidesPair inside = witness;
     const auto last = find(level, asked, {Body::Grown, Way::Backward}, latest, *first, witness);
     bracket.possibleUntil = last.value_or(latest);
@@ -289,31 +289,37 @@ class BracketRun : private StepSweep {
   [[nodiscard]] std::optional<double> findListed(int level, int k, const Asked& asked,
                                                  const BracketSearch& search, double from,
                                                  SidesPair& witness) {
-    const int basePiece = basePieceOf(level, k);
-    const NearLeaves& leaves = leavesIn(basePiece, asked.link);
-    if (leaves.empty()) return std::nullopt;
-    const bool areFew = leaves.size() <= LeafSearch::kFewLeaves;
-    const int firstPiece = search.way == Way::Forward ? 0 : piecesOf(0, level).count() - 1;
-    if (!areFew && witness.isNone() && k == firstPiece) {
-      witness = nearestAt(basePiece, search.way, asked.link);
-    }
     const Growth growth = setSides(level, k, asked);
-    if (!areFew && !witness.isNone() &&
-        SideBracketer::isFound(memory_.sides, growth, plan_.resolution, search, from, witness)) {
-      return from;
-    }
-    if (areFew) {
-      memory_.sides.addBoxes(leaves.size() * countOf(kBvhWidth));
-      const NearPairs& pairs = pairsIn(basePiece, asked.link);
-      if (pairs.empty()) return std::nullopt;
-      memory_.sides.limitTo(pairs, level == memory_.base);
+    const LinkInPiece piece{*plan_.scene,
+                            memory_.ignored,
+                            lssOf(0, asked.link),
+                            asked.link,
+                            piecesOf(0, level).piece(k).evaluator,
+                            growth,
+                            plan_.resolution,
+                            memory_.sides};
+    // Of a link among many triangles none is listed before it is known that it takes lists.
+    if (isCrowded(asked.link) && isFoundAt(piece, search, from, nullptr, witness)) return from;
+    const int basePiece = basePieceOf(level, k);
+    const NearPairs* const pairs = pairsIn(basePiece, asked.link);
+    if (pairs != nullptr && pairs->size() <= LeafSearch::kFewPairs) {
+      if (pairs->empty()) return std::nullopt;
+      memory_.sides.limitTo(*pairs, level == memory_.base);
       return memory_.bracketer.find(memory_.sides, growth, plan_.resolution, search, from,
                                     search.way == Way::Forward ? 1.0 : 0.0, witness);
     }
-    const LinkInPiece piece{
-        *plan_.scene, lssOf(0, asked.link), asked.link,   piecesOf(0, level).piece(k).evaluator,
-        growth,       plan_.resolution,     memory_.sides};
+    const NearLeaves* const leaves = leavesIn(basePiece, asked.link);
+    if (!isCrowded(asked.link) && isFoundAt(piece, search, from, leaves, witness)) return from;
     return memory_.search.find(piece, search, from, leaves, witness);
+  }
+
+  [[nodiscard]] bool isFoundAt(const LinkInPiece& piece, const BracketSearch& search, double at,
+                               const NearLeaves* leaves, SidesPair& witness) {
+    if (!witness.isNone() && SideBracketer::isFound(memory_.sides, piece.growth, plan_.resolution,
+                                                    search, at, witness)) {
+      return true;
+    }
+    return memory_.search.isFound(piece, search, at, leaves, witness);
   }
 
   StepBrackets& brackets_;

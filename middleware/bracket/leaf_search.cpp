@@ -1,30 +1,23 @@
 #include "middleware/bracket/leaf_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
-#include "lss/index.h"
 #include "lss/rounding.h"
-#include "middleware/scene/flat_bvh_lanes.h"
 
 namespace foretouch::internal {
 namespace {
 
-/// A part of 1/2^n of the piece is not halved any more, however many leaves are near. What is near
-/// throughout would be looked at in every part: per so many leaves one halving may leave as many.
-constexpr std::size_t kDepth = 7, kLeavesPerIdle = 64;
+/// Shares of what is searched: of the first window where there is no list of leaves, and which no
+/// window is less than.
+constexpr double kFirstWindow = 0x1p-4, kLeastWindow = 0x1p-7;
+/// A window with too many pairs leaves so much of itself.
+constexpr double kShrink = 0.25;
+/// Pairs that a smaller window does not leave fewer of are near throughout, and so many are taken.
+constexpr std::size_t kMostPairs = 256;
 
 }  // namespace
-
-std::optional<double> LeafSearch::find(const LinkInPiece& piece, const BracketSearch& search,
-                                       double from, const NearLeaves& leaves, SidesPair& witness) {
-  piece_ = &piece;
-  search_ = search;
-  witness_ = &witness;
-  bounds_ = piece.evaluator.motion().bounds(piece.link);
-  fewer_.resize(kDepth + 1);
-  return findIn(from, search.way == BracketSearch::Way::Backward ? 0.0 : 1.0, leaves, {});
-}
 
 /// Of the grown body; of the shrunk one as it is at its thickest.
 void LeafSearch::setTubes(double from, double to) {
@@ -44,30 +37,74 @@ void LeafSearch::setTubes(double from, double to) {
   }
 }
 
-std::optional<double> LeafSearch::findIn(double from, double to, const NearLeaves& leaves,
-                                         Halvings done) {
-  MovingSides& sides = piece_->sides;
-  if (sides.isSpent()) {
-    return search_.body == BracketSearch::Body::Grown ? std::optional<double>(from) : std::nullopt;
-  }
+void LeafSearch::collectPairs(double from, double to, const NearLeaves* leaves) {
   setTubes(from, to);
-  sides.addBoxes(leaves.size());
-  NearLeaves& fewer = fewer_[done.all];
-  LinkLeaves::narrow(piece_->scene, tubes_, leaves, fewer);
-  if (fewer.empty()) return std::nullopt;
-  const bool getsFewer = 4 * fewer.size() <= 3 * leaves.size();
-  const Halvings next{done.all + 1, getsFewer ? 0 : done.idle + 1};
-  const bool isWorth = next.idle * kLeavesPerIdle <= fewer.size();
-  if (fewer.size() > kFewLeaves && done.all < kDepth && isWorth) {
-    const double middle = 0.5 * (from + to);
-    const auto first = findIn(from, middle, fewer, next);
-    return first ? first : findIn(middle, to, fewer, next);
+  if (leaves == nullptr) {
+    box_.assign(1, Aabb{});
+    for (const SweptTube& tube : tubes_) {
+      if (!tube.isNothing()) box_.front().add(tube.box());
+    }
+    near_.walk(piece_->scene, box_);
+    near_.collect(piece_->scene, 0, piece_->ignored, ofWindow_);
+    leaves = &ofWindow_;
   }
-  sides.addBoxes(fewer.size() * countOf(kBvhWidth));
-  LinkLeaves::collect(piece_->scene, tubes_, fewer, pairs_);
+  piece_->sides.addBoxes(leaves->size());
+  near_.collect(piece_->scene, tubes_, *leaves, pairs_);
+}
+
+void LeafSearch::begin(const LinkInPiece& piece, const BracketSearch& search) {
+  piece_ = &piece;
+  search_ = search;
+  bounds_ = piece.evaluator.motion().bounds(piece.link);
+}
+
+bool LeafSearch::isFound(const LinkInPiece& piece, const BracketSearch& search, double at,
+                         const NearLeaves* leaves, SidesPair& witness) {
+  begin(piece, search);
+  collectPairs(at, at, leaves);
+  if (pairs_.empty() || !SideBracketer::isFound(piece.sides, piece.growth, piece.resolution, search,
+                                                at, pairs_.front())) {
+    return false;
+  }
+  witness = pairs_.front();
+  return true;
+}
+
+std::optional<double> LeafSearch::findAmongPairs(double from, double to, SidesPair& witness) {
   if (pairs_.empty()) return std::nullopt;
-  sides.limitTo(pairs_, true);
-  return bracketer_.find(sides, piece_->growth, piece_->resolution, search_, from, to, *witness_);
+  piece_->sides.addBoxes(pairs_.size());
+  piece_->sides.limitTo(pairs_, true);
+  return bracketer_.find(piece_->sides, piece_->growth, piece_->resolution, search_, from, to,
+                         witness);
+}
+
+std::optional<double> LeafSearch::find(const LinkInPiece& piece, const BracketSearch& search,
+                                       double from, const NearLeaves* leaves, SidesPair& witness) {
+  begin(piece, search);
+  const double end = search.way == BracketSearch::Way::Backward ? 0.0 : 1.0;
+  const double least = kLeastWindow * (end - from);
+  std::size_t refused = kMostPairs;
+  double t = from, window = leaves != nullptr ? end - from : kFirstWindow * (end - from);
+  while (t != end) {
+    if (piece.sides.isSpent()) {
+      return search.body == BracketSearch::Body::Grown ? std::optional<double>(t) : std::nullopt;
+    }
+    const bool isLast = std::abs(window) >= std::abs(end - t) || t + window == t;
+    const double next = isLast ? end : t + window;
+    collectPairs(t, next, leaves);
+    const std::size_t count = pairs_.size();
+    const bool getsFewer = 4 * count <= 3 * refused || count > kMostPairs;
+    if (count > kFewPairs && std::abs(window) > std::abs(least) && getsFewer) {
+      refused = count;
+      window = kShrink * (next - t);
+      continue;
+    }
+    if (const auto found = findAmongPairs(t, next, witness)) return found;
+    refused = kMostPairs;
+    if (2 * count <= kFewPairs) window *= 2.0;
+    t = next;
+  }
+  return std::nullopt;
 }
 
 }  // namespace foretouch::internal

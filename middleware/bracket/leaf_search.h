@@ -1,6 +1,6 @@
-// middleware/bracket/leaf_search.h: the first touch of a link among many leaves of the scene's
-// tree: the piece is halved until few leaves are near in a part of it, and their triangles alone
-// are looked at. Proof: bracket.md 3. Not installed.
+// middleware/bracket/leaf_search.h: the first touch of a link among many triangles: the piece is
+// searched window by window, of which each has few of them near. Proof: bracket.md 3. Not
+// installed.
 #pragma once
 
 #include <optional>
@@ -12,6 +12,7 @@
 #include "middleware/bracket/side_bracket.h"
 #include "middleware/events/moving_sides.h"
 #include "middleware/pair/growth.h"
+#include "middleware/pair/ignored_objects.h"
 #include "middleware/scene/scene.h"
 
 namespace foretouch::internal {
@@ -19,6 +20,7 @@ namespace foretouch::internal {
 /// A link in a piece: the sides are set.
 struct LinkInPiece {
   const Scene& scene;
+  const IgnoredObjects& ignored;
   const std::vector<Lss>& lss;
   LinkId link;
   MotionEvaluator& evaluator;
@@ -30,29 +32,31 @@ struct LinkInPiece {
 /// For one thread; keeps its memory.
 class LeafSearch {
  public:
-  /// More are halved.
-  static constexpr std::size_t kFewLeaves = 12;
+  /// More are looked for in windows.
+  static constexpr std::size_t kFewPairs = 48;
 
-  /// As SideBracketer::find(), to the piece's end. `leaves`: all that may be near in the piece.
+  /// `at` is such an instant, by what is nearest then, which `witness` becomes.
+  [[nodiscard]] bool isFound(const LinkInPiece& piece, const BracketSearch& search, double at,
+                             const NearLeaves* leaves, SidesPair& witness);
+  /// As SideBracketer::find(), to the piece's end. `leaves`: all that may be near in the piece;
+  /// null: there is no list of them.
   [[nodiscard]] std::optional<double> find(const LinkInPiece& piece, const BracketSearch& search,
-                                           double from, const NearLeaves& leaves,
+                                           double from, const NearLeaves* leaves,
                                            SidesPair& witness);
 
  private:
-  /// Of the piece, down to the part at hand; the last of them that left about as many leaves.
-  struct Halvings {
-    std::size_t all = 0, idle = 0;
-  };
-  [[nodiscard]] std::optional<double> findIn(double from, double to, const NearLeaves& leaves,
-                                             Halvings done);
+  void begin(const LinkInPiece& piece, const BracketSearch& search);
   void setTubes(double from, double to);
+  void collectPairs(double from, double to, const NearLeaves* leaves);
+  [[nodiscard]] std::optional<double> findAmongPairs(double from, double to, SidesPair& witness);
 
   const LinkInPiece* piece_ = nullptr;
   BracketSearch search_;
-  SidesPair* witness_ = nullptr;
   MotionBounds bounds_;
   SideBracketer bracketer_;
-  std::vector<NearLeaves> fewer_;  // per halving
+  LinkLeaves near_;
+  std::vector<Aabb> box_;  // one
+  NearLeaves ofWindow_;
   NearPairs pairs_;
   LinkTubes tubes_;
 };

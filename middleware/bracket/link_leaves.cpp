@@ -1,29 +1,20 @@
 #include "middleware/bracket/link_leaves.h"
 
 #include <algorithm>
+#include <limits>
 
-#include "lss/rounding.h"
+#include "middleware/lanes/lane_rows.h"
+#include "middleware/pair/lane_nearest.h"
 #include "middleware/scene/eight_boxes.h"
 #include "middleware/scene/scene_parts.h"
 
 namespace foretouch::internal {
-namespace {
-
-SweptTube::Ball ballOf(const FlatBvh& bvh, std::uint32_t leaf) {
-  const Cluster& cluster = bvh.cluster(leaf);
-  return {bvh.origin() + Eigen::Map<const Eigen::Vector3f>(cluster.centre).cast<double>(),
-          static_cast<double>(cluster.radius)};
+void NearLeaves::add(std::int32_t one, std::uint8_t asked) {
+  const std::size_t count = triangles.size();
+  if (leaf.size() < count + 1 + kMaxLanes) leaf.resize(2 * (count + 1) + kMaxLanes);
+  leaf[count] = one;
+  triangles.push_back(asked);
 }
-
-template <typename Visit>
-void forEachAsked(const FlatBvh& bvh, const NearLeaf& near, const Visit& visit) {
-  const BvhLeaf& leaf = bvh.leaf(near.leaf);
-  for (unsigned slot = 0; slot < kBvhWidth; ++slot) {
-    if ((near.triangles >> slot & 1U) != 0) visit(slot, leaf.id[slot]);
-  }
-}
-
-}  // namespace
 
 void LinkLeaves::setLanes(const Scene& scene, const std::vector<Aabb>& boxes) {
   const Eigen::Vector3d& origin = scene.parts().origin;
@@ -52,76 +43,30 @@ void LinkLeaves::walk(const Scene& scene, const std::vector<Aabb>& boxes) {
 }
 
 void LinkLeaves::collect(const Scene& scene, std::size_t box, const IgnoredObjects& ignored,
-                         const LinkTubes& tubes, std::size_t numLss, NearLeaves& leaves) const {
-  const FlatBvh& bvh = scene.parts().bvh;
+                         NearLeaves& leaves) const {
   leaves.clear();
-  const std::uint32_t begin = hits_.first[box], end = hits_.first[box + 1];
-  for (std::size_t lss = 0; lss < numLss; ++lss) {
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const auto leaf = static_cast<std::uint32_t>(hits_.leaf[i]);
-      if (!tubes.empty() && !tubes[lss].mayMeet(ballOf(bvh, leaf))) continue;
-      const std::uint8_t asked = withoutIgnored(hits_.triangles[i], bvh.leaf(leaf), scene, ignored);
-      if (asked != 0) leaves.push_back({static_cast<std::int32_t>(lss), leaf, asked});
-    }
-  }
-}
-
-void LinkLeaves::narrow(const Scene& scene, const LinkTubes& tubes, const NearLeaves& leaves,
-                        NearLeaves& fewer) {
-  const FlatBvh& bvh = scene.parts().bvh;
-  fewer.clear();
-  for (const NearLeaf& near : leaves) {
-    if (tubes[slotOf(near.lss)].mayMeet(ballOf(bvh, near.leaf))) fewer.push_back(near);
+  for (std::uint32_t i = hits_.first[box]; i < hits_.first[box + 1]; ++i) {
+    const BvhLeaf& leaf = scene.parts().bvh.leaf(static_cast<std::uint32_t>(hits_.leaf[i]));
+    const std::uint8_t asked = withoutIgnored(hits_.triangles[i], leaf, scene, ignored);
+    if (asked != 0) leaves.add(hits_.leaf[i], asked);
   }
 }
 
 void LinkLeaves::collect(const Scene& scene, const LinkTubes& tubes, const NearLeaves& leaves,
                          NearPairs& pairs) {
-  const FlatBvh& bvh = scene.parts().bvh;
   pairs.clear();
-  double least = kInfinity;
-  std::int32_t lss = -1;
-  LocalBox box{};
-  for (const NearLeaf& near : leaves) {
-    const SweptTube& tube = tubes[slotOf(near.lss)];
-    if (near.lss != lss) box = localBox(tube.box(), bvh.origin());
-    lss = near.lss;
-    const Eight eight = trianglesOverlapping(bvh.leaf(near.leaf), box);
-    forEachAsked(bvh, near, [&](unsigned slot, TriangleId id) {
-      if (eight.overlaps[slot] == 0) return;
-      const auto distance = tube.distanceTo(scene.triangle(id));
-      if (!distance) return;
-      pairs.push_back({{near.lss, -1}, {-1, id}});
-      if (*distance >= least) return;
-      least = *distance;
+  float least = std::numeric_limits<float>::infinity();
+  for (std::size_t lss = 0; lss < tubes.size(); ++lss) {
+    if (leaves.empty() || tubes[lss].isNothing()) continue;
+    findNear(scene, tubes[lss].axis(), tubes[lss].reach(), 0.0, leaves.leaf.data(),
+             leaves.triangles.data(), leaves.size(), near_);
+    for (std::size_t i = 0; i < near_.count; ++i) {
+      pairs.push_back({{static_cast<std::int32_t>(lss), -1}, {-1, near_.id[i]}});
+      if (near_.gap[i] >= least) continue;
+      least = near_.gap[i];
       std::swap(pairs.front(), pairs.back());
-    });
+    }
   }
-}
-
-SidesPair LinkLeaves::nearest(const Scene& scene, const LinkTubes& tubes,
-                              const NearLeaves& leaves) {
-  const FlatBvh& bvh = scene.parts().bvh;
-  const NearLeaf* best = nullptr;
-  double least = kInfinity;
-  for (const NearLeaf& near : leaves) {
-    const SweptTube& tube = tubes[slotOf(near.lss)];
-    const SweptTube::Ball ball = ballOf(bvh, near.leaf);
-    const double distance = tube.distanceTo(ball);
-    if (distance >= least || !tube.mayMeet(ball)) continue;
-    least = distance;
-    best = &near;
-  }
-  SidesPair nearest;
-  if (best == nullptr) return nearest;
-  least = kInfinity;
-  forEachAsked(bvh, *best, [&](unsigned, TriangleId id) {
-    const auto distance = tubes[slotOf(best->lss)].distanceTo(scene.triangle(id));
-    if (!distance || *distance >= least) return;
-    least = *distance;
-    nearest = {{best->lss, -1}, {-1, id}};
-  });
-  return nearest;
 }
 
 }  // namespace foretouch::internal

@@ -11,6 +11,7 @@
 #include "lss/index.h"
 #include "middleware/events/moving_sides.h"
 #include "middleware/events/swept_tube.h"
+#include "middleware/lanes/near_triangles.h"
 #include "middleware/pair/ignored_objects.h"
 #include "middleware/pair/leaf_hits.h"
 #include "middleware/scene/scene.h"
@@ -19,13 +20,16 @@
 
 namespace foretouch::internal {
 
-/// A leaf of the scene's tree near an LSS of a link, and which of its triangles are asked.
-struct NearLeaf {
-  std::int32_t lss;
-  std::uint32_t leaf;
-  std::uint8_t triangles;
+/// Leaves of the scene's tree near a link, and which of their triangles are asked, as bits.
+struct NearLeaves {
+  std::vector<std::int32_t> leaf;  ///< Padded for lanes.
+  std::vector<std::uint8_t> triangles;
+
+  [[nodiscard]] std::size_t size() const { return triangles.size(); }
+  [[nodiscard]] bool empty() const { return triangles.empty(); }
+  void clear() { triangles.clear(); }
+  void add(std::int32_t one, std::uint8_t asked);
 };
-using NearLeaves = std::vector<NearLeaf>;
 /// Pairs of the link's LSS and triangles.
 using NearPairs = std::vector<SidesPair>;
 /// What each LSS of a link sweeps in a piece, grown.
@@ -40,24 +44,19 @@ class LinkLeaves {
   [[nodiscard]] std::size_t count(std::size_t box) const {
     return hits_.first[box + 1] - hits_.first[box];
   }
-  /// Those of a box's leaves that tubes meet: of each of the link's LSS, or none of `numLss`: all.
+  /// Those of a box, without what is ignored.
   void collect(const Scene& scene, std::size_t box, const IgnoredObjects& ignored,
-               const LinkTubes& tubes, std::size_t numLss, NearLeaves& leaves) const;
-  /// The leaves among them that tubes meet.
-  static void narrow(const Scene& scene, const LinkTubes& tubes, const NearLeaves& leaves,
-                     NearLeaves& fewer);
-  /// The pairs that tubes meet in leaves that they do; the nearest is the first, or nearly so.
-  static void collect(const Scene& scene, const LinkTubes& tubes, const NearLeaves& leaves,
-                      NearPairs& pairs);
-  /// The nearest, or nearly so, of those that tubes meet; none if that is not sure.
-  [[nodiscard]] static SidesPair nearest(const Scene& scene, const LinkTubes& tubes,
-                                         const NearLeaves& leaves);
+               NearLeaves& leaves) const;
+  /// The pairs that tubes meet in these leaves; the nearest is the first, or nearly so.
+  void collect(const Scene& scene, const LinkTubes& tubes, const NearLeaves& leaves,
+               NearPairs& pairs);
 
  private:
   void setLanes(const Scene& scene, const std::vector<Aabb>& boxes);
 
   SweptBoxes lanes_;
   LeafHits hits_;
+  NearTriangles near_;
 };
 
 }  // namespace foretouch::internal

@@ -12,6 +12,8 @@ namespace {
 
 /// Leaves near a link in a step.
 constexpr std::size_t kCrowd = 64;
+/// Of a piece; more are walked where a part of it is looked at.
+constexpr std::size_t kMostListed = 512;
 
 }  // namespace
 
@@ -125,12 +127,12 @@ void StepSweep::openNearScene() {
 
 bool StepSweep::collectNear(LinkId link) {
   if (!areLssSurface() || isCrowded(link)) return true;
-  clearTubes();
-  if (base(0).count() == 1) setTubes(0, link);
   NearLeaves& leaves = memory_.ofStep[slotOf(link)];
-  memory_.triangles.collect(*plan_.scene, slotOf(link), memory_.ignored, memory_.tubes,
-                            lssOf(0, link).size(), leaves);
-  return !leaves.empty();
+  memory_.triangles.collect(*plan_.scene, slotOf(link), memory_.ignored, leaves);
+  if (leaves.empty() || base(0).count() > 1) return !leaves.empty();
+  setTubes(0, link);
+  memory_.triangles.collect(*plan_.scene, memory_.tubes, leaves, memory_.ofWhole);
+  return !memory_.ofWhole.empty();
 }
 
 bool StepSweep::mayMeet(const Asked& asked) const {
@@ -154,38 +156,27 @@ void StepSweep::walkPieces(LinkId link) {
   memory_.ofPieces.walk(*plan_.scene, memory_.pieceBoxes);
 }
 
-const NearLeaves& StepSweep::leavesIn(int k, LinkId link) {
+const NearLeaves* StepSweep::leavesIn(int k, LinkId link) {
+  if (!isCrowded(link)) return &memory_.ofStep[slotOf(link)];
+  if (!std::exchange(memory_.arePiecesWalked, true)) walkPieces(link);
+  if (memory_.ofPieces.count(slotOf(k)) > kMostListed) return nullptr;
   NearLeaves& leaves = memory_.leaves[slotOf(k)];
-  if (std::exchange(memory_.areLeavesKnown[slotOf(k)], std::uint8_t{1}) != 0) return leaves;
-  setTubes(k, link);
-  if (isCrowded(link)) {
-    memory_.ofPieces.collect(*plan_.scene, slotOf(k), memory_.ignored, memory_.tubes,
-                             memory_.tubes.size(), leaves);
-  } else {
-    LinkLeaves::narrow(*plan_.scene, memory_.tubes, memory_.ofStep[slotOf(link)], leaves);
+  if (std::exchange(memory_.areLeavesKnown[slotOf(k)], std::uint8_t{1}) == 0) {
+    memory_.ofPieces.collect(*plan_.scene, slotOf(k), memory_.ignored, leaves);
   }
-  return leaves;
+  return &leaves;
 }
 
-const NearPairs& StepSweep::pairsIn(int k, LinkId link) {
+const NearPairs* StepSweep::pairsIn(int k, LinkId link) {
+  const NearLeaves* const leaves = leavesIn(k, link);
+  if (leaves == nullptr || leaves->size() > kCrowd) return nullptr;
   NearPairs& pairs = memory_.near[slotOf(k)];
-  if (memory_.arePairsKnown[slotOf(k)] == 0) {
+  if (std::exchange(memory_.arePairsKnown[slotOf(k)], std::uint8_t{1}) == 0) {
     setTubes(k, link);
-    LinkLeaves::collect(*plan_.scene, memory_.tubes, leavesIn(k, link), pairs);
-    memory_.arePairsKnown[slotOf(k)] = 1;
+    memory_.sides.addBoxes(leaves->size());
+    memory_.ofPieces.collect(*plan_.scene, memory_.tubes, *leaves, pairs);
   }
-  return pairs;
-}
-
-SidesPair StepSweep::nearestAt(int k, BracketSearch::Way way, LinkId link) {
-  ModelPieces& pieces = base(0);
-  const ModelPiece& piece = pieces.piece(k);
-  const bool isBegin = way == BracketSearch::Way::Forward;
-  const auto& places =
-      isBegin ? pieces.placesAtBegin(avatarOf(0), k) : pieces.placesAtEnd(avatarOf(0), k);
-  const double margin = ask_.growths.of(piece, 0, link).at(isBegin ? 0.0 : 1.0);
-  setTubes(piece, link, places, places, 0.0, margin + plan_.resolution);
-  return LinkLeaves::nearest(*plan_.scene, memory_.tubes, memory_.leaves[slotOf(k)]);
+  return &pairs;
 }
 
 }  // namespace foretouch::internal

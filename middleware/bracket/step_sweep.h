@@ -71,10 +71,10 @@ class StepSweep {
   /// Of so many leaves, another walk finds those of its pieces sooner than a look at all of them.
   [[nodiscard]] bool isCrowded(LinkId link) const;
   void walkPieces(LinkId link);
-  [[nodiscard]] const NearLeaves& leavesIn(int k, LinkId link);
-  [[nodiscard]] const NearPairs& pairsIn(int k, LinkId link);
-  /// What the grown body may touch first, at an end of a piece.
-  [[nodiscard]] SidesPair nearestAt(int k, BracketSearch::Way way, LinkId link);
+  /// In a piece of the base level; null: of so many there is no list.
+  [[nodiscard]] const NearLeaves* leavesIn(int k, LinkId link);
+  /// Null: there may be many.
+  [[nodiscard]] const NearPairs* pairsIn(int k, LinkId link);
 
   const BracketPlan& plan_;
   const BracketAsk& ask_;

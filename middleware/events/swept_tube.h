@@ -54,12 +54,16 @@ class SweptTube {
     const double s = clamp01(from.dot(axis_) * perSquare_);
     return (from - s * axis_).norm();
   }
+  /// Its axis, and how far from there it reaches; rounded outward. Nothing: it holds no point.
+  [[nodiscard]] AxisEnds axis() const { return {a_, a_ + axis_}; }
+  [[nodiscard]] double reach() const { return reach_ * kInflation + kTubeRounding * extent_; }
+  [[nodiscard]] bool isNothing() const { return !(reach() >= 0.0); }
   /// Holds the tube; rounds outward.
   [[nodiscard]] Aabb box() const {
     Aabb box;
     box.add(a_);
     box.add(Eigen::Vector3d(a_ + axis_));
-    box.grow(reach_ * kInflation + kTubeRounding * extent_);
+    box.grow(reach());
     return box;
   }
   /// Nothing: no point of the triangle is in the tube. Else about how far it is from the tube's

@@ -2,6 +2,7 @@
 // installed.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "middleware/lanes/near_triangles.h"
@@ -22,5 +23,9 @@ struct HitRange {
 /// reach's.
 void findNear(const Scene& scene, const AxisEnds& ends, double radius, double reach, HitRange range,
               const LeafHits& hits, NearTriangles& near, QueryCounters& counters);
+/// The same of leaves by themselves: `leaf` can be read kMaxLanes beyond `count`.
+void findNear(const Scene& scene, const AxisEnds& ends, double radius, double reach,
+              const std::int32_t* leaf, const std::uint8_t* triangles, std::size_t count,
+              NearTriangles& near);
 
 }  // namespace foretouch::internal

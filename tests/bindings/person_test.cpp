@@ -1,5 +1,7 @@
 // ft_brackets against the library's own answers, and what it refuses.
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <foretouch/person.h>
 #include <limits>
 #include <memory>
@@ -127,6 +129,47 @@ TEST(CPerson, AnswersAreThoseOfTheLibrary) {
   for (const int verdict : {FT_BRACKET_EXCLUDED, FT_BRACKET_POSSIBLE, FT_BRACKET_CERTAIN}) {
     EXPECT_GT(seen[verdict], 0) << verdict;
   }
+}
+
+/// Runs the example of docs/person.md: what it prints.
+std::string documented(const ft_scene* scene, const ft_avatar* avatar, const ft_pose* poses) {
+  std::string told;
+  const auto must = [](ft_status status) { ASSERT_EQ(status, FT_OK) << ft_last_error(); };
+  const auto print = [&told](const char* format, int link, double from, double to) {
+    char line[128];
+    std::snprintf(line, sizeof line, format, link, from, to);
+    told += line;
+  };
+#define printf print
+#include "person_example.inc"
+#undef printf
+  return told;
+}
+
+TEST(CPerson, ThePagesExampleRuns) {
+  const test::SmallWorld world;
+  const test::TempFolder folder;
+  folder.write("anna.bounds.json",
+               R"({"format": "foretouch-bounds", "version": 1, "bounds": [{"part": "all",
+                   "model": "cubic-late", "rate_hz": 30, "acceleration_m_s2": 0.1}]})");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder / ".");
+  // It goes down in a line.
+  std::vector<ft_pose> poses(4, world.up());
+  const double places[4][3] = {{0, 2.5, 0}, {0, 1, 0}, {0, -0.5, 0}, {0, -2, 0}};
+  for (std::size_t i = 0; i < 4; ++i) poses[i].translations = places[i];
+  const std::string told = documented(world.scene.get(), world.avatar.get(), poses.data());
+  std::filesystem::current_path(before);
+  double from = 0.0, to = 0.0;
+  int link = -1;
+  ASSERT_EQ(std::sscanf(told.c_str(), "link %d: a touch began between t = %lf and %lf", &link,
+                        &from, &to),
+            3)
+      << told;
+  EXPECT_EQ(link, 0);
+  EXPECT_GT(from, 0.0);
+  EXPECT_LE(from, to);
+  EXPECT_LT(to, 1.0);
 }
 
 /// The small world's link, lowered into the floor.

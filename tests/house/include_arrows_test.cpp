@@ -60,7 +60,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"ask", {"depth", "world", "exact", "", "scene", "surface"}},
       {"triggers", {"events", "depth", "world", "exact", "", "scene", "surface"}},
       {"events", {"world", "query", "pair", "mechanics", "", "lanes", "scene", "surface"}},
-      {"bracket", {"events", "pair", "", "exact", "scene", "surface"}},
+      {"bracket", {"events", "pair", "", "exact", "lanes", "scene", "surface"}},
       {"solid_world",
        {"events", "world", "solid", "query", "near", "pair", "mechanics", "", "scene"}}}},
     {"assets",

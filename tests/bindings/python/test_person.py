@@ -1,13 +1,14 @@
 """What a person surely touched and may have touched. Expected values are closed forms."""
 
 import os
+import re
 import tempfile
 import unittest
 
 import numpy as np
 
 import foretouch
-from support import arm, wall
+from support import SOURCE, arm, wall
 from test_self import hands, moved
 
 RADIUS, WALL = 0.04, -0.3
@@ -131,6 +132,29 @@ class ReadBounds(unittest.TestCase):
             self.assertEqual(bounds, [foretouch.LinkBound(acceleration=12.5)] * 2)
             with self.assertRaisesRegex(foretouch.InputError, "anna.bounds.json.*30"):
                 foretouch.read_bounds(path, avatar, between="cubic", rate_hz=90)
+
+    def test_the_page_s_example_runs(self):
+        guide = (SOURCE / "docs" / "person.md").read_text(encoding="utf-8")
+        code = re.search(r"```python\n(.*?)```", guide, re.DOTALL)[1]
+        avatar = arm()
+        known = {"foretouch": foretouch, "avatar": avatar, "scene": wall(WALL),
+                 "poses": towards_the_wall(avatar, [WALL + h for h in (0.2, 0.1, 0.0, -0.1)])}
+        here = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                with open("anna.bounds.json", "w", encoding="utf-8") as out:
+                    out.write(
+                        '{"format": "foretouch-bounds", "version": 1, "bounds": [{"part": "all",'
+                        ' "model": "cubic-late", "acceleration_m_s2": 0.1,'
+                        ' "ahead_acceleration_m_s2": 1}]}'
+                    )
+                exec(code, known)
+            finally:
+                os.chdir(here)
+        self.assertTrue(known["surely"].any())
+        began = known["began"]
+        self.assertTrue((began[0][known["surely"]] <= began[1][known["surely"]]).all())
 
 
 if __name__ == "__main__":

@@ -88,6 +88,65 @@ TEST_F(BallOverPlate, BracketsTheTouchBetweenTheGrownAndTheShrunkBall) {
   EXPECT_NEAR(bracket.growth, most + 0.002, 1e-9);
 }
 
+/// The same plate, in so many cells a side: up to thousands of leaves near the ball.
+Scene platesOf(int cells) {
+  RawScene raw;
+  raw.objectNames = {"plate"};
+  const auto corner = [&](int x, int z) {
+    return Vector3d(-9.0 + 18.0 * x / cells, 0.0, -9.0 + 18.0 * z / cells);
+  };
+  for (int x = 0; x < cells; ++x) {
+    for (int z = 0; z < cells; ++z) {
+      raw.triangles.push_back({{corner(x, z), corner(x + 1, z), corner(x + 1, z + 1)}});
+      raw.triangles.push_back({{corner(x, z), corner(x + 1, z + 1), corner(x, z + 1)}});
+    }
+  }
+  raw.objectOf.assign(raw.triangles.size(), 0);
+  return Scene::build(std::move(raw)).value();
+}
+
+// However many triangles a surface is made of, brackets of it are the same: those of a few are
+// listed, those of many are walked, part of the step by part.
+TEST_F(BallOverPlate, ASurfaceOfManyTrianglesIsTheSameSurface) {
+  constexpr double kSlack = 2e-3;  // of instants: the resolution, by the least speed below
+  int certain = 0, possible = 0, excluded = 0;
+  for (const int cells : {60, 240}) {
+    const auto plates = BracketQuery::build(test::ball(kRadius), platesOf(cells)).value();
+    for (int i = 0; i < 50; ++i) {
+      test::Random random(static_cast<std::uint64_t>(i));
+      LinkBound bound;
+      bound.acceleration = std::pow(10.0, random.uniform(0.0, 3.5));  // 1 mm to 4 m
+      const double y0 = random.uniform(-0.3, 0.6);
+      const double y1 = y0 + (i % 2 == 0 ? 1.0 : -1.0) * random.uniform(0.1, 0.6);
+      const LinkBracket one = ask(y0, y1, bound);
+      const Pose from = poseAt(y0), to = poseAt(y1);
+      PosedStep step;
+      step.from = &from;
+      step.to = &to;
+      step.seconds = kStepS;
+      StepBrackets brackets;
+      ASSERT_TRUE(plates.answer(step, MotionModel::ConstantRate, {bound}, scratch_, brackets).ok());
+      const LinkBracket& many = brackets.links.front();
+      SCOPED_TRACE(testing::Message() << cells << " cells, case " << i);
+      const bool isPassage =
+          one.verdict == BracketVerdict::Certain && one.certainUntil < one.certainFrom;
+      if (isPassage) continue;  // not looked for among so many
+      ASSERT_EQ(many.verdict, one.verdict);
+      EXPECT_NEAR(many.possibleFrom, one.possibleFrom, kSlack);
+      EXPECT_NEAR(many.possibleUntil, one.possibleUntil, kSlack);
+      certain += one.verdict == BracketVerdict::Certain ? 1 : 0;
+      possible += one.verdict == BracketVerdict::Possible ? 1 : 0;
+      excluded += one.verdict == BracketVerdict::Excluded ? 1 : 0;
+      if (one.verdict != BracketVerdict::Certain) continue;
+      EXPECT_NEAR(many.certainFrom, one.certainFrom, kSlack);
+      EXPECT_NEAR(many.certainUntil, one.certainUntil, kSlack);
+    }
+  }
+  EXPECT_GT(certain, 20);
+  EXPECT_GT(possible, 10);
+  EXPECT_GT(excluded, 10);
+}
+
 TEST_F(BallOverPlate, LeavingIsEnteringBackwards) {
   LinkBound bound;
   bound.acceleration = 20.0;
