@@ -13,7 +13,7 @@ namespace {
 /// window is less than.
 constexpr double kFirstWindow = 0x1p-4, kLeastWindow = 0x1p-7;
 /// A window with too many pairs leaves so much of itself.
-constexpr double kShrink = 0.25;
+constexpr double kOfWindow = 0.25;
 /// Pairs that a smaller window does not leave fewer of are near throughout, and so many are taken.
 constexpr std::size_t kMostPairs = 256;
 
@@ -96,7 +96,7 @@ std::optional<double> LeafSearch::find(const LinkInPiece& piece, const BracketSe
     const bool getsFewer = 4 * count <= 3 * refused || count > kMostPairs;
     if (count > kFewPairs && std::abs(window) > std::abs(least) && getsFewer) {
       refused = count;
-      window = kShrink * (next - t);
+      window = kOfWindow * (next - t);
       continue;
     }
     if (const auto found = findAmongPairs(t, next, witness)) return found;

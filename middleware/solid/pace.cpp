@@ -26,7 +26,7 @@ constexpr int kMostPieces = 32;
 constexpr int kMostTries = 8;
 constexpr double kWithin = 0.999;
 /// Below this share of a path no chord's rounding is the reason.
-constexpr double kChordOfPath = 1.0 - 1e-6;
+constexpr double kNearlyAll = 1.0 - 1e-6;
 /// Joints of a limb and a trunk: where none turns farther than a share of kChordTurn, no link does.
 constexpr double kDepth = 8.0;
 
@@ -138,7 +138,7 @@ double Pace::shareOf(const Moved& step) const {
 bool Pace::mayGo(const Places& here, const Places& there) const {
   if (goesAlong_) return true;
   const Moved chord = chords(here, there);
-  return kChordOfPath * chord.all <= left_.all && kChordOfPath * chord.head <= left_.head;
+  return kNearlyAll * chord.all <= left_.all && kNearlyAll * chord.head <= left_.head;
 }
 
 int Pace::piecesOf(const Pose& from, const Pose& to) {
