@@ -157,6 +157,7 @@ Command logReplayCommand() {
   addStreamSolidSettings(settings, asked->solid);
   addWorldSolidSetting(settings, asked->solid);
   addPersonSettings(settings, asked->person);
+  settings.of("--between").needing("--bounds");
   settings.asJson(asked->asJson);
   Command command{
       "replay", "Answer what a service with a moving world recorded, and compare byte for byte",

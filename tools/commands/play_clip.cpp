@@ -50,7 +50,7 @@ Result<Done> runReplay(
   FORETOUCH_TRY(const auto inputs, loadReplayInputs(request));
   for (const std::string& remark : remarksOn(inputs)) printNote(remark);
   const auto rate = remarkOnRate(inputs.steps, inputs.clip, request.rateHz);
-  if (rate) printNote(*rate);
+  if (rate && !inputs.curve) printNote(*rate);
 
   FORETOUCH_TRY(const auto bounds, personBounds(inputs, job.person));
   ReplaySummary summary(inputs);

@@ -131,6 +131,9 @@ Settings replaySettings(AskedReplay& asked) {
   addReplayQuerySettings(settings, asked.job.request);
   addTouchSettings(settings, asked.job.request);
   addPersonSettings(settings, asked.job.person);
+  settings.of("--between").help =
+      "The motion between two poses that the bounds are about, or, of a clip without bounds, that "
+      "is asked; cubic-late needs the pose after them";
   tellOfLogs(settings.of("--ahead").ofLogs());
   addSolidReplaySettings(settings, asked.solid);
   addOutputSettings(settings, asked);
@@ -200,6 +203,17 @@ Result<Done> checkOptions(const Settings& settings, const AskedReplay& asked, bo
   return Done{};
 }
 
+/// A cubic without bounds is of clips whose plain answers are asked.
+Result<Done> checkBetween(const AskedReplay& asked, bool isLog) {
+  const PersonRequest& person = asked.job.person;
+  const bool isPlain = !isLog && !asked.solid.solid.isAsked;
+  if (person.model == MotionModel::ConstantRate || person.isAsked() || isPlain) return Done{};
+  return Error::in("--between", ErrorCode::Mismatch,
+                   std::string("expected --bounds beside it: without, it is of the plain answers "
+                               "of a clip, found ") +
+                       (isLog ? "an event log" : "--solid"));
+}
+
 /// The places of a run's files, for its summary.
 std::string placesOf(const std::string& output, const std::string& report) {
   return "\nresults: " + output + "\n" + (report.empty() ? "" : "report:  " + report + "\n");
@@ -208,6 +222,7 @@ std::string placesOf(const std::string& output, const std::string& report) {
 ExitCode runClip(const AskedReplay& asked) {
   ReplayJob job = asked.job;
   job.request.avatarPath = asked.avatars.front();
+  if (!job.person.isAsked()) job.request.between = job.person.model;
   const int cores = static_cast<int>(
       std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(kMaxThreads)));
   job.threads = asked.threads == 0 ? cores : asked.threads;
@@ -260,6 +275,7 @@ ExitCode runSolid(const Settings& settings, const AskedReplay& asked) {
 ExitCode run(const Settings& settings, AskedReplay& asked) {
   const bool isLog = isEventLog(asked.job.request.motionPath);
   FORETOUCH_CHECK_OR(failed, checkOptions(settings, asked, isLog));
+  FORETOUCH_CHECK_OR(failed, checkBetween(asked, isLog));
   FORETOUCH_CHECK_OR(failed, readPolicies(asked.job.request));
   if (asked.solid.solid.isAsked && !isLog) {
     FORETOUCH_CHECK_OR(failed, checkSolidTogether(settings, asked.job.request));

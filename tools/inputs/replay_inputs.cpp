@@ -97,6 +97,46 @@ std::string remarkOnPairs(const ReplayRequest& request, const PairRules& rules) 
       rules.leftOut().size(), rules.numPairs(), reasonsOf(rules), pairsCommand(request));
 }
 
+/// The answers leave a quarter of the tolerance between what they say and what touches: what the
+/// pieces leave out of the cubic takes half of it, of both sides where links meet links.
+constexpr double kCurveShare = 0.125;
+
+/// Plays the cubic in place of the clip's constant rate.
+Result<Done> followCurve(ReplayInputs& inputs) {
+  const MotionModel model = inputs.request.between;
+  if (model == MotionModel::ConstantRate) return Done{};
+  if (inputs.query.fidelity == Fidelity::Skinned) {
+    return Error::in("--between", ErrorCode::Mismatch,
+                     "expected constant-rate at skinned fidelity, of which no cubic is proven");
+  }
+  if (inputs.clip.mostTurn > 0.0) {
+    return Error::in("--between", ErrorCode::Mismatch,
+                     "expected constant-rate for a table of joint positions, which says the way "
+                     "between two poses itself");
+  }
+  double tolerance = inputs.query.tolerance;
+  for (const LinkPolicy& own : inputs.query.linkPolicies) {
+    tolerance = std::min(tolerance, own.tolerance);
+  }
+  std::vector<Pose> poses;
+  for (std::int64_t step = 0; step <= inputs.steps.count; ++step) {
+    FORETOUCH_TRY(auto pose, poseAtFrame(inputs, inputs.steps.frameOf(step)));
+    poses.push_back(std::move(pose));
+  }
+  const StepSelection given = inputs.steps;
+  const double seconds = inputs.timeOfStep(1) - inputs.timeOfStep(0);
+  FORETOUCH_TRY(auto curve, poseCurve(inputs.avatar, poses, seconds, model, given.stride,
+                                      kCurveShare * tolerance));
+  curve.given = given;
+  curve.frameTimeS = inputs.clip.frameTimeS;
+  const std::int64_t finer = curve.pieces / given.stride;
+  inputs.steps = {1, given.count * curve.pieces, given.first * finer};
+  inputs.clip.frameTimeS /= static_cast<double>(finer);
+  inputs.clip.framesPerRow = finer;
+  inputs.curve = std::move(curve);
+  return Done{};
+}
+
 }  // namespace
 
 Result<Scene> loadScene(const WorldRequest& request, FileFrame& frame) {
@@ -136,7 +176,7 @@ Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
     FORETOUCH_TRY(query.self, pairRulesFor(request, request, avatar, clip, match));
     FORETOUCH_CHECK(checkRadii(query, request.pairsPath));
   }
-  return ReplayInputs{asRead(request, sceneFrame, clipFrame),
+  ReplayInputs inputs{asRead(request, sceneFrame, clipFrame),
                       std::move(scene),
                       std::move(avatar),
                       std::move(clip),
@@ -146,6 +186,8 @@ Result<ReplayInputs> loadReplayInputs(const ReplayRequest& request) {
                       isUpright,
                       sceneFrame,
                       clipFrame};
+  FORETOUCH_CHECK(followCurve(inputs));
+  return inputs;
 }
 
 std::optional<std::string> remarkOnMeshes(const QueryOptions& query,
@@ -222,10 +264,17 @@ std::vector<std::string> remarksOn(const ReplayInputs& inputs) {
     if (remark) remarks.push_back(*remark);
   }
   addFrameRemarks(inputs, remarks);
+  if (inputs.curve) {
+    remarks.push_back(fmt::format(
+        "--between {}: {} pieces of a constant rate between two poses, within {:.2g} mm of it",
+        toString(inputs.curve->model), inputs.curve->pieces, 1e3 * inputs.curve->offM));
+  }
   return remarks;
 }
 
 Result<Pose> poseAtFrame(const ReplayInputs& inputs, std::int64_t frame) {
+  if (inputs.curve)
+    return inputs.curve->poses[static_cast<std::size_t>(frame - inputs.steps.first)];
   return poseAtFrame({inputs.avatar, inputs.clip, inputs.match, inputs.request.placement,
                       inputs.isUpright, inputs.request.motionPath},
                      frame);

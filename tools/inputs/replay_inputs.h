@@ -8,11 +8,13 @@
 
 #include "articulated/avatar.h"
 #include "articulated/clip.h"
+#include "articulated/motion_model.h"
 #include "articulated/result.h"
 #include "assets/avatar/joint_match.h"
 #include "middleware/query/query.h"
 #include "middleware/scene/scene.h"
 #include "tools/inputs/apart_meshes.h"
+#include "tools/inputs/pose_curve.h"
 #include "tools/inputs/step_selection.h"
 #include "tools/settings/clip_settings.h"
 #include "tools/settings/world_settings.h"
@@ -20,7 +22,10 @@
 namespace foretouch::tools {
 
 /// A recorded clip to play, and the world to play it in.
-struct ReplayRequest : ClipRequest, WorldRequest {};
+struct ReplayRequest : ClipRequest, WorldRequest {
+  /// What the avatar is taken to do between two poses, where the answers are about that model.
+  MotionModel between = MotionModel::ConstantRate;
+};
 
 struct ReplayInputs {
   ReplayRequest request;  ///< With the units and axes that the files were read with.
@@ -32,6 +37,9 @@ struct ReplayInputs {
   QueryOptions query;      ///< As requested, completed from the avatar and the scene.
   bool isUpright = false;  ///< The reader turned the clip Y-up (Motion::isUpright).
   FileFrame sceneFrame{}, clipFrame{};
+  /// The poses that are played, where they are not the clip's: `steps` and the clip's frame time
+  /// are those of its pieces.
+  std::optional<PoseCurve> curve = std::nullopt;
 
   [[nodiscard]] double timeOfStep(std::int64_t step) const {
     return static_cast<double>(steps.frameOf(step)) * clip.frameTimeS;

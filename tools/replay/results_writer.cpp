@@ -65,6 +65,11 @@ std::string headerLine(const ReplayInputs& inputs) {
   if (inputs.steps.first > 0) out.field("first_frame", inputs.steps.first);
   out.field("frame_time", inputs.clip.frameTimeS);
   if (inputs.clip.framesPerRow > 1) out.field("frames_per_row", inputs.clip.framesPerRow);
+  if (inputs.curve) {
+    out.field("between", toString(inputs.curve->model));
+    out.field("pieces", inputs.curve->pieces);
+    out.field("off_m", inputs.curve->offM);
+  }
   out.field("steps", inputs.steps.count);
   writeHeaderFields(settings,
                     {"tolerance",     "fidelity",  "scale",       "motion_up",  "place",

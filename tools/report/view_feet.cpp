@@ -28,8 +28,15 @@ Result<FeetInputs> feetInputsOf(const ReplayInputs& inputs, RestingBody body, st
   static_cast<ClipRequest&>(request) = inputs.request;
   static_cast<WorldRequest&>(request) = inputs.request;
   StepSelection kept = inputs.steps;
+  Clip clip = inputs.clip;
+  if (inputs.curve) {  // feet rest at the clip's own poses
+    kept = inputs.curve->given;
+    steps /= inputs.curve->pieces;
+    clip.frameTimeS = inputs.curve->frameTimeS;
+    clip.framesPerRow = 1;
+  }
   kept.count = std::min(kept.count, steps);
-  PlayedClip played{inputs.avatar, inputs.clip,      inputs.match,
+  PlayedClip played{inputs.avatar, std::move(clip),  inputs.match,
                     kept,          inputs.isUpright, inputs.clipFrame};
   FeetInputs feet{
       std::move(request), std::move(played), std::move(body), std::move(level), false, 0, 0, {}};

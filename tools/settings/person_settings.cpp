@@ -38,8 +38,7 @@ void addPersonSettings(Settings& settings, PersonRequest& request) {
                          "The motion between two poses that the bounds are about; cubic-late needs "
                          "the pose after them")
       .in(kPersonGroup)
-      .inConfig("person", "between")
-      .needing("--bounds");
+      .inConfig("person", "between");
   settings
       .seconds("--ahead", request.aheadUs, kAheadRange,
                "Look so far ahead of each pose: until when does each link touch nothing? 0: not")

@@ -192,6 +192,7 @@ void addServeSettings(Settings& settings, ServeConfig& config) {
   addStreamSolidSettings(settings, config.solid);
   addWorldSolidSetting(settings, config.solid);
   addPersonSettings(settings, config.person);
+  settings.of("--between").needing("--bounds");
 }
 
 }  // namespace foretouch::tools

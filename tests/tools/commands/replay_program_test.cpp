@@ -77,6 +77,41 @@ TEST(ReplayProgram, WritesAHeaderAndALineAStep) {
   EXPECT_EQ(contact.count("penetration"), 0u);
 }
 
+// A cubic is played as pieces of a constant rate, of which each is a step of the results.
+TEST(ReplayProgram, FollowsACubicBetweenPoses) {
+  const SmallWorld world;
+  const std::string out = world.folder / "out.jsonl";
+  const Ended ended =
+      runForetouch(world.replay({"--rate", "10", "--between", "cubic-late", "--output", out}));
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.err.find("--between cubic-late: "), std::string::npos) << ended.err;
+  const std::vector<std::string> lines = linesOf(contentOf(out));
+  const json header = json::parse(lines[0]);
+  EXPECT_EQ(header["between"], "cubic-late");
+  const auto pieces = header["pieces"].get<int>();
+  EXPECT_EQ(header["steps"], 3 * pieces);
+  EXPECT_LE(header["off_m"].get<double>(), 1e-3 / 8.0);
+  int contacts = 0;
+  for (std::size_t n = 1; n < lines.size(); ++n) {
+    const json step = json::parse(lines[n]);
+    if (step.count("step") == 0) continue;
+    EXPECT_NEAR(step["t0"].get<double>(), 0.1 * step["step"].get<double>() / pieces, 1e-12);
+    for (const json& contact : step["contacts"]) {
+      if (contact["verdict"] != "contact" || contact["link"] != "Hips") continue;
+      ++contacts;
+      EXPECT_GT(contact["time"].get<double>(), 0.1);
+      EXPECT_LT(contact["time"].get<double>(), 0.2);
+      EXPECT_LE(contact["separation"].get<double>(), 1e-3);
+    }
+  }
+  EXPECT_GT(contacts, 0);
+  const Ended solid =
+      runForetouch(world.replay({"--between", "cubic", "--solid", "--output", out}));
+  EXPECT_NE(solid.exitCode, 0);
+  EXPECT_NE(solid.err.find("--between: expected --bounds beside it"), std::string::npos)
+      << solid.err;
+}
+
 TEST(ReplayProgram, TakesFilesWithoutTheirOptionsInAnyOrder) {
   const SmallWorld world;
   const TempFolder& folder = world.folder;
