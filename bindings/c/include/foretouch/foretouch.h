@@ -57,7 +57,7 @@ extern "C" {
 /* Of this header and those beside it. Every new function or field increments it; programs built
  * with an older header still work. A change that would break them changes the library's soname
  * instead. */
-#define FT_ABI_VERSION 10
+#define FT_ABI_VERSION 11
 
 /* Of the library that runs: "0.1.0", a text that lives for ever, and its FT_ABI_VERSION. */
 FT_API const char* ft_version(void);

@@ -589,7 +589,7 @@ namespace Foretouch {
     /// <summary>Of this header and those beside it. Every new function or field increments it; programs
     /// built with an older header still work. A change that would break them changes the library's soname
     /// instead.</summary>
-    public const int AbiVersion = 10;
+    public const int AbiVersion = 11;
     public const int EveryObject = -1;
     public const int EveryLink = -1;
     public const int Unchanged = -1;
