@@ -41,6 +41,7 @@ ft_bracket_options defaultOptions() {
   options.size = sizeof options;
   options.fidelity = FT_FIDELITY_LINK;
   options.resolution = BracketOptions{}.resolution;
+  options.work_budget = BracketOptions{}.workBudget;
   return options;
 }
 
@@ -59,6 +60,7 @@ ft_status readOptions(const ft_bracket_options* given, const AvatarParts& avatar
     options.surface = avatar.surface;
   }
   options.resolution = known.resolution;
+  options.workBudget = known.work_budget;
   if (known.self != nullptr) {
     if (const auto s = checked(known.self); s != FT_OK) return s;
     options.self = known.self->rules;

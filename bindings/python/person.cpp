@@ -163,7 +163,7 @@ class PythonBracketQuery {
 std::unique_ptr<PythonBracketQuery> createQuery(
     std::shared_ptr<Avatar> avatar, std::shared_ptr<Scene> scene, Shown<shown::Text> fidelity,
     Shown<shown::Surface> surface, Shown<shown::Items> ignore, Shown<shown::PairRules> selfPairs,
-    Shown<shown::Number> resolution) {
+    Shown<shown::Number> resolution, const py::object& workBudget) {
   BracketOptions options;
   const auto given = surfaceFrom(surface, *avatar);
   if (fidelityFrom(fidelity, "fidelity") == Fidelity::Exact) {
@@ -173,6 +173,10 @@ std::unique_ptr<PythonBracketQuery> createQuery(
   options.ignored = ignoredFrom(ignore, *avatar, *scene);
   options.self = rulesFrom(selfPairs, *avatar);
   options.resolution = number(resolution, "resolution");
+  if (!workBudget.is_none()) {
+    options.workBudget = static_cast<std::uint64_t>(
+        integer(workBudget, "work_budget", 0, std::numeric_limits<std::int64_t>::max()));
+  }
   return std::make_unique<PythonBracketQuery>(std::move(avatar), std::move(scene), options);
 }
 
@@ -266,9 +270,11 @@ void bindPerson(py::module_& module) {
            py::kw_only(), py::arg("fidelity") = "link", py::arg("surface") = py::none(),
            py::arg("ignore") = py::tuple(), py::arg("self_pairs") = py::none(),
            py::arg("resolution") = BracketOptions{}.resolution,
+           py::arg("work_budget") = py::none(),
            "fidelity: 'link', or 'exact' (triangles, which are never certain; needs surface).\n"
            "ignore, self_pairs: as of a Query. resolution: metres; instants are as near to the\n"
-           "true ones as that.")
+           "true ones as that. work_budget: evaluations (about 10 ns each) that a step may cost;\n"
+           "once it is spent, what is open is possible.")
       .def("answer", &answer, py::arg("poses"), py::arg("bounds"), py::kw_only(),
            py::arg("seconds"), py::arg("between") = "constant-rate",
            "Every step of poses that are `seconds` apart: Brackets. bounds: one LinkBound, or one\n"

@@ -43,7 +43,7 @@ export const ft_solid_contact = new Struct({
 export const ft_link_bound = new Struct({
   error: f64, acceleration: f64, followFloor: f64, followShare: f64, speed: f64, aheadSpeed: f64, aheadAcceleration: f64,
 });
-export const ft_bracket_options = new Struct({ size, fidelity: i32, resolution: f64, ignored: pointer, ignoredCount: u32, self: pointer });
+export const ft_bracket_options = new Struct({ size, fidelity: i32, resolution: f64, ignored: pointer, ignoredCount: u32, self: pointer, workBudget: u64 });
 export const ft_posed_step = new Struct({
   size, between: i32, before: pointer, from: pointer, to: pointer, after: pointer, secondsBefore: f64, seconds: f64, secondsAfter: f64,
 });

@@ -451,12 +451,13 @@ AT(ft_link_bound, speed, 32);
 AT(ft_link_bound, ahead_speed, 40);
 AT(ft_link_bound, ahead_acceleration, 48);
 
-static_assert(sizeof(ft_bracket_options) == 40);
+static_assert(sizeof(ft_bracket_options) == 48);
 AT(ft_bracket_options, fidelity, 4);
 AT(ft_bracket_options, resolution, 8);
 AT(ft_bracket_options, ignored, 16);
 AT(ft_bracket_options, ignored_count, 24);
 AT(ft_bracket_options, self, 32);
+AT(ft_bracket_options, work_budget, 40);
 
 static_assert(sizeof(ft_posed_step) == 64);
 AT(ft_posed_step, between, 4);

@@ -91,10 +91,12 @@ TEST(CPerson, AnswersAreThoseOfTheLibrary) {
     options.ignored = &ignored;
     options.ignored_count = 1;
     options.resolution = 1e-4;
+    if (round % 4 == 3) options.work_budget = 2000;
     const auto brackets = makeBrackets(sceneHandle, avatarHandle, &options);
     BracketOptions sameOptions;
     sameOptions.ignored = {{1, 2}};
     sameOptions.resolution = 1e-4;
+    if (round % 4 == 3) sameOptions.workBudget = 2000;
     const auto query = BracketQuery::build(walk.body.avatar, scene, sameOptions).value();
 
     const test::PoseArrays from(walk.body.from), to(walk.body.to);

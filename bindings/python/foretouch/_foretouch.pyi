@@ -447,6 +447,7 @@ class BracketQuery:
         ignore: Iterable[IgnoredLike] = (),
         self_pairs: Optional[PairRules] = None,
         resolution: float = 1e-05,
+        work_budget: Optional[int] = None,
     ) -> None: ...
     def answer(
         self,

@@ -61,6 +61,14 @@ class BracketQuery(unittest.TestCase):
         np.testing.assert_allclose(told.possible[0, :, 0], possible, atol=3e-4)
         np.testing.assert_allclose(told.certain[0, :, 0], certain, atol=3e-4)
 
+    def test_without_work_nothing_is_certain(self):
+        idle = foretouch.BracketQuery(self.avatar, wall(WALL), work_budget=0)
+        bound = foretouch.LinkBound(acceleration=0.1)
+        told = idle.answer(self.lowered(), bound, seconds=SECONDS)
+        self.assertTrue((told.verdicts == foretouch.BracketVerdict.POSSIBLE).all())
+        told = self.query.answer(self.lowered(), bound, seconds=SECONDS)
+        self.assertTrue((told.verdicts == foretouch.BracketVerdict.CERTAIN).all())
+
     def test_without_a_bound_nothing_is_claimed(self):
         told = self.query.answer(self.lowered(), foretouch.LinkBound(), seconds=SECONDS)
         self.assertTrue((told.verdicts == foretouch.BracketVerdict.UNCLAIMED).all())

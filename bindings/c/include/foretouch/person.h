@@ -51,6 +51,9 @@ typedef struct ft_bracket_options {
   const ft_ignored_pair* ignored;
   size_t ignored_count;
   const ft_pair_rules* self; /* own links; NULL, the default: not asked */
+  /* Per answer, as ft_query_options has it: once it is spent, what is open is possible. Default
+   * UINT64_MAX: without limit. */
+  uint64_t work_budget;
 } ft_bracket_options;
 
 FT_API ft_status ft_bracket_options_init(ft_bracket_options* options, size_t size);

@@ -48,6 +48,9 @@ namespace Foretouch {
     public ulong ignoredCount;
     /// <summary>own links; NULL, the default: not asked</summary>
     public IntPtr self;
+    /// <summary>Per answer, as ft_query_options has it: once it is spent, what is open is possible. Default
+    /// UINT64_MAX: without limit.</summary>
+    public ulong workBudget;
   }
   /// <summary>Two poses and those around them: of a step of `seconds`, above 0. Where there is none
   /// before or after, or it is not known yet, NULL.</summary>
