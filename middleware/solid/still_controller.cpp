@@ -139,8 +139,9 @@ bool StillController::iterate(const FollowRequest& request, Certifier& certifier
   aim(request, shown);
   gather(request, certifier, tick);
   tries_ = 0;
+  solved_ = 0;
   const bool hasStep = propose(request, certifier.plan(), shown, tick);
-  certifier.spend(kTryWork * tries_);
+  certifier.spend(kTryWork * tries_ + kSolveWork * solved_);
   if (!hasPushes() && (!hasDirectFailed_ || size_ <= trust_)) {
     return stepFreely(request, shareOfDirect(request, shown), certifier, shown, tick);
   }
@@ -400,7 +401,9 @@ double StillController::fitOf(const FollowRequest& request, const Pose& shown) c
 
 void StillController::solve(SolidTick& tick) {
   const PhaseScope scope(phases_, SolidPhase::Solve);
-  tick.counters.rows += static_cast<std::uint32_t>(step_.solve(rows_));
+  const std::size_t taken = step_.solve(rows_);
+  tick.counters.rows += static_cast<std::uint32_t>(taken);
+  solved_ += taken * taken;
   size_ = step_.size(here_);
 }
 
