@@ -29,10 +29,11 @@ inline constexpr double kAimed = 0.35;
 inline constexpr double kKeptGap = 0.9;
 /// Halves of a step that are tried.
 inline constexpr int kHalvings = 4;
-/// Work of an iteration without its features, of one feature, of one step that is tried, and of the
-/// square of the rows that a solution takes up, in evaluations in lanes.
-inline constexpr std::uint64_t kIterationWork = 1000, kRowWork = 80, kTryWork = 1000,
-                               kSolveWork = 3;
+/// Work of an iteration without its features, of one feature, and of one step that is tried, in
+/// evaluations in lanes.
+inline constexpr std::uint64_t kIterationWork = 1000, kRowWork = 80, kTryWork = 1000;
+/// So many cubes of the rows that a solution takes up are one evaluation: its factors.
+inline constexpr std::uint64_t kCubesPerWork = 20;
 
 /// Beyond a free step of `far` on a link.
 [[nodiscard]] inline double reachFor(double far, double trust, double skin) {

@@ -141,7 +141,7 @@ bool StillController::iterate(const FollowRequest& request, Certifier& certifier
   tries_ = 0;
   solved_ = 0;
   const bool hasStep = propose(request, certifier.plan(), shown, tick);
-  certifier.spend(kTryWork * tries_ + kSolveWork * solved_);
+  certifier.spend(kTryWork * tries_ + solved_ / kCubesPerWork);
   if (!hasPushes() && (!hasDirectFailed_ || size_ <= trust_)) {
     return stepFreely(request, shareOfDirect(request, shown), certifier, shown, tick);
   }
@@ -403,7 +403,7 @@ void StillController::solve(SolidTick& tick) {
   const PhaseScope scope(phases_, SolidPhase::Solve);
   const std::size_t taken = step_.solve(rows_);
   tick.counters.rows += static_cast<std::uint32_t>(taken);
-  solved_ += taken * taken;
+  solved_ += taken * taken * taken;
   size_ = step_.size(here_);
 }
 

@@ -124,7 +124,7 @@ class StillController {
   Pose tried_, nearer_, reached_, part_;
   double size_ = 0.0;         // of the whole step that was solved for
   std::uint64_t tries_ = 0;   // shares of it that were tried
-  std::uint64_t solved_ = 0;  // sum of the squares of the rows that its solutions took up
+  std::uint64_t solved_ = 0;  // sum of the cubes of the rows that its solutions took up
   bool isWhole_ = false;      // all of it is tried, as it was solved for at first
 
   // Of the current tick.
