@@ -99,44 +99,35 @@ ExplainedTick explained(const internal::SolidPhases& phases, const SolidTick& ti
   }
   one.counters = tick.counters;
   one.limit = tick.limit;
-  one.isInContact = tick.state != SolidState::Equal || tick.counters.queries != 1;
+  one.isInContact = !isFreeTick(tick);
   return one;
 }
 
-double mean(const std::vector<ExplainedTick>& ticks, double (*of)(const ExplainedTick&)) {
+template <typename Of>
+double meanOf(const std::vector<ExplainedTick>& ticks, const Of& of) {
   double sum = 0.0;
-  for (const ExplainedTick& tick : ticks) sum += of(tick);
-  return sum / static_cast<double>(std::max<std::size_t>(ticks.size(), 1));
-}
-
-double meanOf(const std::vector<ExplainedTick>& ticks, internal::SolidPhase phase) {
-  double sum = 0.0;
-  for (const ExplainedTick& tick : ticks) sum += tick.phases[static_cast<std::size_t>(phase)];
+  for (const ExplainedTick& tick : ticks) sum += static_cast<double>(of(tick));
   return sum / static_cast<double>(std::max<std::size_t>(ticks.size(), 1));
 }
 
 std::vector<BenchCell> tailCells(const std::vector<ExplainedTick>& ticks) {
   using internal::SolidPhase;
-  const auto isSpent = [](const ExplainedTick& tick) {
-    return tick.limit == SolidLimit::Budget ? 100.0 : 0.0;
-  };
   std::vector<BenchCell> cells;
+  const auto append = [&](const auto& of) { cells.emplace_back(meanOf(ticks, of)); };
   cells.emplace_back(cell(ticks.size()));
-  cells.emplace_back(mean(ticks, [](const ExplainedTick& tick) { return tick.us; }));
+  append([](const ExplainedTick& tick) { return tick.us; });
   for (const SolidPhase phase : {SolidPhase::Gather, SolidPhase::Solve, SolidPhase::Try,
                                  SolidPhase::Prove, SolidPhase::Around, SolidPhase::Other}) {
-    cells.emplace_back(meanOf(ticks, phase));
+    append([phase](const ExplainedTick& tick) {
+      return tick.phases[static_cast<std::size_t>(phase)];
+    });
   }
   for (const auto count : {&SolidCounters::queries, &SolidCounters::iterations,
                            &SolidCounters::features, &SolidCounters::rows}) {
-    double sum = 0.0;
-    for (const ExplainedTick& tick : ticks) sum += tick.counters.*count;
-    cells.emplace_back(sum / static_cast<double>(std::max<std::size_t>(ticks.size(), 1)));
+    append([count](const ExplainedTick& tick) { return tick.counters.*count; });
   }
-  cells.emplace_back(mean(ticks, [](const ExplainedTick& tick) {
-    return 1e-3 * static_cast<double>(tick.counters.work);
-  }));
-  cells.emplace_back(mean(ticks, isSpent));
+  append([](const ExplainedTick& tick) { return 1e-3 * static_cast<double>(tick.counters.work); });
+  append([](const ExplainedTick& tick) { return tick.limit == SolidLimit::Budget ? 100.0 : 0.0; });
   return cells;
 }
 

@@ -238,14 +238,14 @@ Result<FeelTally> feel(const SolidStage& stage, const SolidActor& actor,
     FORETOUCH_CHECK(follower.follow(tracked[i], 1.0 / run.rateHz, tick));
     const double us = threadTimeUs() - start;
     if (i > 0) {
-      const bool isFreeTick = tick.state == SolidState::Equal && tick.counters.queries == 1;
+      const bool isFree = isFreeTick(tick);
       tally.us.push_back(us);
-      (isFreeTick ? tally.freeUs : tally.contactUs).push_back(us);
+      (isFree ? tally.freeUs : tally.contactUs).push_back(us);
       tally.queries.push_back(tick.counters.queries);
       tally.iterations.push_back(tick.counters.iterations);
       tally.aroundQueries.push_back(tick.counters.aroundQueries);
       tally.bareUs.push_back(bare.timeUs(tracked[i - 1], tracked[i]));
-      if (isFreeTick) tally.overBareUs.push_back(us - bare.timeUs(before, tracked[i]));
+      if (isFree) tally.overBareUs.push_back(us - bare.timeUs(before, tracked[i]));
     }
     before = tick.shown;
     meter.look(tracked[i], tick);

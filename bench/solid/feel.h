@@ -46,6 +46,11 @@ struct FeelTally {
   void add(const FeelTally& other);
 };
 
+/// It asked the direct motion and nothing else, and that was clear.
+[[nodiscard]] inline bool isFreeTick(const SolidTick& tick) {
+  return tick.state == SolidState::Equal && tick.counters.queries == 1;
+}
+
 /// Farther than this (m) from a free tracked pose is away.
 inline constexpr double kAway = 0.05;
 
