@@ -18,7 +18,6 @@
 #include "assets/mesh/link_mesh.h"
 #include "assets/model/model_avatar.h"
 #include "middleware/ask/ask.h"
-#include "middleware/ask/flight.h"
 #include "middleware/depth/depth.h"
 #include "middleware/edges/edge_query.h"
 #include "middleware/mechanics/mass.h"

@@ -10,7 +10,7 @@
 #include "bench/commands.h"
 #include "bench/machine.h"
 #include "bench/options.h"
-#include "middleware/query_counters.h"
+#include "middleware/contact.h"
 #include "tools/report/document_parts.h"
 #include "tools/settings/lists.h"
 #include "tools/settings/world_settings.h"

@@ -14,7 +14,7 @@
 #include "bench/options.h"
 #include "bench/pool.h"
 #include "lss/index.h"
-#include "middleware/query_counters.h"
+#include "middleware/contact.h"
 #include "tools/settings/lists.h"
 #include "tools/settings/world_settings.h"
 

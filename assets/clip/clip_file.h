@@ -12,7 +12,6 @@
 #include "articulated/result.h"
 #include "assets/import/scene_import.h"
 #include "assets/model/model.h"
-#include "assets/model/table_options.h"
 
 namespace foretouch {
 

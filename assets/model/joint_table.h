@@ -10,7 +10,7 @@
 
 #include "articulated/result.h"
 #include "articulated/skeleton.h"
-#include "assets/model/table_options.h"
+#include "assets/model/model.h"
 
 namespace foretouch::internal {
 
@@ -57,5 +57,22 @@ void setUnits(const JointTableOptions& options, JointTable& table);
 
 /// Fills in the mean spacing of timesS, or the times of a table that has none, by the rate.
 [[nodiscard]] Result<Done> settleTimes(JointTable& table, std::optional<double> rateHz);
+
+/// How a public set lays its tables out.
+struct TableLayout {
+  const char* name;
+  std::vector<std::string> columns;  ///< Empty: there is a header.
+  double rateHz;
+  bool isInDegrees;
+  double metresPerUnit;
+  /// The root's rotation is three angles about fixed axes, x first, in `root_rotateX` and so on;
+  /// the place is `root_translateX` ..., joints are called NAME_dof, and `Frame` counts.
+  bool isOfSeed;
+};
+
+/// Nothing: no layout has this name.
+[[nodiscard]] const TableLayout* tableLayout(const std::string& name);
+/// The layout that the options name, if they name one.
+[[nodiscard]] const TableLayout* layoutIn(const JointTableOptions& options);
 
 }  // namespace foretouch::internal

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,8 @@ struct ModelNode {
   std::vector<Lss>
       lss;  ///< Spheres and capsules that the file declares as such, in the node's frame.
   ModelJointType joint = ModelJointType::Free;
-  std::string jointName;    ///< URDF and MJCF name joints apart from links; else empty.
-  bool isOnlooker = false;  ///< A camera or a light: what it does is no motion of a body.
+  std::string jointName;       ///< URDF and MJCF name joints apart from links; else empty.
+  bool isOnlooker = false;     ///< A camera or a light: what it does is no motion of a body.
   std::int32_t fileNode = -1;  ///< Of glTF: its number in the file; -1: none has it.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< The joint's, in the node's frame, unit.
   double lowerLimit = 0.0, upperLimit = 0.0;        ///< Radians or metres; equal: none stated.
@@ -116,5 +117,22 @@ struct Model {
   std::vector<std::string> notes;
   FileFrame frame;
 };
+
+/// In which order four numbers are a quaternion.
+enum class QuaternionOrder : std::uint8_t { Xyzw, Wxyz };
+
+struct JointTableOptions {
+  /// For a table without a header: its columns' names, in order; or only the name of a layout that
+  /// is known (tableLayouts()), which says units, rate and order as well. Empty: as the header
+  /// says.
+  std::vector<std::string> columns;
+  std::optional<double> rateHz;               ///< Rows per second, of a table without times.
+  std::optional<QuaternionOrder> quaternion;  ///< In arrays, whose names need not say it.
+  bool isInDegrees = false;                   ///< Or as the layout has it.
+  std::optional<double> metresPerUnit;        ///< Empty: metres, or as the layout has it.
+};
+
+/// The layouts of public sets of motions that are known by name: "lafan1-g1", "bones-seed-g1".
+[[nodiscard]] std::vector<std::string> tableLayouts();
 
 }  // namespace foretouch

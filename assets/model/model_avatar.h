@@ -18,7 +18,6 @@
 #include "articulated/result.h"
 #include "articulated/robot.h"
 #include "assets/model/model.h"
-#include "assets/model/table_options.h"
 #include "lss/lss.h"
 
 namespace foretouch {

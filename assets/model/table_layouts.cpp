@@ -1,7 +1,7 @@
-// The layouts of public sets of motions of robots: assets/model/table_options.h.
+// The layouts of public sets of motions of robots: assets/model/joint_table.h.
 #include <algorithm>
 
-#include "assets/model/table_options.h"
+#include "assets/model/joint_table.h"
 
 namespace foretouch {
 namespace {

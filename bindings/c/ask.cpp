@@ -9,7 +9,7 @@
 #include "bindings/c/sized_struct.h"
 #include "bindings/c/world_handle.h"
 #include "lss/index.h"
-#include "middleware/ask/flight.h"
+#include "middleware/ask/ask.h"
 
 namespace foretouch::c {
 namespace {

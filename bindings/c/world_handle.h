@@ -10,7 +10,7 @@
 #include "articulated/try.h"
 #include "bindings/c/handles.h"
 #include "bindings/c/include/foretouch/world.h"
-#include "middleware/ask/flight.h"
+#include "middleware/ask/ask.h"
 #include "middleware/depth/depth.h"
 #include "middleware/events/world_follower.h"
 #include "middleware/solid_world/solid_world.h"

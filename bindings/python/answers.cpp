@@ -7,8 +7,8 @@
 
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
+#include "middleware/contact.h"
 #include "middleware/events/told_depth.h"
-#include "middleware/query_counters.h"
 
 namespace foretouch::python {
 namespace {

@@ -1,6 +1,8 @@
 // bindings/python/ask.cpp: World.probe(), what a ray, a cast or a shape meets at an instant;
 // World.probe_many(), the same of arrays of them; and World.fly(), what something that flies hits
 // first.
+#include "middleware/ask/ask.h"
+
 #include <array>
 #include <limits>
 #include <utility>
@@ -10,7 +12,6 @@
 #include "bindings/python/poses.h"
 #include "bindings/python/world.h"
 #include "lss/index.h"
-#include "middleware/ask/flight.h"
 
 namespace foretouch::python {
 namespace {

@@ -1,11 +1,13 @@
-// middleware/ask/ask.h: questions about a world at an instant: what a ray hits, what a moved sphere
-// or capsule hits first, what a shape overlaps, what is nearest. At any instant that the world
-// knows, between poses too: each body is where its motion has it then. The proof: ask.md. Metres,
-// in W; world time in microseconds.
+// middleware/ask/ask.h: questions about a world: at an instant, what a ray hits, what a moved
+// sphere or capsule hits first, what a shape overlaps, what is nearest, where each body is as its
+// motion has it then, between poses too; through a time, what a shape that flies straight hits
+// first while the bodies move: their true motion and its own. The proof: ask.md. Metres, in W;
+// world time in microseconds.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,7 +15,7 @@
 
 #include "articulated/result.h"
 #include "lss/lss.h"
-#include "middleware/scene/raw_scene.h"
+#include "middleware/scene/scene.h"
 #include "middleware/scratch.h"
 #include "middleware/world/world.h"
 #include "middleware/world/world_contacts.h"
@@ -167,5 +169,35 @@ Result<Done> askWorld(const World& world, const WorldQuestion& question, Scratch
 /// as Error::index; then no answer counts.
 Result<Done> askWorld(const World& world, const std::vector<WorldQuestion>& questions,
                       Scratch& scratch, std::vector<WorldAnswer>& answers);
+
+/// A sphere, capsule or convex solid on its way, at constant speed and without a turn; filters as
+/// in a question.
+struct FlightQuestion : AskWhom {
+  Lss shape;                                      ///< Where it is at `fromUs`.
+  std::vector<Eigen::Vector3d> hull;              ///< As in a question.
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();  ///< To where it is at `toUs`. Zero: it waits.
+  std::int64_t fromUs = 0, toUs = 0;
+};
+
+/// Of the first of all.
+struct FlightHit {
+  WorldHit hit;    ///< `distance`: along the way; places at that time.
+  WorldTime time;  ///< Rounded down: nothing is hit before.
+};
+
+struct FlightAnswer {
+  std::optional<FlightHit> first;
+  /// Bodies that were asked about and are not known all through; of a Silent body, what is known of
+  /// it was asked.
+  std::vector<UnknownBody> unknown;
+
+  [[nodiscard]] AskVerdict verdict() const;
+};
+
+/// Replaces `answer`. Never missed and never late, in time as in place; at the hit's time the two
+/// are at most kAskTolerance apart, where doubles resolve it. Errors: as askWorld(); a time without
+/// length.
+Result<Done> askFlight(const World& world, const FlightQuestion& question, Scratch& scratch,
+                       FlightAnswer& answer);
 
 }  // namespace foretouch

@@ -1,4 +1,4 @@
-#include "middleware/ask/flight.h"
+#include "middleware/ask/ask.h"
 
 namespace foretouch {
 

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "middleware/ask/ask.h"
 #include "middleware/ask/ask_filter.h"
 #include "middleware/ask/asked_shape.h"
 #include "middleware/ask/body_asker.h"
-#include "middleware/ask/flight.h"
 #include "middleware/ask/moving_body.h"
 
 namespace foretouch::internal {

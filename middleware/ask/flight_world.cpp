@@ -3,9 +3,9 @@
 #include "articulated/skeleton.h"
 #include "articulated/try.h"
 #include "lss/index.h"
+#include "middleware/ask/ask.h"
 #include "middleware/ask/ask_checks.h"
 #include "middleware/ask/body_asker.h"
-#include "middleware/ask/flight.h"
 #include "middleware/ask/flight_asker.h"
 
 namespace foretouch {

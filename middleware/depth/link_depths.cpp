@@ -1,5 +1,3 @@
-#include "middleware/depth/link_depths.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +13,7 @@
 #include "lss/index.h"
 #include "lss/rounding.h"
 #include "lss/separation.h"
+#include "middleware/depth/depth.h"
 #include "middleware/depth/hull_depth.h"
 #include "middleware/exact/closed_mesh.h"
 #include "middleware/scene/scene_parts.h"

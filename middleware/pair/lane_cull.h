@@ -4,9 +4,9 @@
 #pragma once
 
 #include "articulated/motion.h"
+#include "middleware/contact.h"
 #include "middleware/pair/query_memory.h"
 #include "middleware/pair/query_plan.h"
-#include "middleware/query_counters.h"
 #include "tessellation/lss_table.h"
 
 namespace foretouch::internal {

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "middleware/contact.h"
 #include "middleware/lanes/near_triangles.h"
 #include "middleware/pair/leaf_hits.h"
-#include "middleware/query_counters.h"
 #include "middleware/scene/scene.h"
 #include "tessellation/swept_lss.h"
 

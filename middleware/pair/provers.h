@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articulated/motion.h"
-#include "middleware/query_counters.h"
+#include "middleware/contact.h"
 
 namespace foretouch {
 struct StepContacts;

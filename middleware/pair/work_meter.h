@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "middleware/query_counters.h"
+#include "middleware/contact.h"
 #include "middleware/query_options.h"
 
 namespace foretouch::internal {

@@ -8,7 +8,7 @@
 
 #include "middleware/triggers/link_presence.h"
 #include "middleware/triggers/presence.h"
-#include "middleware/triggers/trigger_event.h"
+#include "middleware/triggers/triggers.h"
 
 namespace foretouch::internal {
 

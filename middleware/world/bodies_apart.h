@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "middleware/contact.h"
 #include "middleware/lanes/node_planes.h"
 #include "middleware/lanes/pair_boxes.h"
-#include "middleware/query_counters.h"
 #include "middleware/world/body_sweep.h"
 
 namespace foretouch::internal {

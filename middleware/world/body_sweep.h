@@ -11,8 +11,8 @@
 #include <Eigen/Core>
 
 #include "articulated/motion.h"
+#include "middleware/contact.h"
 #include "middleware/pair/lane_scratch.h"
-#include "middleware/query_counters.h"
 #include "middleware/world/box_sweep.h"
 #include "middleware/world/system_plan.h"
 #include "middleware/world/world_contacts.h"

@@ -6,10 +6,10 @@
 
 #include "articulated/try.h"
 #include "lss/index.h"
+#include "middleware/contact.h"
 #include "middleware/pair/query_memory.h"
 #include "middleware/pair/query_plan.h"
 #include "middleware/pair/work_meter.h"
-#include "middleware/query_counters.h"
 
 namespace foretouch::internal {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "bench/pool.h"
 #include "bench/timing.h"
-#include "middleware/query_counters.h"
+#include "middleware/contact.h"
 #include "tests/bench/world.h"
 
 namespace foretouch::tools {

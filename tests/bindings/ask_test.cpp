@@ -1,5 +1,7 @@
 // Questions to a world in C: the answers are those of the C++ library, bit for bit; and bad input
 // is refused by name.
+#include "middleware/ask/ask.h"
+
 #include <algorithm>
 #include <deque>
 #include <foretouch/ask.h>
@@ -8,7 +10,6 @@
 #include <vector>
 
 #include "lss/index.h"
-#include "middleware/ask/flight.h"
 #include "tests/bindings/moving_world.h"
 #include "tests/middleware/own_body.h"
 

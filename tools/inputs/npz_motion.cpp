@@ -10,6 +10,7 @@
 #include "articulated/quoted.h"
 #include "articulated/try.h"
 #include "assets/clip/clip_file.h"
+#include "assets/model/joint_table.h"
 #include "assets/model/model_avatar.h"
 #include "assets/text_file.h"
 #include "tools/inputs/npz_arrays.h"

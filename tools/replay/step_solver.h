@@ -7,7 +7,7 @@
 
 #include "articulated/motion.h"
 #include "articulated/result.h"
-#include "middleware/depth/link_depths.h"
+#include "middleware/depth/depth.h"
 #include "middleware/query/query.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/replay/results_writer.h"

@@ -8,7 +8,7 @@
 
 #include "assets/avatar/joint_match.h"
 #include "assets/file_frame.h"
-#include "assets/model/table_options.h"
+#include "assets/model/model.h"
 #include "tools/settings/settings.h"
 
 namespace foretouch::tools {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "middleware/ask/ask.h"
-#include "middleware/ask/flight.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/middleware/world/random_worlds.h"
 #include "tests/support/allocation_count.h"

@@ -10,7 +10,6 @@
 
 #include "judge/cast_oracle.h"
 #include "middleware/ask/ask.h"
-#include "middleware/ask/flight.h"
 #include "tests/middleware/world/both_worlds.h"
 #include "tests/support/random_geometry.h"
 

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "middleware/ask/ask.h"
-#include "middleware/ask/flight.h"
 #include "tests/middleware/ask/asked.h"
 #include "tests/support/random_geometry.h"
 

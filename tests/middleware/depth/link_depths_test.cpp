@@ -1,13 +1,12 @@
 // How deep links are whose surfaces are triangles: convex ones against all separating axes that
 // there are, others against the boxes that they are made of.
-#include "middleware/depth/link_depths.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
+#include "middleware/depth/depth.h"
 #include "middleware/depth/hull_depth.h"
 #include "tests/support/random_geometry.h"
 

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "middleware/contact.h"
 #include "middleware/query/query.h"
-#include "middleware/query_counters.h"
 #include "middleware/worker_pool.h"
 #include "middleware/world/world.h"
 #include "tests/middleware/own_body.h"

@@ -275,8 +275,9 @@ typedef struct ft_clip_options {
 
 FT_API ft_status ft_clip_options_init(ft_clip_options* options, size_t size);
 /* Reads a BVH clip, the first animation of a model (.glb, .gltf, .fbx, .dae, .x) in 30 poses a
- * second, or motions of Acclaim (.amc), Xsens (.mvnx) and WebXR (.json). Its joints drive those of the avatar that have the same name; the others keep their rest
- * pose. Error if no name matches. `options` may be NULL. */
+ * second, or motions of Acclaim (.amc), Xsens (.mvnx) and WebXR (.json). Its joints drive those of
+ * the avatar that have the same name; the others keep their rest pose. Error if no name matches.
+ * `options` may be NULL. */
 FT_API ft_status ft_clip_create_from_file(const char* path, const ft_avatar* avatar,
                                           const ft_clip_options* options, ft_clip** clip);
 
@@ -582,7 +583,7 @@ FT_API ft_status ft_motion_pose(ft_query* query, double t, double* rotations, do
  * of the last step's motion, else 0. Uses computed distances, without the promise. */
 FT_API ft_status ft_touches_at(ft_query* query, int32_t link, double t, int32_t* touches);
 
-/* Work of the last step, independent of machine load (middleware/query_counters.h). */
+/* Work of the last step, independent of machine load (middleware/contact.h). */
 typedef struct ft_counters {
   uint32_t size;
   uint32_t reserved; /* 0 */

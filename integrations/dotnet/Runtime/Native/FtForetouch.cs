@@ -522,7 +522,7 @@ namespace Foretouch {
     public FtVector angularVelocity;
     public FtVector velocity;
   }
-  /// <summary>Work of the last step, independent of machine load (middleware/query_counters.h).</summary>
+  /// <summary>Work of the last step, independent of machine load (middleware/contact.h).</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtCounters {
     public uint size;
