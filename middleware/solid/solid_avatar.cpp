@@ -16,6 +16,7 @@
 #include "middleware/solid/placing.h"
 #include "middleware/solid/solid_way.h"
 #include "middleware/solid/still_controller.h"
+#include "middleware/solid/stuck_watch.h"
 #include "middleware/solid/target_pose.h"
 #include "middleware/solid/tree_pose.h"
 #include "middleware/solid/way_around.h"
@@ -24,16 +25,8 @@ namespace foretouch {
 namespace {
 
 constexpr double kLongestTick = 10.0;
-// When a way around is looked for (solid.md 7): farther than this from the target (m), and moving
-// by less than this share of it for so long (s, ticks).
-constexpr double kFarEnough = 0.05, kProgress = 0.02, kStuckFor = 0.05;
-constexpr int kStuckTicks = 3;
-/// The target of the point that is farthest off stays within this, meanwhile (m).
-constexpr double kStaysWithin = 0.02;
 /// Two places of one root are the same (m).
 constexpr double kSamePlace = 1e-6;
-/// After the target was found inside something.
-constexpr int kTicksToLookAgain = 8;
 
 Result<Done> inRange(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return Done{};
@@ -109,6 +102,7 @@ class SolidAvatar::Parts {
         lift_(avatar, options_),
         placing_(avatar.skeleton(), options_),
         around_(avatar, options_),
+        stuck_(options_),
         pace_(avatar, controller_.body(), options_) {}
 
   Result<Done> follow(const SolidTarget& given, SolidTick& tick) {
@@ -196,7 +190,7 @@ class SolidAvatar::Parts {
     placing_.reset();
     around_.reset();
     pace_.rest();
-    stuckS_ = awayS_ = 0.0;
+    stuck_.reset();
     mustSayPlace_ = false;
   }
 
@@ -249,7 +243,7 @@ class SolidAvatar::Parts {
     pace_.begin(target_, {places_, wanted_, lastWanted_, goesAlong},
                 std::abs(lift_.lift() - liftBefore), dtS);
     // Before the tick's work is spent on other questions: what is announced has to come.
-    isTargetFree_ = maySnapIn(dtS) && certifier_.isClear(target_.pose(), target_.pose());
+    isTargetFree_ = stuck_.wantsSnapIn(dtS) && certifier_.isClear(target_.pose(), target_.pose());
     if (around_.isStale(shown_, wanted_)) around_.reset();
     if (!(around_.hasWay() && walkAround(tick))) {
       controller_.follow({target_.pose(), target_.states(), wanted_, target_.ranges(), pace_},
@@ -257,10 +251,6 @@ class SolidAvatar::Parts {
       if (!internal::isSamePose(shown_, target_.pose())) lookFurther(dtS, tick);
     }
     pace_.end();
-  }
-
-  [[nodiscard]] bool maySnapIn(double dtS) const {
-    return options_.maySnap && awayS_ + dtS > options_.patience;
   }
 
   void liftTarget(double dtS, SolidTick& tick) {
@@ -300,39 +290,38 @@ class SolidAvatar::Parts {
     return true;
   }
 
-  /// Held away from the target: is there a way around, or has the time come to snap?
-  void lookFurther(double dtS, SolidTick& tick) {
+  /// How far the shown pose is from the target; `farthest`: the point that is farthest off.
+  [[nodiscard]] internal::Deviation deviation(std::size_t& farthest) {
     const internal::VisualBody& body = controller_.body();
     internal::placeLinks(skeleton(), shown_, states_);
-    double far = 0.0;
-    std::size_t farthest = 0;
-    double farOfRoots = 0.0;
-    const std::vector<JointId>& parents = skeleton().parents();
+    internal::Deviation found;
+    farthest = 0;
     for (std::size_t k = 0; k < body.points().size(); ++k) {
       const auto& point = body.points()[k];
       const double off = (states_[slotOf(point.link)].pointAt(point.p_L) - wanted_[k]).norm();
-      if (off > far) {
-        far = off;
+      if (off > found.far) {
+        found.far = off;
         farthest = k;
       }
     }
+    found.wanted = wanted_[farthest];
+    const std::vector<JointId>& parents = skeleton().parents();
     for (std::size_t j = 0; j < parents.size(); ++j) {
       if (parents[j] != kNoParent) continue;
-      farOfRoots = std::max(farOfRoots, (states_[j].p_WL - target_.states()[j].p_WL).norm());
+      const double off = (states_[j].p_WL - target_.states()[j].p_WL).norm();
+      found.farOfRoots = std::max(found.farOfRoots, off);
     }
-    const double moved = body.farthestMove(skeleton(), before_, shown_, statesBefore_, states_);
-    // What leads on meanwhile leads a search astray.
-    const bool isStuck = far > kFarEnough && moved < kProgress * far &&
-                         (stuckTicks_ == 0 || (wanted_[farthest] - stuckAt_).norm() < kStaysWithin);
-    if (!isStuck || stuckTicks_ == 0) stuckAt_ = wanted_[farthest];
-    stuckS_ = isStuck ? stuckS_ + dtS : 0.0;
-    stuckTicks_ = isStuck ? stuckTicks_ + 1 : 0;
-    if (!isStuck) lookAt_ = 0;
-    const bool isAway = farOfRoots > options_.mostDeviation || far > options_.mostLimbDeviation;
-    awayS_ = isAway ? awayS_ + dtS : 0.0;
-    const bool wantsAround = options_.aroundPerTick > 0 && !around_.hasFailed() &&
-                             stuckS_ >= kStuckFor && stuckTicks_ >= std::max(kStuckTicks, lookAt_);
-    const bool wantsSnap = options_.maySnap && awayS_ > options_.patience;
+    found.moved = body.farthestMove(skeleton(), before_, shown_, statesBefore_, states_);
+    return found;
+  }
+
+  /// Held away from the target: is there a way around, or has the time come to snap?
+  void lookFurther(double dtS, SolidTick& tick) {
+    std::size_t farthest = 0;
+    stuck_.look(deviation(farthest), dtS);
+    const bool wantsAround =
+        options_.aroundPerTick > 0 && !around_.hasFailed() && stuck_.wantsAround();
+    const bool wantsSnap = stuck_.wantsSnap();
     if (!wantsAround && !wantsSnap) return;
     const internal::PhaseScope scope(phases_, internal::SolidPhase::Around);
     const std::uint32_t before = certifier_.queries();
@@ -340,18 +329,17 @@ class SolidAvatar::Parts {
     const bool isFree =
         isTargetFree_ || (!wantsSnap && certifier_.isClear(target_.pose(), target_.pose()));
     if (!isFree) {
-      lookAt_ = stuckTicks_ + kTicksToLookAgain;
-      // What was announced is withdrawn, and announced anew in full.
-      if (wantsSnap) awayS_ = options_.patience;
+      stuck_.foundInside();
       return;
     }
     if (wantsAround) {
+      const internal::VisualBody& body = controller_.body();
       around_.search(body, shown_, target_.pose(), wanted_, body.points()[farthest].link,
                      static_cast<std::uint32_t>(options_.aroundPerTick), certifier_);
     }
     tick.counters.aroundQueries += certifier_.queries() - before;
     if (!wantsSnap || around_.hasWay()) return;
-    tick.snapInS = std::max(0.0, options_.patience + options_.snapNotice - awayS_);
+    tick.snapInS = stuck_.snapInS();
     if (tick.snapInS > 0.0) return;
     shown_ = target_.pose();
     forget();
@@ -432,14 +420,12 @@ class SolidAvatar::Parts {
   internal::FloorLift lift_;
   internal::Placing placing_;
   internal::WayAround around_;
+  internal::StuckWatch stuck_;
   internal::Pace pace_;
   internal::SolidPhases* phases_ = nullptr;
   Pose shown_, before_, towards_, reached_;
   std::vector<LinkState> states_, statesBefore_;
   std::vector<Eigen::Vector3d> wanted_, lastWanted_, places_;
-  double stuckS_ = 0.0, awayS_ = 0.0;
-  Eigen::Vector3d stuckAt_ = Eigen::Vector3d::Zero();  // where that point's target was at first
-  int stuckTicks_ = 0, lookAt_ = 0;
   bool isAround_ = false, hasSnapped_ = false;
   bool isInside_ = false;      // the scene that was changed has shown_ inside
   bool mustSayPlace_ = false;  // shown_ was given as a place, and no tick has said so yet
