@@ -1,5 +1,4 @@
-import type { Avatar, Carried, Link, LinkMesh, Lss, Solid, SweptSurface } from "./document.js";
-import { solidStates } from "./document.js";
+import { type Avatar, type Carried, type Link, type LinkMesh, type Lss, type Solid, solidStates, type SweptSurface } from "./avatar.js";
 import type { Reader } from "./reader.js";
 import { decodeContact } from "./decode_contact.js";
 import { decodePlacedMesh } from "./decode_scene.js";

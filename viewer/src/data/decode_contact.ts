@@ -1,4 +1,4 @@
-import type { Vector, Verdict } from "./document.js";
+import type { Vector, Verdict } from "./geometry.js";
 import { present, type Reader } from "./reader.js";
 
 const verdicts: readonly Verdict[] = ["contact", "starts_in_contact", "undecided"];

@@ -1,4 +1,4 @@
-import type { Avatar } from "./document.js";
+import type { Avatar } from "./avatar.js";
 import type { Reader } from "./reader.js";
 
 /** Feet are those of the first avatar. */

@@ -1,5 +1,5 @@
+import type { Avatar } from "./avatar.js";
 import { rounding } from "./decode_touch.js";
-import type { Avatar } from "./document.js";
 import { present, type Reader } from "./reader.js";
 
 export function decodePerson(item: Reader, avatars: readonly Avatar[]) {

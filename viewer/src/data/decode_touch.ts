@@ -1,4 +1,4 @@
-import type { Avatar } from "./document.js";
+import type { Avatar } from "./avatar.js";
 import { present, type Reader } from "./reader.js";
 
 /** What rounding may put the end of a touch before its begin, seconds. */

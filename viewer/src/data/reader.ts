@@ -1,8 +1,8 @@
 // A value of a JSON document together with its place, so that whatever is wrong can be named.
 // Nothing of the document is trusted: a reader gives a value of the type asked for, or throws.
 
-import type { Vector } from "./document.js";
 import { bytesOfBase64 } from "./base64.js";
+import type { Vector } from "./geometry.js";
 
 /** What is wrong with a document, as one sentence for the person who opened it. */
 export class Malformed extends Error {
