@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "middleware/contact_fields.h"
+#include "middleware/contact.h"
 #include "middleware/exact/feature.h"
 
 namespace foretouch::tools {

@@ -1,4 +1,6 @@
 // bindings/python/contact.cpp: foretouch.Contact and Verdict.
+#include "middleware/contact.h"
+
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -9,7 +11,6 @@
 #include "bindings/python/arguments.h"
 #include "bindings/python/bindings.h"
 #include "bindings/python/int_enum.h"
-#include "middleware/contact_fields.h"
 #include "middleware/events/told_depth.h"
 #include "middleware/exact/feature.h"
 

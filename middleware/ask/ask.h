@@ -15,7 +15,7 @@
 
 #include "articulated/result.h"
 #include "lss/lss.h"
-#include "middleware/scene/scene.h"
+#include "middleware/scene/raw_scene.h"
 #include "middleware/scratch.h"
 #include "middleware/world/world.h"
 #include "middleware/world/world_contacts.h"

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "middleware/scene/scene.h"
+#include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lss/lss.h"
-#include "middleware/scene/scene.h"
+#include "middleware/scene/raw_scene.h"
 #include "tessellation/aabb.h"
 
 namespace foretouch::internal {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "middleware/scene/scene.h"
+#include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
 

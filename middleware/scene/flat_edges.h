@@ -11,7 +11,7 @@
 #include "lss/index.h"
 #include "lss/lss.h"
 #include "middleware/scene/frozen_array.h"
-#include "middleware/scene/scene.h"
+#include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
 

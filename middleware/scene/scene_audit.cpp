@@ -12,7 +12,7 @@
 #include "lss/extended_precision.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
-#include "middleware/scene/scene.h"
+#include "middleware/scene/raw_scene.h"
 #include "middleware/scene/sort_by_hash.h"
 
 namespace foretouch {

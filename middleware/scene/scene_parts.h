@@ -10,7 +10,7 @@
 #include "middleware/scene/flat_bvh.h"
 #include "middleware/scene/flat_edges.h"
 #include "middleware/scene/frozen_array.h"
-#include "middleware/scene/scene.h"
+#include "middleware/scene/raw_scene.h"
 #include "tessellation/open_edges.h"
 
 namespace foretouch::internal {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "middleware/scene/scene.h"
+#include "middleware/scene/raw_scene.h"
 
 namespace foretouch::internal {
 

@@ -1,8 +1,6 @@
-// Whoever tells of a contact by names of his own has the fields of middleware/contact_fields.h, all
+// Whoever tells of a contact by names of his own has the fields of middleware/contact.h, all
 // of them and no others, in types that fit: the C struct, the message on the wire, the stub of the
 // Python class, the page's decoder and the tables for readers.
-#include "middleware/contact_fields.h"
-
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -18,6 +16,7 @@
 
 #include <gtest/gtest.h>
 
+#include "middleware/contact.h"
 #include "network/wire/world_message_fields.h"
 #include "tests/house/source_files.h"
 

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/contact_fields.h"
 #include "tests/support/random_geometry.h"
 
 namespace foretouch {

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "middleware/scene/scene.h"
+#include "middleware/scene/raw_scene.h"
 
 namespace foretouch::test {
 
