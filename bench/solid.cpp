@@ -32,7 +32,7 @@ namespace foretouch::tools {
 namespace {
 
 /// Clips in scenes, and the trials of bench/solid/trial_tables.h.
-constexpr const char* kSolidParts[] = {"scenes", "board", "clutter", "slide", "press"};
+constexpr const char* kSolidParts[] = {"scenes", "board", "clutter", "slide", "press", "fingers"};
 
 struct SolidBenchRequest {
   std::string dataFolder;  ///< With mocap/ and scenes/; empty: the bundled room and dancer alone.
@@ -186,7 +186,8 @@ Result<JudgedReport> measureSolid(const SolidBenchRequest& request) {
   const std::pair<const char*, Trial> trials[] = {{"board", boardTable},
                                                   {"clutter", clutterTable},
                                                   {"slide", slideTable},
-                                                  {"press", pressTable}};
+                                                  {"press", pressTable},
+                                                  {"fingers", fingersTable}};
   for (const auto& [part, trial] : trials) {
     if (!isAsked(request.parts, part)) continue;
     FORETOUCH_TRY(auto result, trial(request.trials));
@@ -227,7 +228,7 @@ Command solidBenchCommand() {
            "Of mocap/, or paths; six if not given");
   addWords(settings, "--parts", "NAME,...", request.parts,
            {std::begin(kSolidParts), std::end(kSolidParts)},
-           "scenes (clips in furniture), board, clutter, slide, press; all if not given");
+           "scenes (clips in furniture), board, clutter, slide, press, fingers; all if not given");
   addNumbers(settings, "--rates", "HZ,...", request.ratesHz, kAboveZero,
              "Tracked poses per second");
   settings.whole("--places", "N", request.places, 1, kMostPlaces, "Busy places per clip and scene");

@@ -7,6 +7,7 @@
 #include "bench/solid/cells.h"
 #include "bench/solid/clutter_trial.h"
 #include "bench/solid/engine_hands.h"
+#include "bench/solid/finger_trials.h"
 #include "bench/solid/followers.h"
 #include "bench/solid/solid_hand.h"
 #include "bench/solid/touch_trials.h"
@@ -181,6 +182,35 @@ Result<JudgedTable> pressTable(const TrialRequest& request) {
         100.0 * tally.mostJump / std::max(tally.mostPush, 1e-300), tally.mostSlantDeg,
         cell(tally.untrue), kMm * tally.otherLinks, kMm * tally.head, cell(tally.way.inside)}}};
   result.violations = tally.way.violations();
+  return result;
+}
+
+Result<JudgedTable> fingersTable(const TrialRequest& request) {
+  FORETOUCH_TRY(const auto tallies, tryFingers(request.options));
+  JudgedTable result;
+  result.table = {"fingers",
+                  "Two hands of 26 joints each, as OpenXR has them, at 90 Hz",
+                  {{"task", "task"},
+                   {"triangles", "triangles", 0},
+                   {"ticks", "ticks", 0},
+                   {"equal_percent", "equal %", 1},
+                   {"off_p90_mm", "shown off by, p90 mm", 1},
+                   {"queries", "queries per tick", 2},
+                   {"mean_us", "held ticks: mean us", 0},
+                   {"p50_us", "p50", 0},
+                   {"p99_us", "p99", 0},
+                   {"max_us", "max", 0},
+                   {"penetrations", "penetrations", 0}},
+                  {}};
+  for (const FingerTally& tally : tallies) {
+    const Percentiles us = percentilesOf(tally.contactUs);
+    result.table.rows.push_back(
+        {tally.task, cell(tally.triangles), cell(tally.ticks), percent(tally.equal, tally.ticks),
+         kMm * valueAt(tally.offM, 0.9),
+         static_cast<double>(tally.queries) / static_cast<double>(tally.ticks), us.mean, us.p50,
+         us.p99, us.max, cell(tally.way.inside)});
+    result.violations += tally.way.violations();
+  }
   return result;
 }
 

@@ -22,6 +22,7 @@ struct TrialRequest {
 [[nodiscard]] Result<JudgedTable> clutterTable(const TrialRequest& request);
 [[nodiscard]] Result<JudgedTable> slideTable(const TrialRequest& request);
 [[nodiscard]] Result<JudgedTable> pressTable(const TrialRequest& request);
+[[nodiscard]] Result<JudgedTable> fingersTable(const TrialRequest& request);
 
 /// In one scene at one rate; tables of several of them have the same columns.
 struct SceneRow {
