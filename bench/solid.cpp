@@ -32,7 +32,8 @@ namespace foretouch::tools {
 namespace {
 
 /// Clips in scenes, and the trials of bench/solid/trial_tables.h.
-constexpr const char* kSolidParts[] = {"scenes", "board", "clutter", "slide", "press", "fingers"};
+constexpr const char* kSolidParts[] = {"scenes", "board", "boards", "clutter",
+                                       "slide",  "press", "fingers"};
 
 struct SolidBenchRequest {
   std::string dataFolder;  ///< With mocap/ and scenes/; empty: the bundled room and dancer alone.
@@ -183,11 +184,9 @@ Result<JudgedReport> measureSolid(const SolidBenchRequest& request) {
   report.workload = {{"skin", fmt::format("{:g} m", request.trials.options.skin)},
                      {"tolerance", fmt::format("{:g} m", request.trials.options.tolerance)}};
   if (isAsked(request.parts, "scenes")) FORETOUCH_CHECK(measureScenes(request, bench));
-  const std::pair<const char*, Trial> trials[] = {{"board", boardTable},
-                                                  {"clutter", clutterTable},
-                                                  {"slide", slideTable},
-                                                  {"press", pressTable},
-                                                  {"fingers", fingersTable}};
+  const std::pair<const char*, Trial> trials[] = {
+      {"board", boardTable}, {"boards", boardsTable}, {"clutter", clutterTable},
+      {"slide", slideTable}, {"press", pressTable},   {"fingers", fingersTable}};
   for (const auto& [part, trial] : trials) {
     if (!isAsked(request.parts, part)) continue;
     FORETOUCH_TRY(auto result, trial(request.trials));
@@ -228,7 +227,8 @@ Command solidBenchCommand() {
            "Of mocap/, or paths; six if not given");
   addWords(settings, "--parts", "NAME,...", request.parts,
            {std::begin(kSolidParts), std::end(kSolidParts)},
-           "scenes (clips in furniture), board, clutter, slide, press, fingers; all if not given");
+           "scenes (clips in furniture), board, boards, clutter, slide, press, fingers; all if not "
+           "given");
   addNumbers(settings, "--rates", "HZ,...", request.ratesHz, kAboveZero,
              "Tracked poses per second");
   settings.whole("--places", "N", request.places, 1, kMostPlaces, "Busy places per clip and scene");

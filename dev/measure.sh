@@ -14,7 +14,7 @@ measure() {  # measure NAME ARGS...: one benchmark, its figures kept under NAME
 bench_all() {
   local latency=(latency --steps 500) scaling=(scaling --steps 500 --repeat 5) stream=(stream) peers=(peers)
   local deadline=(deadline --lift 0.0012 --choice mix --asks 250000 --steps 500)
-  local solid=(solid --parts scenes --rates 90,30 --explain) trials=(solid --parts clutter,slide,press,fingers)
+  local solid=(solid --parts scenes --rates 90,30 --explain) trials=(solid --parts boards,clutter,slide,press,fingers)
   local board=(solid --parts board --board-trials 1000000)
   local world=(world)
   if [ "${1:-}" = --quick ]; then

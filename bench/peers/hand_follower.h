@@ -23,6 +23,8 @@ class HandFollower {
   virtual void begin(const RigidPose& at) = 0;
   /// Where it is `dtS` later, while the tracked hand moves to `tracked`.
   virtual RigidPose follow(const RigidPose& tracked, double dtS) = 0;
+  /// After each follow(): judges it, if somebody does. Not part of what it costs.
+  virtual void look() {}
 
  private:
   std::string name_;

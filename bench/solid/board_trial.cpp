@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/machine.h"
 #include "bench/solid/figure.h"
 #include "tools/portable_random.h"
 
 namespace foretouch::tools {
 namespace {
 
-constexpr double kThickness = 4e-3, kMostSlant = 0.5235987755982988;
+constexpr double kMostSlant = 0.5235987755982988;
 /// Just before the board, whichever way the hand is turned (m): the air in front proves nothing.
 constexpr double kStart = 0.1;
-constexpr int kTicksAfter = 12;
+constexpr int kTicksAfter = 12, kTicksAtRest = 6;
 
 struct BoardTrack {
   RigidPose start;
@@ -37,11 +38,17 @@ BoardTrack drawTrack(const BoardCell& cell, PortableRandom& random) {
   return track;
 }
 
+double lowestOf(const RigidPose& hand) {
+  const Lss lss = handLss();
+  return hand.pivot.z() - lss.radius +
+         std::min((hand.rotation * lss.a).z(), (hand.rotation * lss.b).z());
+}
+
 }  // namespace
 
-RawScene board() {
+RawScene board(double thickness) {
   RawScene raw;
-  addBox(raw, {-4, -4, -kThickness}, {4, 4, 0});
+  addBox(raw, {-4, -4, -thickness}, {4, 4, 0});
   return raw;
 }
 
@@ -53,6 +60,15 @@ std::vector<BoardCell> boardCells() {
   return cells;
 }
 
+void BoardTally::add(const BoardTally& other) {
+  trials += other.trials;
+  ticks += other.ticks;
+  through += other.through;
+  sunk.insert(sunk.end(), other.sunk.begin(), other.sunk.end());
+  trembles.insert(trembles.end(), other.trembles.begin(), other.trembles.end());
+  us += other.us;
+}
+
 BoardTally tryBoard(HandFollower& hand, const BoardCell& cell, std::uint64_t trials,
                     std::uint64_t seed) {
   PortableRandom random(seed);
@@ -61,13 +77,24 @@ BoardTally tryBoard(HandFollower& hand, const BoardCell& cell, std::uint64_t tri
     const BoardTrack track = drawTrack(cell, random);
     hand.begin(track.start);
     const int last = static_cast<int>(std::ceil(track.seconds * kTrialRateHz)) + kTicksAfter;
-    double at = 0.0;
+    RigidPose shown = track.start;
+    double trembles = 0.0;
     for (int i = 1; i <= last; ++i, ++tally.ticks) {
       RigidPose tracked = track.start;
       tracked.pivot += std::min(i / kTrialRateHz, track.seconds) * track.velocity;
-      at = hand.follow(tracked, 1.0 / kTrialRateHz).pivot.z();
+      const Eigen::Vector3d before = shown.pivot;
+      const double startUs = threadTimeUs();
+      shown = hand.follow(tracked, 1.0 / kTrialRateHz);
+      tally.us += threadTimeUs() - startUs;
+      hand.look();
+      if (i > last - kTicksAtRest) trembles = std::max(trembles, (shown.pivot - before).norm());
     }
-    tally.through += at < -kThickness ? 1 : 0;
+    if (shown.pivot.z() < -cell.thickness) {
+      ++tally.through;
+      continue;
+    }
+    tally.sunk.push_back(std::max(0.0, -lowestOf(shown)));
+    tally.trembles.push_back(trembles);
   }
   return tally;
 }

@@ -1,4 +1,5 @@
-// bench/solid/board_trial.h: hands that are led through a board of 4 mm: who comes out behind it?
+// bench/solid/board_trial.h: hands that are led through a board: who comes out behind it, and how
+// do the others rest in front of it? Metres.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +10,16 @@
 
 namespace foretouch::tools {
 
+inline constexpr double kThinBoard = 4e-3;
+
 /// Of 8 m by 8 m, its front at z = 0, so that nobody slides around it.
-[[nodiscard]] RawScene board();
+[[nodiscard]] RawScene board(double thickness = kThinBoard);
 
 /// How hands are led: from 0.3 m in front, straight, up to 30 degrees aslant and turned anyhow, at
 /// one speed, until the tracked hand is `beyond` the board; there it stays for 20 ticks.
 struct BoardCell {
   double speedMps = 1.0, beyondM = 0.1;
+  double thickness = kThinBoard;
 };
 /// 1 to 100 m/s, 0.1 to 2 m.
 [[nodiscard]] std::vector<BoardCell> boardCells();
@@ -23,6 +27,12 @@ struct BoardCell {
 struct BoardTally {
   std::uint64_t trials = 0, ticks = 0;
   std::uint64_t through = 0;  ///< The hand's middle is behind the board's back in the end.
+  // Of the others, in the end, while the tracked hand rests.
+  std::vector<double> sunk;      ///< How deep it is in the board.
+  std::vector<double> trembles;  ///< The most that its middle moves in one of the last ticks.
+  double us = 0.0;               ///< Of all ticks.
+
+  void add(const BoardTally& other);
 };
 
 /// The same trials for the same seed, whoever the hand is.

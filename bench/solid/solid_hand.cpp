@@ -28,13 +28,14 @@ void SolidHand::begin(const RigidPose& at) {
   solid_.reset();
   audit_.begin("hand");
   follow(at, 1.0);
+  look();
 }
 
 RigidPose SolidHand::follow(const RigidPose& tracked, double dtS) {
   target_.rotations.front() = tracked.rotation;
   target_.translations.front() = tracked.pivot;
   // Cannot fail: the pose is finite, and of the avatar.
-  if (solid_.follow({target_, dtS, nullptr}, tick_).ok()) audit_.look(tick_);
+  (void)solid_.follow({target_, dtS, nullptr}, tick_).ok();
   return {tick_.shown.rotations.front(), tick_.shown.translations.front()};
 }
 

@@ -12,7 +12,7 @@
 
 namespace foretouch::tools {
 
-/// Follows with the avatar handAlone(); the judge looks at every tick.
+/// Follows with the avatar handAlone(); the judge looks.
 class SolidHand final : public HandFollower {
  public:
   /// Errors: as SolidAvatar::build().
@@ -21,6 +21,7 @@ class SolidHand final : public HandFollower {
 
   void begin(const RigidPose& at) override;
   RigidPose follow(const RigidPose& tracked, double dtS) override;
+  void look() override { audit_.look(tick_); }
 
   [[nodiscard]] const WayTally& way() const { return audit_.tally(); }
   [[nodiscard]] const SolidTick& tick() const { return tick_; }

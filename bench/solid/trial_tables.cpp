@@ -21,6 +21,13 @@ constexpr int kFineWall = 98;
 constexpr std::uint64_t kTrialsPerAround = 20;
 constexpr std::uint64_t kOtherSeeds = 1'000;
 
+constexpr const char *kSolid = "Foretouch, solid", *kPlain = "Foretouch, solid, no way around";
+
+SolidOptions withoutWays(SolidOptions options) {
+  options.aroundPerTick = 0;
+  return options;
+}
+
 double valueAt(std::vector<double> values, double rank) {
   std::sort(values.begin(), values.end());
   return valueAtRank(values, rank);
@@ -50,6 +57,22 @@ class BoardRows {
   BenchTable& table_;
 };
 
+std::vector<BenchCell> boardsRow(HandFollower& hand, double thickness,
+                                 const TrialRequest& request) {
+  std::vector<BenchCell> row{kMm * thickness, hand.name(), cell(request.engineTrials)};
+  BoardTally whole;
+  for (const double speedMps : {1.0, 5.0, 10.0, 20.0}) {
+    const auto one = tryBoard(hand, {speedMps, 0.3, thickness}, request.engineTrials,
+                              request.seed + static_cast<std::uint64_t>(speedMps));
+    row.emplace_back(percent(one.through, one.trials));
+    whole.add(one);
+  }
+  row.emplace_back(kMm * valueAt(whole.sunk, 0.9));
+  row.emplace_back(kMm * valueAt(whole.trembles, 0.9));
+  row.emplace_back(whole.us / static_cast<double>(whole.ticks));
+  return row;
+}
+
 double largestDifference(const std::vector<Pose>& one, const std::vector<Pose>& other) {
   double most = 0.0;
   for (std::size_t i = 0; i < std::min(one.size(), other.size()); ++i) {
@@ -77,12 +100,9 @@ Result<JudgedTable> boardTable(const TrialRequest& request) {
   // A hand behind whose board the target rests looks for a way around, in vain: that takes ten
   // times as long as to follow it there, and most hands are spared it.
   const std::uint64_t around = (perCell + kTrialsPerAround - 1) / kTrialsPerAround;
-  SolidOptions straight = request.options;
-  straight.aroundPerTick = 0;
-  FORETOUCH_TRY(const auto solid, SolidHand::build("Foretouch, solid", raw, request.options));
+  FORETOUCH_TRY(const auto solid, SolidHand::build(kSolid, raw, request.options));
   BoardRows(around, request.seed, result.table).add(*solid);
-  FORETOUCH_TRY(const auto plain,
-                SolidHand::build("Foretouch, solid, no way around", raw, straight));
+  FORETOUCH_TRY(const auto plain, SolidHand::build(kPlain, raw, withoutWays(request.options)));
   BoardRows(std::max<std::uint64_t>(1, perCell - around), request.seed + kOtherSeeds, result.table)
       .add(*plain);
   result.violations = solid->way().violations() + plain->way().violations();
@@ -93,6 +113,37 @@ Result<JudgedTable> boardTable(const TrialRequest& request) {
   std::stable_sort(
       result.table.rows.begin(), result.table.rows.end(),
       [](const auto& a, const auto& b) { return std::get<double>(a[0]) < std::get<double>(b[0]); });
+  return result;
+}
+
+Result<JudgedTable> boardsTable(const TrialRequest& request) {
+  JudgedTable result;
+  result.table = {"boards",
+                  "Hands led through boards, 0.3 m beyond them, at 90 Hz",
+                  {{"board_mm", "board, mm", 0},
+                   {"hand", "hand"},
+                   {"trials", "trials per speed", 0},
+                   {"through_1_mps", "through, % at 1 m/s", 1},
+                   {"through_5_mps", "5 m/s", 1},
+                   {"through_10_mps", "10 m/s", 1},
+                   {"through_20_mps", "20 m/s", 1},
+                   {"sunk_p90_mm", "others rest in it by, p90 mm", 2},
+                   {"trembles_p90_mm", "move per tick at rest, p90 mm", 3},
+                   {"mean_us", "tick mean us", 1}},
+                  {}};
+  for (const double thickness : {1e-3, 4e-3, 1e-2, 4e-2}) {
+    const RawScene raw = board(thickness);
+    FORETOUCH_TRY(const auto solid, SolidHand::build(kSolid, raw, request.options));
+    FORETOUCH_TRY(const auto plain, SolidHand::build(kPlain, raw, withoutWays(request.options)));
+    const EngineHands engine(raw.triangles);
+    const HandFollowers hands = engine.of(handLss());
+    std::vector<HandFollower*> all{solid.get(), plain.get()};
+    for (const auto& hand : hands) all.push_back(hand.get());
+    for (HandFollower* const hand : all) {
+      result.table.rows.push_back(boardsRow(*hand, thickness, request));
+    }
+    result.violations += solid->way().violations() + plain->way().violations();
+  }
   return result;
 }
 
@@ -112,10 +163,8 @@ Result<JudgedTable> clutterTable(const TrialRequest& request) {
                   {}};
   RawScene raw = clutter();
   FORETOUCH_TRY(const auto scene, Scene::build(std::move(raw)));
-  SolidOptions straight = request.options;
-  straight.aroundPerTick = 0;
   FORETOUCH_TRY(auto hold, holdingFollower(figure(), scene, kHoldSkin));
-  FORETOUCH_TRY(auto sliding, solidFollower(figure(), scene, straight));
+  FORETOUCH_TRY(auto sliding, solidFollower(figure(), scene, withoutWays(request.options)));
   FORETOUCH_TRY(auto solid, solidFollower(figure(), scene, request.options));
   struct Case {
     const char* name;

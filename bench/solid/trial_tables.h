@@ -19,6 +19,7 @@ struct TrialRequest {
 };
 
 [[nodiscard]] Result<JudgedTable> boardTable(const TrialRequest& request);
+[[nodiscard]] Result<JudgedTable> boardsTable(const TrialRequest& request);
 [[nodiscard]] Result<JudgedTable> clutterTable(const TrialRequest& request);
 [[nodiscard]] Result<JudgedTable> slideTable(const TrialRequest& request);
 [[nodiscard]] Result<JudgedTable> pressTable(const TrialRequest& request);
