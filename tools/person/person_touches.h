@@ -21,11 +21,12 @@ namespace foretouch::tools {
 struct PersonCounts {
   std::int64_t intervals = 0;  ///< Links that have LSS, times steps.
   std::int64_t excluded = 0, possible = 0, certain = 0, unclaimed = 0;
+  std::int64_t inGaps = 0;  ///< Of all: the clip has gaps there, and only speeds count.
   std::int64_t broken = 0;  ///< Frames, link by link, at which the clip breaks the bound.
   LinkId worstLink = 0;     ///< Of them, the one by most: when, and by how much (m).
   double worstS = 0.0, worstM = 0.0;
 
-  void add(BracketVerdict verdict);
+  void add(BracketVerdict verdict, std::int64_t steps = 1);
   void addExcluded(std::int64_t more);
 };
 

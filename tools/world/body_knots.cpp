@@ -16,6 +16,7 @@
 #include "tools/inputs/clip_cut.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/joint_map.h"
+#include "tools/inputs/lost_frames.h"
 #include "tools/inputs/own_pairs.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/inputs/step_selection.h"
@@ -187,7 +188,11 @@ Result<BodyKnots> KnotLoader::ofAvatar(const FileBody& body, const Avatar& avata
   FORETOUCH_CHECK(countPoses(body, countOf(avatar.numLinks()), frames.size(), world));
   const PlacedClip placed{avatar, clip, match.value(), body.clip.placement, motion->isUpright,
                           path};
+  const LostFrames lost(avatar, clip, match.value());
   for (const TimedFrame& timed : frames) {
+    if (lost.isAllLost(timed.frame)) continue;
+    const std::vector<LinkId> links = lost.linksAt(timed.frame);
+    if (!links.empty()) found.lostLinks[timed.utimeUs] = links;
     FORETOUCH_TRY(auto pose, poseAtFrame(placed, timed.frame));
     found.knots.push_back({timed.utimeUs, std::move(pose), -1});
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,8 +23,9 @@ struct LoadedBody {
   BodyStretches stretches;        ///< At least one.
   std::optional<PairRules> self;  ///< Where own links are asked.
   BodyGroup group = 0;
-  std::size_t numPoses = 0;                      ///< That its files tell; 0: it stands.
-  std::int64_t firstPoseUs = 0, lastPoseUs = 0;  ///< Of these.
+  std::size_t numPoses = 0;                               ///< That its files tell; 0: it stands.
+  std::int64_t firstPoseUs = 0, lastPoseUs = 0;           ///< Of these.
+  std::map<std::int64_t, std::vector<LinkId>> lostLinks = {};  ///< As BodyKnots has them.
 
   [[nodiscard]] bool isMesh() const { return shape.mesh.has_value(); }
 };

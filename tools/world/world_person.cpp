@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,9 +34,10 @@ struct Claimed {
   BodyId id = 0;
   bool isPerson = false;
   MotionModel model = MotionModel::ConstantRate;
-  std::vector<LinkBound> bounds, none;  ///< `none`: of steps that the bounds are not about.
-  double stepS = 0.0;                   ///< That the bounds are about; 0: any.
+  std::vector<LinkBound> bounds;
+  double stepS = 0.0;  ///< That the bounds are about; 0: any.
   std::vector<Knot> knots;
+  const std::map<std::int64_t, std::vector<LinkId>>* lost = nullptr;  ///< By knots.
 };
 
 double secondsBetween(const Knot& from, const Knot& to) {
@@ -88,32 +90,52 @@ class Steps {
   [[nodiscard]] std::size_t count() const { return claimed_.knots.size() - 1; }
   [[nodiscard]] const Knot& from(std::size_t i) const { return claimed_.knots[i]; }
   [[nodiscard]] const Knot& to(std::size_t i) const { return claimed_.knots[i + 1]; }
-  [[nodiscard]] PersonStep at(std::size_t i) const {
-    PersonStep step;
-    step.model = claimed_.model;
-    step.bounds = isUsual(i) ? &claimed_.bounds : &claimed_.none;
+  /// Valid until the next one is asked for. One that the bounds are not about has none.
+  PersonStep at(std::size_t i) {
+    PersonStep step = across(i);
+    if (!isUsual(i)) bounds_.assign(bounds_.size(), LinkBound{});
     PosedStep& posed = step.step;
-    posed.from = from(i).pose;
-    posed.to = to(i).pose;
-    posed.seconds = secondsBetween(from(i), to(i));
     if (i > 0 && isUsual(i - 1)) {
       posed.before = from(i - 1).pose;
       posed.secondsBefore = secondsBetween(from(i - 1), from(i));
+      leaveOutLost(from(i - 1));
     }
     if (i + 1 < count() && isUsual(i + 1) && claimed_.model == MotionModel::CubicLate) {
       posed.after = to(i + 1).pose;
       posed.secondsAfter = secondsBetween(to(i), to(i + 1));
+      leaveOutLost(to(i + 1));
     }
     return step;
   }
-
- private:
+  /// The same, of any length: of the bounds only speeds and errors hold.
+  PersonStep across(std::size_t i) {
+    bounds_ = claimed_.bounds;
+    leaveOutLost(from(i));
+    leaveOutLost(to(i));
+    PersonStep step;
+    step.model = claimed_.model;
+    step.bounds = &bounds_;
+    step.step.from = from(i).pose;
+    step.step.to = to(i).pose;
+    step.step.seconds = secondsBetween(from(i), to(i));
+    return step;
+  }
   [[nodiscard]] bool isUsual(std::size_t i) const {
     const double seconds = secondsBetween(from(i), to(i));
     return claimed_.stepS == 0.0 ||
            std::abs(seconds - claimed_.stepS) <= kRateShare * claimed_.stepS;
   }
 
+ private:
+  /// Of links whose pose is made up nothing is claimed.
+  void leaveOutLost(const Knot& knot) {
+    if (claimed_.lost == nullptr) return;
+    const auto found = claimed_.lost->find(knot.utimeUs);
+    if (found == claimed_.lost->end()) return;
+    for (const LinkId link : found->second) bounds_[slotOf(link)] = LinkBound{};
+  }
+
+  std::vector<LinkBound> bounds_;
   const Claimed& claimed_;
 };
 
@@ -185,10 +207,10 @@ class Persons {
     LinkBound exact;
     exact.acceleration = 0.0;
     claimed.bounds.assign(numLinks, exact);
-    claimed.none.resize(numLinks);
     if (!claimed.isPerson || claimed.knots.size() < 2) return claimed;
     claimed.model = file.between;
     claimed.stepS = usualStepS(claimed.knots);
+    claimed.lost = &body.lostLinks;
     FORETOUCH_TRY(const auto bounds, readBounds(file.boundsPath));
     FORETOUCH_TRY(auto known, inFile(boundsOf(bounds, body.shape.avatar->skeleton(), file.between,
                                               1.0 / claimed.stepS),
@@ -223,11 +245,13 @@ class Persons {
         const auto query,
         BracketQuery::build(avatarOf(claimed), asksScene ? world_.scene : std::nullopt, options));
     BracketJoiner joiner;
-    const Steps steps(claimed);
+    Steps steps(claimed);
     for (std::size_t i = 0; i < steps.count(); ++i) {
       if (!isWithin(steps.from(i), steps.to(i))) continue;
-      const PersonStep step = steps.at(i);
-      FORETOUCH_CHECK(query.answer(step.step, step.model, *step.bounds, scratch_, brackets_));
+      const PersonStep step = steps.isUsual(i) ? steps.at(i) : steps.across(i);
+      FORETOUCH_CHECK(steps.isUsual(i)
+                          ? query.answer(step.step, step.model, *step.bounds, scratch_, brackets_)
+                          : query.answerGap(step.step, *step.bounds, scratch_, brackets_));
       if (asksScene) count(brackets_.links);
       joiner.add(LoadedWorld::secondsOf(steps.from(i).utimeUs),
                  LoadedWorld::secondsOf(steps.to(i).utimeUs), brackets_);
@@ -237,8 +261,7 @@ class Persons {
   }
 
   /// The part of a step from one instant to another.
-  static PersonStep partOf(const Steps& steps, std::size_t i, std::int64_t fromUs,
-                           std::int64_t toUs) {
+  static PersonStep partOf(Steps& steps, std::size_t i, std::int64_t fromUs, std::int64_t toUs) {
     PersonStep step = steps.at(i);
     const auto at = [&](std::int64_t us) {
       return static_cast<double>(us - steps.from(i).utimeUs) /
@@ -259,7 +282,7 @@ class Persons {
     FORETOUCH_TRY(const auto query,
                   PairBracketQuery::build(avatarOf(one), avatarOf(other), options));
     BracketJoiner joiner;
-    const Steps ofOne(one), ofOther(other);
+    Steps ofOne(one), ofOther(other);
     const auto links = avatarOf(one).numLinks() * avatarOf(other).numLinks();
     for (std::size_t i = 0, j = 0; i < ofOne.count() && j < ofOther.count();) {
       const std::int64_t fromUs =
