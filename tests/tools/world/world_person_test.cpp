@@ -131,7 +131,8 @@ TEST(WorldPersons, AcrossALongStepOnlyTheSpeedCounts) {
   const SmallStage stage;
   stage.folder.write("fast.bounds.json",
                      R"({"format": "foretouch-bounds", "version": 1, "bounds": [
-  {"part": "all", "rate_hz": 10, "acceleration_m_s2": 8, "gap_speed_m_s": 1.5}]})");
+  {"part": "all", "model": "constant-rate", "rate_hz": 10, "acceleration_m_s2": 8,
+   "gap_speed_m_s": 1.5}]})");
   // The wall at x = 0 is 0.15 m before the ball at 0.2 s and 0.05 m behind it at 0.5 s.
   std::string poses;
   for (const auto& [t, x] :
