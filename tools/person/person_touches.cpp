@@ -1,6 +1,7 @@
 #include "tools/person/person_touches.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -10,16 +11,13 @@
 #include "assets/bounds/bound_presets.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
-#include "middleware/bracket/axis_places.h"
 #include "tools/inputs/lost_frames.h"
 #include "tools/json_line.h"
+#include "tools/person/bound_check.h"
 #include "tools/person/pose_gaps.h"
 
 namespace foretouch::tools {
 namespace {
-
-/// A clip breaks a bound beyond this (m): poses and places are rounded in files.
-constexpr double kBreaks = 1e-6;
 
 /// The four poses around a step, of which each is read once.
 class PosesAround {
@@ -69,7 +67,7 @@ class PersonTracker {
         query_(query),
         lost_(inputs.avatar, inputs.clip, inputs.match),
         gaps_(bounds.size(), lost_, inputs.steps),
-        placer_(inputs.avatar) {}
+        check_(inputs.avatar, bounds) {}
 
   Result<PersonAnswer> run() {
     PosesAround poses(inputs_, lost_, model_);
@@ -139,14 +137,7 @@ class PersonTracker {
     posed.seconds = inputs_.timeOfStep(gap.to) - inputs_.timeOfStep(gap.from);
     const std::vector<LinkBound> bounds = gaps_.across(gap, bounds_);
     FORETOUCH_CHECK(query_.answerGap(posed, bounds, scratch_, brackets_));
-    placer_.place(from, modelled_);
-    placer_.place(to, truth_);
-    placer_.differences(truth_, modelled_, apart_);
-    for (const LinkId link : gap.links) {
-      const LinkBound& bound = bounds[slotOf(link)];
-      const double most = 2.0 * bound.error + posed.seconds * bound.speed;
-      addBroken(link, inputs_.steps.frameOf(gap.to), apart_[slotOf(link)] - most);
-    }
+    check_.across(posed, gap.links, bounds, inputs_.timeOfStep(gap.to), answer_.counts);
     return Done{};
   }
 
@@ -155,36 +146,15 @@ class PersonTracker {
     const std::int64_t first = inputs_.steps.frameOf(step);
     const std::int64_t last = inputs_.steps.frameOf(step + 1);
     if (last - first < 2) return Done{};
-    motion_.assign(inputs_.avatar.skeleton(), posed, model_);
-    const ChainMotion constant(inputs_.avatar.skeleton(), *posed.from, *posed.to);
-    Pose pose;
+    check_.begin(posed, model_);
     for (std::int64_t frame = first + 1; frame < last; ++frame) {
       const double u = static_cast<double>(frame - first) / static_cast<double>(last - first);
-      motion_.isConstantRate() ? constant.poseAt(u, pose) : motion_.poseAt(u, pose);
       FORETOUCH_TRY(const Pose truth, poseAtFrame(inputs_, frame));
-      placer_.place(truth, truth_);
-      placer_.place(pose, modelled_);
-      placer_.differences(truth_, modelled_, apart_);
-      for (const LinkBracket& bracket : brackets_.links) checkLink(bracket, frame, u);
+      check_.leftOut(
+          truth, u, static_cast<double>(frame) * inputs_.clip.frameTimeS, brackets_,
+          [&](LinkId link) { return !lost_.isLost(link, frame); }, answer_.counts);
     }
     return Done{};
-  }
-
-  void checkLink(const LinkBracket& bracket, std::int64_t frame, double u) {
-    if (bracket.verdict == BracketVerdict::Unclaimed || lost_.isLost(bracket.link, frame)) return;
-    const double error = bounds_[slotOf(bracket.link)].error;
-    const double rho = error + 4.0 * (bracket.growth - error) * u * (1.0 - u);
-    addBroken(bracket.link, frame, apart_[slotOf(bracket.link)] - rho);
-  }
-
-  void addBroken(LinkId link, std::int64_t frame, double beyond) {
-    if (!(beyond > kBreaks)) return;
-    PersonCounts& counts = answer_.counts;
-    ++counts.broken;
-    if (beyond <= counts.worstM) return;
-    counts.worstM = beyond;
-    counts.worstLink = link;
-    counts.worstS = static_cast<double>(frame) * inputs_.clip.frameTimeS;
   }
 
   const ReplayInputs& inputs_;
@@ -193,10 +163,7 @@ class PersonTracker {
   const BracketQuery& query_;
   LostFrames lost_;
   PoseGaps gaps_;
-  AxisPlacer placer_;
-  ModelMotion motion_;
-  AxisPlaces truth_, modelled_;
-  std::vector<double> apart_;
+  BoundCheck check_;
   Scratch scratch_;
   StepBrackets brackets_;
   BracketJoiner joiner_;
@@ -242,21 +209,6 @@ std::string lineOf(const ReplayInputs& inputs, const PersonRequest& request,
 
 }  // namespace
 
-void PersonCounts::add(BracketVerdict verdict, std::int64_t steps) {
-  intervals += steps;
-  switch (verdict) {
-    case BracketVerdict::Unclaimed: unclaimed += steps; break;
-    case BracketVerdict::Excluded: excluded += steps; break;
-    case BracketVerdict::Possible: possible += steps; break;
-    case BracketVerdict::Certain: certain += steps; break;
-  }
-}
-
-void PersonCounts::addExcluded(std::int64_t more) {
-  intervals += more;
-  excluded += more;
-}
-
 Result<LinkBounds> personBounds(const ReplayInputs& inputs, const PersonRequest& request) {
   if (!request.isAsked()) return LinkBounds{};
   FORETOUCH_TRY(const BoundsFile file, readBounds(request.boundsPath));
@@ -272,7 +224,9 @@ Result<PersonAnswer> personTouches(const ReplayInputs& inputs, const PersonReque
                 PersonTracker(inputs, request.model, bounds.bounds, query).run());
   answer.rateHz = rateOf(inputs);
   for (LinkId link = 0; link < inputs.avatar.numLinks(); ++link) {
-    if (!inputs.avatar.lss(link).empty() && bounds.entryOf[slotOf(link)] < 0) {
+    const LinkBound& bound = bounds.bounds[slotOf(link)];
+    const bool isBounded = std::isfinite(bound.acceleration) || std::isfinite(bound.followFloor);
+    if (!inputs.avatar.lss(link).empty() && !isBounded) {
       answer.unclaimed.push_back(link);
     }
   }
@@ -325,13 +279,8 @@ std::vector<std::string> personNotes(const ReplayInputs& inputs, const PersonAns
         "Of the person nothing is claimed where a link has no bound: {} of the links have none.",
         answer.unclaimed.size()));
   }
-  if (counts.broken > 0) {
-    notes.push_back(fmt::format(
-        "The clip breaks its bounds at {} of the poses that were left out, link by link: {} at "
-        "{:.3f} s by {:.1f} mm. What is said of the person there does not hold.",
-        counts.broken, inputs.avatar.skeleton().name(counts.worstLink), counts.worstS,
-        1e3 * counts.worstM));
-  }
+  const std::string broken = counts.brokenNote(inputs.avatar.skeleton().name(counts.worstLink));
+  if (!broken.empty()) notes.push_back(broken);
   return notes;
 }
 

@@ -91,6 +91,25 @@ Result<std::vector<TimedFrame>> timedFramesOf(const FileBody& body, const Motion
                   clip.durationS()));
 }
 
+/// The clip's frames between those that are taken, at their instants.
+Result<std::vector<BodyKnot>> leftOutOf(const PlacedClip& placed,
+                                        const std::vector<TimedFrame>& frames,
+                                        const LostFrames& lost) {
+  std::vector<BodyKnot> leftOut;
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    const TimedFrame &from = frames[i - 1], &to = frames[i];
+    const double perFrame =
+        static_cast<double>(to.utimeUs - from.utimeUs) / static_cast<double>(to.frame - from.frame);
+    for (std::int64_t frame = from.frame + 1; frame < to.frame; ++frame) {
+      if (!lost.linksAt(frame).empty()) continue;
+      FORETOUCH_TRY(auto pose, poseAtFrame(placed, frame));
+      const double since = perFrame * static_cast<double>(frame - from.frame);
+      leftOut.push_back({from.utimeUs + std::llround(since), std::move(pose), -1});
+    }
+  }
+  return leftOut;
+}
+
 /// The joint of the clip that moves a prop.
 Result<JointId> jointOf(const FileBody& body, const Skeleton& clip, const std::string& world) {
   std::vector<std::string> names;
@@ -195,6 +214,10 @@ Result<BodyKnots> KnotLoader::ofAvatar(const FileBody& body, const Avatar& avata
     if (!links.empty()) found.lostLinks[timed.utimeUs] = links;
     FORETOUCH_TRY(auto pose, poseAtFrame(placed, timed.frame));
     found.knots.push_back({timed.utimeUs, std::move(pose), -1});
+  }
+  if (!body.boundsPath.empty()) {
+    FORETOUCH_TRY(found.leftOut, leftOutOf(placed, frames, lost));
+    FORETOUCH_CHECK(countPoses(body, countOf(avatar.numLinks()), found.leftOut.size(), world));
   }
   found.remarks = remarksOnClip(avatar, clip, match.value(), body.shape.avatarPath, path);
   if (body.asksSelf) {

@@ -12,6 +12,7 @@
 #include "middleware/triggers/triggers.h"
 #include "middleware/world/world.h"
 #include "tools/microseconds.h"
+#include "tools/world/body_knots.h"
 #include "tools/world/body_shapes.h"
 #include "tools/world/body_stretches.h"
 #include "tools/world/world_file.h"
@@ -23,9 +24,10 @@ struct LoadedBody {
   BodyStretches stretches;        ///< At least one.
   std::optional<PairRules> self;  ///< Where own links are asked.
   BodyGroup group = 0;
-  std::size_t numPoses = 0;                               ///< That its files tell; 0: it stands.
-  std::int64_t firstPoseUs = 0, lastPoseUs = 0;           ///< Of these.
+  std::size_t numPoses = 0;                      ///< That its files tell; 0: it stands.
+  std::int64_t firstPoseUs = 0, lastPoseUs = 0;  ///< Of these.
   std::map<std::int64_t, std::vector<LinkId>> lostLinks = {};  ///< As BodyKnots has them.
+  std::vector<BodyKnot> leftOut = {};                          ///< The same.
 
   [[nodiscard]] bool isMesh() const { return shape.mesh.has_value(); }
 };

@@ -15,6 +15,7 @@
 #include "lss/index.h"
 #include "middleware/bracket/bracket_query.h"
 #include "tools/json_line.h"
+#include "tools/person/bound_check.h"
 
 namespace foretouch::tools {
 namespace {
@@ -246,18 +247,41 @@ class Persons {
         BracketQuery::build(avatarOf(claimed), asksScene ? world_.scene : std::nullopt, options));
     BracketJoiner joiner;
     Steps steps(claimed);
+    BoundCheck check(avatarOf(claimed), claimed.bounds);
+    const double worstM = persons_.counts.worstM;
     for (std::size_t i = 0; i < steps.count(); ++i) {
       if (!isWithin(steps.from(i), steps.to(i))) continue;
       const PersonStep step = steps.isUsual(i) ? steps.at(i) : steps.across(i);
       FORETOUCH_CHECK(steps.isUsual(i)
                           ? query.answer(step.step, step.model, *step.bounds, scratch_, brackets_)
                           : query.answerGap(step.step, *step.bounds, scratch_, brackets_));
-      if (asksScene) count(brackets_.links);
+      if (asksScene) {
+        count(brackets_.links);
+        if (steps.isUsual(i)) checkLeftOut(step, steps.from(i), steps.to(i), body, check);
+      }
       joiner.add(LoadedWorld::secondsOf(steps.from(i).utimeUs),
                  LoadedWorld::secondsOf(steps.to(i).utimeUs), brackets_);
     }
     addTouches(claimed.id, std::nullopt, joiner);
+    if (persons_.counts.worstM > worstM) persons_.worstBody = claimed.id;
     return Done{};
+  }
+
+  /// The clip's poses between the two knots.
+  void checkLeftOut(const PersonStep& step, const Knot& from, const Knot& to,
+                    const LoadedBody& body, BoundCheck& check) {
+    auto next =
+        std::upper_bound(body.leftOut.begin(), body.leftOut.end(), from.utimeUs,
+                         [](std::int64_t us, const BodyKnot& knot) { return us < knot.utimeUs; });
+    if (next == body.leftOut.end() || next->utimeUs >= to.utimeUs) return;
+    check.begin(step.step, step.model);
+    for (; next != body.leftOut.end() && next->utimeUs < to.utimeUs; ++next) {
+      const double u = static_cast<double>(next->utimeUs - from.utimeUs) /
+                       static_cast<double>(to.utimeUs - from.utimeUs);
+      check.leftOut(
+          next->pose, u, LoadedWorld::secondsOf(next->utimeUs), brackets_,
+          [](LinkId) { return true; }, persons_.counts);
+    }
   }
 
   /// The part of a step from one instant to another.
@@ -347,6 +371,13 @@ std::string personLines(const LoadedWorld& world, const WorldPersons& persons) {
            out.field("possible", persons.counts.possible);
            out.field("certain", persons.counts.certain);
            out.field("unclaimed", persons.counts.unclaimed);
+           out.field("bounds_broken", persons.counts.broken);
+           if (persons.counts.broken > 0) {
+             out.field("worst_body", world.nameOf(persons.worstBody));
+             out.field("worst_link", world.linkNameOf(persons.worstBody, persons.counts.worstLink));
+             out.field("worst_s", persons.counts.worstS);
+             out.field("worst_m", persons.counts.worstM);
+           }
          });
 }
 
@@ -367,7 +398,9 @@ std::string personText(const LoadedWorld& world, const WorldPersons& persons) {
   }
   if (told > kMostTold) text += fmt::format("  and {} more in the results\n", told - kMostTold);
   for (const std::string& note : persons.notes) text += note + "\n";
-  return text;
+  const std::string broken =
+      persons.counts.brokenNote(world.labelOf(persons.worstBody, persons.counts.worstLink));
+  return broken.empty() ? text : text + broken + "\n";
 }
 
 }  // namespace foretouch::tools

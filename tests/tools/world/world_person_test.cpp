@@ -151,6 +151,27 @@ TEST(WorldPersons, AcrossALongStepOnlyTheSpeedCounts) {
   EXPECT_EQ(persons.counts.excluded, 3);
 }
 
+TEST(WorldPersons, AClipThatBreaksItsBoundsIsTold) {
+  const SmallStage stage;
+  // Every other pose is given: the middle one is 30 mm behind, and the bound is 10 mm.
+  stage.folder.write("bent.bvh", clipAlongX({-0.9, -0.83, -0.7, -0.6, -0.5}));
+  stage.folder.write("five.bounds.json",
+                     R"({"format": "foretouch-bounds", "version": 1, "bounds": [
+  {"part": "all", "model": "constant-rate", "rate_hz": 5, "acceleration_m_s2": 2}]})");
+  const auto world = stage.load(
+      "[scene]\nfile = \"wall.obj\"\n[[body]]\nname = \"anna\"\navatar = \"man.json\"\n"
+      "bounds = \"five.bounds.json\"\n[body.clip]\nfile = \"bent.bvh\"\nrate = 5\n");
+  ASSERT_TRUE(world.ok()) << describe(world.error());
+  const auto found = tools::personsOf(world.value(), world.value().beginUs, world.value().endUs);
+  ASSERT_TRUE(found.ok()) << describe(found.error());
+  const auto& counts = found.value()->counts;
+  EXPECT_EQ(counts.broken, 2);  // of hips and arm
+  EXPECT_NEAR(counts.worstM, 0.03 - 0.01, 1e-6);
+  EXPECT_NEAR(counts.worstS, 0.1, 1e-9);
+  const std::string text = tools::personText(world.value(), *found.value());
+  EXPECT_NE(text.find("anna: Hips at 0.100 s by 20.0 mm"), std::string::npos) << text;
+}
+
 TEST(WorldPersons, BadBoundsAreRefusedByName) {
   const SmallStage stage;
   stage.folder.write("ten.bounds.json", kBounds);
