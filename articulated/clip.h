@@ -11,6 +11,12 @@
 
 namespace foretouch {
 
+/// Frames that the file has no pose for: they are made up, of those around them.
+struct ClipGap {
+  std::int64_t first = 0, last = 0;  ///< The first and the last such frame.
+  JointId joint = kNoParent;         ///< Of it alone, and of what it carries; kNoParent: of all.
+};
+
 /// Poses at constant spacing. Lengths are in metres once the reader's scale has been applied.
 struct Clip {
   Skeleton skeleton;         ///< Rest offsets are the file's OFFSETs times the scale.
@@ -25,6 +31,7 @@ struct Clip {
   /// Faults that the reader tolerated, one sentence each, for the user (renamed duplicates, a wrong
   /// frame count, ...). At most kMaxClipNotes; if there were more, the last one says how many.
   std::vector<std::string> notes;
+  std::vector<ClipGap> gaps = {};  ///< In no order; they may overlap.
 
   /// For a table of joint positions: a row of the table every so many frames. The frames between
   /// lie on the straight line in joint coordinates, so that the shorter arc from each frame to the

@@ -111,6 +111,8 @@ class Retargeting {
     }
     clip.endSites.resize(source_.size());
     clip.notes = clip_.notes;
+    // Where the clip lacks one joint, the body may hang on it.
+    for (const ClipGap& gap : clip_.gaps) clip.gaps.push_back({gap.first, gap.last});
     addNotes(clip.notes);
     return clip;
   }

@@ -29,19 +29,24 @@ constexpr std::array<MotionModel, 3> kMotionModels = {MotionModel::ConstantRate,
 /// A rate is another one beyond this share.
 constexpr double kSameRate = 0.1;
 
-/// The numbers of a bound, as files name them.
+/// No person is so far (m) from where a tracker or a model has them, so fast (m/s), or quickened so
+/// much (m/s^2): such a bound was meant in another unit.
+constexpr double kAbsurdM = 10.0, kAbsurdSpeed = 1e3, kAbsurdAcceleration = 1e6;
+
+/// The numbers of a bound, as files name them, and the most that they may be.
 struct BoundField {
   const char* key;
   double LinkBound::*place;
+  double most;
 };
 constexpr std::array<BoundField, 7> kBoundFields = {{
-    {"error_m", &LinkBound::error},
-    {"acceleration_m_s2", &LinkBound::acceleration},
-    {"follow_floor_m", &LinkBound::followFloor},
-    {"follow_share", &LinkBound::followShare},
-    {"gap_speed_m_s", &LinkBound::speed},
-    {"ahead_speed_m_s", &LinkBound::aheadSpeed},
-    {"ahead_acceleration_m_s2", &LinkBound::aheadAcceleration},
+    {"error_m", &LinkBound::error, kAbsurdM},
+    {"acceleration_m_s2", &LinkBound::acceleration, kAbsurdAcceleration},
+    {"follow_floor_m", &LinkBound::followFloor, kAbsurdM},
+    {"follow_share", &LinkBound::followShare, 1e9},
+    {"gap_speed_m_s", &LinkBound::speed, kAbsurdSpeed},
+    {"ahead_speed_m_s", &LinkBound::aheadSpeed, kAbsurdSpeed},
+    {"ahead_acceleration_m_s2", &LinkBound::aheadAcceleration, kAbsurdAcceleration},
 }};
 
 const char* partOf(internal::BodyRole role) {
@@ -181,8 +186,9 @@ class BoundsReader {
     FORETOUCH_CHECK(readNumber(object, "count", kMostCount, count));
     entry.count = static_cast<std::int64_t>(count);
     for (const BoundField& field : kBoundFields) {
-      FORETOUCH_CHECK(readNumber(object, field.key, kMost, entry.bound.*field.place));
+      FORETOUCH_CHECK(readNumber(object, field.key, field.most, entry.bound.*field.place));
     }
+    FORETOUCH_CHECK(checkReach(entry));
     if (!entry.model &&
         (object.contains("acceleration_m_s2") || object.contains("follow_floor_m"))) {
       return fail("expected \"model\": that of which \"acceleration_m_s2\" bounds the difference");
@@ -191,6 +197,16 @@ class BoundsReader {
       return fail("expected \"follow_floor_m\" and \"follow_share\" together");
     }
     return entry;
+  }
+
+  /// In a step of the entry's rate.
+  [[nodiscard]] Result<Done> checkReach(const BoundEntry& entry) const {
+    const double most = 0.125 * entry.bound.acceleration / (entry.rateHz * entry.rateHz);
+    if (entry.rateHz == 0.0 || !std::isfinite(most) || most <= kAbsurdM) return Done{};
+    return fail(
+        fmt::format("expected an \"acceleration_m_s2\" that keeps a person within {:g} m of "
+                    "the model at {:g} Hz, found {:.3g} m",
+                    kAbsurdM, entry.rateHz, most));
   }
 
   const std::string& file_;

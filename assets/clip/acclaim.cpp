@@ -80,6 +80,13 @@ class AmcReader {
       return wrong("expected the number of a frame, found " +
                    inQuotes(std::string(line_.words[0])));
     }
+    if (!clip_.frames.empty() && number.value != lastNumber_ + 1.0) {
+      return wrong("expected frame " + inDigits(lastNumber_ + 1.0, 17) + ", found " +
+                       inQuotes(std::string(line_.words[0])) +
+                       "; frames that are missing would shift those behind them in time",
+                   ErrorCode::OutOfRange);
+    }
+    lastNumber_ = number.value;
     constexpr std::size_t kLeastChannels = 3;
     if ((clip_.frames.size() + 1) * asf_.bones.size() * kLeastChannels > kMaxBvhValues) {
       return wrong("expected at most 2^26 values", ErrorCode::LimitExceeded);
@@ -139,6 +146,7 @@ class AmcReader {
   AcclaimLines lines_;
   AcclaimLine line_;
   double metresPerUnit_, unit_ = kDegree;
+  double lastNumber_ = 0.0;  // of a frame
   Clip& clip_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -37,6 +38,18 @@ std::optional<double> recordedRateOf(const std::string& path, const Model& model
   return 1.0 / shortest;
 }
 
+/// The frames between keys of such a file that are no neighbours.
+std::vector<ClipGap> gapsBetweenKeys(const Model& model, double rateHz) {
+  std::vector<ClipGap> gaps;
+  std::int64_t last = -1;
+  for (const auto& key : model.animations.front().tracks.front().positions) {
+    const std::int64_t frame = std::llround(key.timeS * rateHz);
+    if (frame > last + 1) gaps.push_back({last + 1, frame - 1});
+    last = frame;
+  }
+  return gaps;
+}
+
 Result<ClipFile> readAcclaim(const std::string& path, const ClipFileOptions& options) {
   std::string skeleton = options.skeleton;
   if (skeleton.empty()) {
@@ -64,8 +77,10 @@ Result<ClipFile> readModel(const std::string& path, const ClipFileOptions& optio
   ModelImportOptions import;
   import.import = options.import;
   FORETOUCH_TRY(const auto model, importModel(path, import));
-  const double rateHz = recordedRateOf(path, model).value_or(options.rateHz);
+  const auto recordedHz = recordedRateOf(path, model);
+  const double rateHz = recordedHz.value_or(options.rateHz);
   FORETOUCH_TRY(auto clip, inFile(clipFromModel(model, {options.animation, rateHz}), path));
+  if (recordedHz) clip.gaps = gapsBetweenKeys(model, rateHz);
   // Of other models who makes an avatar of them tells the notes.
   if (endingOf(path) == ".mvnx") {
     clip.notes.insert(clip.notes.begin(), model.notes.begin(), model.notes.end());

@@ -26,6 +26,8 @@ constexpr double kMsPerS = 1000.0;
 constexpr double kMostNormError = 2e-3;
 /// Of the longest frame to the usual one, beyond which frames were left out.
 constexpr double kNotedGap = 2.5;
+/// An instant as near to a frame, of the way to the next, is that frame's: times are rounded.
+constexpr double kAtFrame = 1e-6;
 
 Error wrong(const std::string& message, ErrorCode code = ErrorCode::Syntax,
             std::int64_t frame = -1) {
@@ -83,6 +85,7 @@ struct Input {
 struct Instant {
   double timeS = 0.0;
   std::vector<RigidPose> places;  ///< Per joint of the clip.
+  std::vector<bool> isSeen;       ///< The same: in this frame.
 };
 
 class SessionReader {
@@ -134,6 +137,7 @@ class SessionReader {
     if (!(clip.frameTimeS >= kMinFrameTimeS && clip.frameTimeS <= kMaxFrameTimeS)) {
       return wrong("expected frames a microsecond to an hour apart", ErrorCode::OutOfRange);
     }
+    findSpacing();
     FORETOUCH_CHECK(sample(length, clip));
     clip.hasRotation.assign(names_.size(), true);
     clip.hasTranslation.assign(names_.size(), true);
@@ -229,6 +233,7 @@ class SessionReader {
     }
     instant.places =
         instants_.empty() ? std::vector<RigidPose>(names_.size()) : instants_.back().places;
+    instant.isSeen.assign(names_.size(), false);
     FORETOUCH_TRY(const auto viewer, placeIn(frame, 1, number));
     see(instant, 0, viewer);
     std::set<std::size_t> present;
@@ -275,6 +280,7 @@ class SessionReader {
 
   void see(Instant& instant, std::size_t joint, const RigidPose& place) {
     instant.places[joint] = place;
+    instant.isSeen[joint] = true;
     if (isSeen_[joint]) return;
     isSeen_[joint] = true;
     firstSeen_[joint] = place;
@@ -301,6 +307,7 @@ class SessionReader {
     }
     std::size_t after = 1;
     std::vector<RigidPose> world(names_.size());
+    std::vector<std::size_t> lastGap(names_.size(), kNoGap);
     for (double k = 0.0; k < samples; k += 1.0) {
       const double timeS = instants_.front().timeS + k * clip.frameTimeS;
       while (after + 1 < instants_.size() && instants_[after].timeS < timeS) ++after;
@@ -317,20 +324,42 @@ class SessionReader {
         pose.translations.push_back(local.translation);
       }
       FORETOUCH_TRY(auto checked, validatedPose(clip.skeleton, pose));
+      addGaps(after, t, lastGap, clip);
       clip.frames.push_back(std::move(checked));
     }
     return Done{};
   }
 
-  void addNotes(Clip& clip) const {
+  /// Of the next frame, at `t` between an instant and the one before it.
+  void addGaps(std::size_t after, double t, std::vector<std::size_t>& lastGap, Clip& clip) const {
+    const auto frame = static_cast<std::int64_t>(clip.frames.size());
+    const Instant &from = instants_[after - 1], &to = instants_[after];
+    const bool isFrom = t <= kAtFrame, isTo = t >= 1.0 - kAtFrame;
+    const bool isLeftOut = !isFrom && !isTo && to.timeS - from.timeS > kNotedGap * usualS_;
+    for (std::size_t j = 0; j < names_.size(); ++j) {
+      const bool isSeen = (isTo || from.isSeen[j]) && (isFrom || to.isSeen[j]);
+      if (isSeen && !isLeftOut) continue;
+      if (lastGap[j] == kNoGap || clip.gaps[lastGap[j]].last != frame - 1) {
+        lastGap[j] = clip.gaps.size();
+        clip.gaps.push_back({frame, frame, static_cast<JointId>(j)});
+      }
+      clip.gaps[lastGap[j]].last = frame;
+    }
+  }
+
+  void findSpacing() {
     std::vector<double> spacings;
     for (std::size_t k = 1; k < instants_.size(); ++k) {
       spacings.push_back(instants_[k].timeS - instants_[k - 1].timeS);
     }
     std::sort(spacings.begin(), spacings.end());
-    const double longest = spacings.back(), usual = spacings[spacings.size() / 2];
-    if (longest > kNotedGap * usual) {
-      clip.notes.push_back("there are " + inDigits(longest, 3) +
+    longestS_ = spacings.back();
+    usualS_ = spacings[spacings.size() / 2];
+  }
+
+  void addNotes(Clip& clip) const {
+    if (longestS_ > kNotedGap * usualS_) {
+      clip.notes.push_back("there are " + inDigits(longestS_, 3) +
                            " s between two of its frames; what happened there is not recorded");
     }
     for (const auto& [name, count] : absent_) {
@@ -341,6 +370,7 @@ class SessionReader {
   }
 
   inline static const json kNothing = json();
+  static constexpr std::size_t kNoGap = static_cast<std::size_t>(-1);
   std::string key_;  // of the session's part that is being parsed
   Result<Done> read_ = Done{};
   std::vector<std::string> names_;
@@ -352,6 +382,7 @@ class SessionReader {
   std::set<std::string> inputNames_;
   std::map<std::string, std::int64_t> absent_;
   std::vector<Instant> instants_;
+  double longestS_ = 0.0, usualS_ = 0.0;  // between two of them
 };
 
 }  // namespace

@@ -136,6 +136,22 @@ Result<std::size_t> countFrames(const ModelAnimation& animation,
                                                  " Hz that is more frames than a clip may have");
 }
 
+/// The frames that keys would have said which are not usable.
+std::vector<ClipGap> gapsOf(const std::vector<internal::SampledTrack>& tracks, std::size_t count,
+                            double rateHz) {
+  std::vector<ClipGap> gaps;
+  const double last = static_cast<double>(count) - 1.0;
+  for (const internal::SampledTrack& track : tracks) {
+    for (const internal::SampledTrack::Unknown& unknown : track.unknown()) {
+      const double from = std::floor(std::max(unknown.fromS * rateHz, -1.0) + kWholeFrame) + 1.0;
+      const double to = std::ceil(std::min(unknown.toS * rateHz, last + 1.0) - kWholeFrame) - 1.0;
+      if (from > to) continue;
+      gaps.push_back({static_cast<std::int64_t>(from), static_cast<std::int64_t>(to)});
+    }
+  }
+  return gaps;
+}
+
 /// Where files say which axis points up, a body and its animation may say different ones: then
 /// their roots differ by that turn, and the body must take the animation's.
 void markTurnedRoots(const Model& model, internal::FrameCollector& collector) {
@@ -168,7 +184,9 @@ Result<Clip> clipFromModel(const Model& model, const ModelClipOptions& options) 
   noteChoice(model, options.animation, notes);
   noteChordError(internal::chordErrorOf(model, tracks, count, options.rateHz), options.rateHz,
                  notes);
-  return collector.take(1.0 / options.rateHz, std::move(notes));
+  Clip clip = collector.take(1.0 / options.rateHz, std::move(notes));
+  clip.gaps = gapsOf(tracks, count, options.rateHz);
+  return clip;
 }
 
 }  // namespace foretouch

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "assets/model/model_frames.h"
 
@@ -63,8 +64,11 @@ SampledTrack::SampledTrack(const ModelTrack& track, const Affine& rest)
 
 template <typename CleanKey, typename From, typename Tangents>
 std::vector<CleanKey> SampledTrack::cleaned(const From& keys, const Tangents& tangents) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
   std::vector<CleanKey> clean;
   clean.reserve(keys.size());
+  double lastS = -kNever;
+  std::size_t closed = unknown_.size();  // these end
   for (std::size_t i = 0; i < keys.size(); ++i) {
     CleanKey key{keys[i].timeS, keys[i].value, {}, {}};
     key.in.setZero();
@@ -76,8 +80,14 @@ std::vector<CleanKey> SampledTrack::cleaned(const From& keys, const Tangents& ta
     if (std::isfinite(key.timeS) && isUsable(key.value) && key.in.allFinite() &&
         key.out.allFinite()) {
       clean.push_back(key);
+      lastS = key.timeS;
+      for (; closed < unknown_.size(); ++closed) {
+        Unknown& unknown = unknown_[closed];  // in a file whose keys are in no order, wherever
+        unknown = {std::min(unknown.fromS, lastS), std::max(unknown.fromS, lastS)};
+      }
     } else {
       ++leftOut_;
+      if (closed == unknown_.size()) unknown_.push_back({lastS, kNever});
     }
   }
   std::stable_sort(clean.begin(), clean.end(),

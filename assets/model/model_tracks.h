@@ -27,6 +27,12 @@ class SampledTrack {
   [[nodiscard]] bool isCubic() const { return positionsAreCubic_ || rotationsAreCubic_; }
   [[nodiscard]] double lastKeyS() const { return lastKeyS_; }
   [[nodiscard]] std::size_t leftOut() const { return leftOut_; }
+  /// Where keys were left out: from the usable key before them to the one after, as the file has
+  /// them; infinite where there is none.
+  struct Unknown {
+    double fromS = 0.0, toS = 0.0;
+  };
+  [[nodiscard]] const std::vector<Unknown>& unknown() const { return unknown_; }
   /// The file's scale differs from the one at rest by more than a thousandth at some key.
   [[nodiscard]] bool scalesAnew() const { return scalesAnew_; }
 
@@ -52,6 +58,7 @@ class SampledTrack {
   Eigen::Matrix3d scale_;  ///< rest_.linear = rotation * scale_.
   double lastKeyS_ = 0.0;
   std::size_t leftOut_ = 0;
+  std::vector<Unknown> unknown_;
   bool scalesAnew_ = false;
 };
 

@@ -262,9 +262,10 @@ Result<Done> BracketQuery::answerGap(const PosedStep& step, const std::vector<Li
   beginAnswer(*plan_, memory, brackets);
   BodyBrackets& body = memory.bodies[0];
   for (std::size_t i = 0; i < bounds.size(); ++i) {
-    if (!std::isfinite(bounds[i].speed + bounds[i].error)) continue;
+    const double most = bounds[i].error + 0.5 * step.seconds * bounds[i].speed;
+    if (!internal::isSaid(most)) continue;
     body.growths[i] = StepGrowth{bounds[i].error, 0.0};
-    body.most[i] = bounds[i].error + 0.5 * step.seconds * bounds[i].speed;
+    body.most[i] = most;
   }
   body.levels[0].stand(avatar().skeleton(), step);
   const GrowthsOfGap growths(bounds, step.seconds);

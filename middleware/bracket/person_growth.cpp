@@ -7,11 +7,16 @@
 
 namespace foretouch::internal {
 
+bool isSaid(double growth) {
+  constexpr double kMostSaid = 10.0;  // m
+  return growth <= kMostSaid;
+}
+
 std::optional<StepGrowth> StepGrowth::of(const LinkBound& bound, double seconds, double bend) {
   double most = 0.125 * bound.acceleration * seconds * seconds;
   // Nothing is claimed by a share of what is not known, be it a share of 0.
   if (std::isfinite(bend)) most = std::min(most, bound.followFloor + bound.followShare * bend);
-  if (!std::isfinite(most) || !std::isfinite(bound.error)) return std::nullopt;
+  if (!isSaid(bound.error + most)) return std::nullopt;
   return StepGrowth{bound.error, most * kInflation};
 }
 

@@ -9,6 +9,10 @@
 
 namespace foretouch::internal {
 
+/// Whoever may be farther (m) from the model may be anywhere: nothing is claimed of them, and the
+/// triangles around so large a body are not looked at.
+[[nodiscard]] bool isSaid(double growth);
+
 /// error + 4 most u (1 - u) with u in [0,1] of the step: nothing if no bound is claimed. `bend`: of
 /// the poses around the step (m); infinite if they are not known.
 struct StepGrowth {

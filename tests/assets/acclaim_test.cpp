@@ -166,6 +166,7 @@ TEST(Acclaim, NamesFileLineAndExpectation) {
       {false, "thigh 40", "thigh 4x", "s.amc:6: expected a number, found '4x'"},
       {false, "thigh 40", "thigh nan", "s.amc:6: expected a number, found 'nan'"},
       {false, "\n1\n", "\none\n", "s.amc:4: expected the number of a frame, found 'one'"},
+      {false, "\n2\n", "\n4\n", "s.amc:8: expected frame 2, found '4'; frames that are missing"},
   };
   for (const Case& each : cases) {
     const std::string asf = each.isAsf ? with(kAsf, each.from, each.to) : kAsf;

@@ -115,6 +115,12 @@ TEST(BoundsFile, RefusesWhatItCannotMean) {
   refuses(fileWith(R"({"part": "all", "model": "cubic", "follow_floor_m": 1})"), "together");
   refuses(fileWith(R"({"part": "all", "model": "spline"})"), "constant-rate, cubic or cubic-late");
   refuses(fileWith(R"({"part": "all", "quantile": 1.5})"), "quantile");
+  refuses(fileWith(R"({"part": "all", "error_m": 11})"), "from 0 to 10 for \"error_m\"");
+  refuses(fileWith(R"({"part": "all", "gap_speed_m_s": 1001})"), "from 0 to 1000");
+  refuses(fileWith(R"({"part": "all", "model": "cubic", "acceleration_m_s2": 2e6})"), "to 1e+06");
+  refuses(fileWith(R"({"part": "all", "model": "cubic", "rate_hz": 10,
+                       "acceleration_m_s2": 8001})"),
+          "within 10 m of the model at 10 Hz, found 10 m");
   refuses(fileWith(R"([[[[1]]]])"), "brackets");
   refuses(std::string(std::size_t{5} << 20, ' '), "at most");
 }

@@ -258,6 +258,12 @@ TEST(ClipFromModel, SortsKeysAndLeavesOutWhatIsNone) {
   EXPECT_EQ(clip.frames[1].translations[0].x(), 0.5);
   EXPECT_EQ(clip.frames[1].rotations[0].coeffs(), Quaternion::Identity().coeffs());
   EXPECT_TRUE(isNoted(clip, "3 keys"));
+  // Who knows when the first was meant; the second comes after the key at 0 s, and none after it.
+  ASSERT_EQ(clip.gaps.size(), 2u);
+  EXPECT_EQ(clip.gaps[0].first, 1);
+  EXPECT_EQ(clip.gaps[0].last, 1);
+  EXPECT_EQ(clip.gaps[1].first, 1);
+  EXPECT_EQ(clip.gaps[1].last, 2);
 }
 
 TEST(ClipFromModel, IgnoresAnimatedScaleAndSaysSo) {

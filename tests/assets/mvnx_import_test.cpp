@@ -157,6 +157,10 @@ TEST_F(Mvnx, NamesWhatIsWrong) {
   const auto gap = read(mvnx(normal(0) + normal(1) + normal(4)));
   ASSERT_TRUE(gap.ok());
   EXPECT_EQ(gap.value().clip.frames.size(), 5u);
+  ASSERT_EQ(gap.value().clip.gaps.size(), 1u);
+  EXPECT_EQ(gap.value().clip.gaps[0].first, 2);
+  EXPECT_EQ(gap.value().clip.gaps[0].last, 3);
+  EXPECT_EQ(gap.value().clip.gaps[0].joint, kNoParent);
   EXPECT_TRUE(holds(gap.value().clip.notes[1], "frames are missing")) << gap.value().clip.notes[1];
 }
 

@@ -95,6 +95,27 @@ TEST(WebXrSession, PutsJointsWhereTheRecorderSawThem) {
   }
   ASSERT_EQ(clip.notes.size(), 1u);
   EXPECT_TRUE(holds(clip.notes[0], "'left' is absent in 1 frames")) << clip.notes[0];
+  // Of the hand the frames at 20 and 30 ms are made up, of nothing else.
+  ASSERT_EQ(clip.gaps.size(), kJoints.size());
+  for (const ClipGap& gap : clip.gaps) {
+    EXPECT_EQ(clip.skeleton.name(gap.joint).rfind("left ", 0), 0u);
+    EXPECT_EQ(gap.first, 2);
+    EXPECT_EQ(gap.last, 3);
+  }
+}
+
+TEST(WebXrSession, BeforeAnInputIsSeenAndAfterItIsLostItsFramesAreMadeUp) {
+  const std::string alone = kController, both = hand(0.4) + "," + kController;
+  const auto read = parseWebXrSession(
+      session({frame(0, alone), frame(10, both), frame(20, both), frame(30, alone)}), "s.json",
+      100.0);
+  ASSERT_TRUE(read.ok()) << describe(read.error());
+  const auto& gaps = read.value().gaps;
+  ASSERT_EQ(gaps.size(), 2 * kJoints.size());
+  EXPECT_EQ(gaps.front().first, 0);
+  EXPECT_EQ(gaps.front().last, 0);
+  EXPECT_EQ(gaps.back().first, 3);
+  EXPECT_EQ(gaps.back().last, 3);
 }
 
 TEST(WebXrSession, TakesTheMeanRateAndTellsOfAGap) {
@@ -110,6 +131,11 @@ TEST(WebXrSession, TakesTheMeanRateAndTellsOfAGap) {
   ASSERT_FALSE(read.value().clip.notes.empty());
   EXPECT_TRUE(holds(read.value().clip.notes[0], "there are 0.09 s between two of its frames"))
       << read.value().clip.notes[0];
+  ASSERT_EQ(read.value().clip.gaps.size(), kJoints.size() + 2);  // of every joint
+  for (const ClipGap& gap : read.value().clip.gaps) {
+    EXPECT_EQ(gap.first, 1);
+    EXPECT_EQ(gap.last, 2);
+  }
 }
 
 TEST(WebXrSession, NamesWhatIsWrong) {

@@ -127,6 +127,12 @@ class HeldBackClip {
   std::vector<double> own_;
 };
 
+/// Poses that nobody recorded teach nothing.
+bool hasGapIn(const Clip& clip, std::int64_t first, std::int64_t last) {
+  return std::any_of(clip.gaps.begin(), clip.gaps.end(),
+                     [&](const ClipGap& gap) { return gap.first <= last && gap.last >= first; });
+}
+
 void addStep(const std::vector<BoundsLearner::Seen*>& seenOfLink, HeldBackClip& clip) {
   std::vector<double> strays, speeds, bends, ahead;
   clip.strays(strays);
@@ -204,7 +210,12 @@ int BoundsLearner::learn(const Clip& clip, const Avatar& avatar) {
         seenOfLink.push_back(hasLss ? &seenOf(nameOf(link), model, rateHz) : nullptr);
       }
       HeldBackClip held(clip, avatar, model, every, request_.errorM);
-      for (std::size_t first = 0; held.begin(first); first += every) addStep(seenOfLink, held);
+      const auto step = static_cast<std::int64_t>(every);
+      const auto ahead = step * static_cast<std::int64_t>(kAheadSteps);
+      for (std::size_t first = 0; held.begin(first); first += every) {
+        const auto frame = static_cast<std::int64_t>(first);
+        if (!hasGapIn(clip, frame - step, frame + step + ahead)) addStep(seenOfLink, held);
+      }
     }
   }
   return served;

@@ -1,6 +1,7 @@
 #include "tools/person/person_touches.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -10,106 +11,163 @@
 #include "assets/bounds/bound_presets.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
-#include "middleware/bracket/axis_places.h"
+#include "tools/inputs/lost_frames.h"
 #include "tools/json_line.h"
+#include "tools/person/bound_check.h"
+#include "tools/person/pose_gaps.h"
 
 namespace foretouch::tools {
 namespace {
 
-/// A clip breaks a bound beyond this (m): poses and places are rounded in files.
-constexpr double kBreaks = 1e-6;
-
-/// Joins the brackets of steps, counts them, and checks the clip by them.
-class PersonTracker {
- public:
-  PersonTracker(const ReplayInputs& inputs, std::vector<LinkBound> bounds)
-      : inputs_(inputs), bounds_(std::move(bounds)), placer_(inputs.avatar) {}
-
-  void add(std::int64_t step, const StepBrackets& brackets) {
-    joiner_.add(inputs_.timeOfStep(step), inputs_.timeOfStep(step + 1), brackets);
-    for (const LinkBracket& bracket : brackets.links) {
-      if (!inputs_.avatar.lss(bracket.link).empty()) answer_.counts.add(bracket.verdict);
-    }
-  }
-
-  /// Whether the frames that were left out are within the bounds.
-  Result<Done> check(std::int64_t step, const PosedStep& posed, MotionModel model,
-                     const StepBrackets& brackets) {
-    const std::int64_t first = inputs_.steps.frameOf(step);
-    const std::int64_t last = inputs_.steps.frameOf(step + 1);
-    if (last - first < 2) return Done{};
-    model_.assign(inputs_.avatar.skeleton(), posed, model);
-    const ChainMotion constant(inputs_.avatar.skeleton(), *posed.from, *posed.to);
-    Pose pose;
-    for (std::int64_t frame = first + 1; frame < last; ++frame) {
-      const double u = static_cast<double>(frame - first) / static_cast<double>(last - first);
-      model_.isConstantRate() ? constant.poseAt(u, pose) : model_.poseAt(u, pose);
-      FORETOUCH_TRY(const Pose truth, poseAtFrame(inputs_, frame));
-      placer_.place(truth, truth_);
-      placer_.place(pose, modelled_);
-      placer_.differences(truth_, modelled_, apart_);
-      for (const LinkBracket& bracket : brackets.links) {
-        if (bracket.verdict != BracketVerdict::Unclaimed) checkLink(bracket, frame, u);
-      }
-    }
-    return Done{};
-  }
-
-  PersonAnswer finish() {
-    answer_.touches = joiner_.finish();
-    return std::move(answer_);
-  }
-
- private:
-  void checkLink(const LinkBracket& bracket, std::int64_t frame, double u) {
-    const double error = bounds_[slotOf(bracket.link)].error;
-    const double rho = error + 4.0 * (bracket.growth - error) * u * (1.0 - u);
-    const double beyond = apart_[slotOf(bracket.link)] - rho;
-    if (!(beyond > kBreaks)) return;
-    PersonCounts& counts = answer_.counts;
-    ++counts.broken;
-    if (beyond <= counts.worstM) return;
-    counts.worstM = beyond;
-    counts.worstLink = bracket.link;
-    counts.worstS = static_cast<double>(frame) * inputs_.clip.frameTimeS;
-  }
-
-  const ReplayInputs& inputs_;
-  std::vector<LinkBound> bounds_;
-  AxisPlacer placer_;
-  ModelMotion model_;
-  AxisPlaces truth_, modelled_;
-  std::vector<double> apart_;
-  BracketJoiner joiner_;
-  PersonAnswer answer_;
-};
-
 /// The four poses around a step, of which each is read once.
 class PosesAround {
  public:
-  PosesAround(const ReplayInputs& inputs, MotionModel model) : inputs_(inputs), model_(model) {}
+  PosesAround(const ReplayInputs& inputs, const LostFrames& lost, MotionModel model)
+      : inputs_(inputs), lost_(lost), model_(model) {}
 
   Result<PosedStep> at(std::int64_t step) {
     for (; next_ < std::min(step + 3, inputs_.steps.count + 1); ++next_) {
       FORETOUCH_TRY(poses_[slotOf(next_ % kKept)],
                     poseAtFrame(inputs_, inputs_.steps.frameOf(next_)));
     }
-    const auto poseOf = [&](std::int64_t i) -> const Pose* {
-      return i >= 0 && i <= inputs_.steps.count ? &poses_[slotOf(i % kKept)] : nullptr;
+    const auto poseOf = [&](std::int64_t i) { return &poses_[slotOf(i % kKept)]; };
+    // Without a neighbour of which no link is known.
+    const auto besideOf = [&](std::int64_t i) -> const Pose* {
+      const bool isThere = i >= 0 && i <= inputs_.steps.count;
+      return isThere && !lost_.isAllLost(inputs_.steps.frameOf(i)) ? poseOf(i) : nullptr;
     };
     const double seconds = inputs_.timeOfStep(1) - inputs_.timeOfStep(0);
     const bool isLate = model_ == MotionModel::CubicLate;
-    return PosedStep{
-        poseOf(step - 1), poseOf(step), poseOf(step + 1), isLate ? poseOf(step + 2) : nullptr,
-        seconds,          seconds,      seconds};
+    return PosedStep{besideOf(step - 1),
+                     poseOf(step),
+                     poseOf(step + 1),
+                     isLate ? besideOf(step + 2) : nullptr,
+                     seconds,
+                     seconds,
+                     seconds};
   }
 
  private:
   static constexpr std::int64_t kKept = 4;
   const ReplayInputs& inputs_;
+  const LostFrames& lost_;
   MotionModel model_;
   std::int64_t next_ = 0;
   Pose poses_[kKept];
+};
+
+/// Asks step by step, joins the brackets, counts them, and checks the clip by them.
+class PersonTracker {
+ public:
+  PersonTracker(const ReplayInputs& inputs, MotionModel model, const std::vector<LinkBound>& bounds,
+                const BracketQuery& query)
+      : inputs_(inputs),
+        model_(model),
+        bounds_(bounds),
+        query_(query),
+        lost_(inputs.avatar, inputs.clip, inputs.match),
+        gaps_(bounds.size(), lost_, inputs.steps),
+        check_(inputs.avatar, bounds) {}
+
+  Result<PersonAnswer> run() {
+    PosesAround poses(inputs_, lost_, model_);
+    for (std::int64_t step = 0; step < inputs_.steps.count; ++step) {
+      FORETOUCH_TRY(const PosedStep posed, poses.at(step));
+      FORETOUCH_CHECK(ask(step, posed));
+    }
+    FORETOUCH_CHECK(askAcross(gaps_.endAll(inputs_.steps.count)));
+    addTouches(joiner_);
+    std::stable_sort(
+        answer_.touches.begin(), answer_.touches.end(),
+        [](const PersonTouch& x, const PersonTouch& y) { return x.beginsS[0] < y.beginsS[0]; });
+    return std::move(answer_);
+  }
+
+ private:
+  Result<Done> ask(std::int64_t step, const PosedStep& posed) {
+    const std::vector<LinkBound>& claimed = gaps_.claimed(step, posed, bounds_);
+    FORETOUCH_CHECK(askAcross(gaps_.ended()));
+    if (gaps_.isAllOpen()) return Done{};
+    FORETOUCH_CHECK(query_.answer(posed, model_, claimed, scratch_, brackets_));
+    joiner_.add(inputs_.timeOfStep(step), inputs_.timeOfStep(step + 1), brackets_);
+    for (const LinkBracket& bracket : brackets_.links) {
+      if (!gaps_.isOpen(bracket.link)) count(bracket, 1);
+    }
+    return check(step, posed);
+  }
+
+  void count(const LinkBracket& bracket, std::int64_t steps) {
+    if (!inputs_.avatar.lss(bracket.link).empty()) answer_.counts.add(bracket.verdict, steps);
+  }
+
+  void addTouches(BracketJoiner& joiner) {
+    for (PersonTouch& touch : joiner.finish()) answer_.touches.push_back(touch);
+  }
+
+  /// Where only speeds say where the person was.
+  Result<Done> askAcross(const std::vector<PoseGap>& gaps) {
+    for (const PoseGap& gap : gaps) {
+      FORETOUCH_CHECK(askAcross(gap));
+      const auto isOfGap = [&](const LinkBracket& bracket) {
+        return gap.has(bracket.link) || (bracket.other != kNoParent && gap.has(bracket.other));
+      };
+      for (std::vector<LinkBracket>* const list : {&brackets_.links, &brackets_.pairs}) {
+        list->erase(std::remove_if(list->begin(), list->end(),
+                                   [&](const LinkBracket& bracket) { return !isOfGap(bracket); }),
+                    list->end());
+      }
+      const std::int64_t before = answer_.counts.intervals;
+      for (const LinkBracket& bracket : brackets_.links) count(bracket, gap.to - gap.from);
+      answer_.counts.inGaps += answer_.counts.intervals - before;
+      BracketJoiner ofPart;
+      const bool isOfAll = gap.links.size() == bounds_.size();
+      (isOfAll ? joiner_ : ofPart)
+          .add(inputs_.timeOfStep(gap.from), inputs_.timeOfStep(gap.to), brackets_);
+      addTouches(ofPart);
+    }
+    return Done{};
+  }
+
+  Result<Done> askAcross(const PoseGap& gap) {
+    FORETOUCH_TRY(const Pose from, poseAtFrame(inputs_, inputs_.steps.frameOf(gap.from)));
+    FORETOUCH_TRY(const Pose to, poseAtFrame(inputs_, inputs_.steps.frameOf(gap.to)));
+    PosedStep posed;
+    posed.from = &from;
+    posed.to = &to;
+    posed.seconds = inputs_.timeOfStep(gap.to) - inputs_.timeOfStep(gap.from);
+    const std::vector<LinkBound> bounds = gaps_.across(gap, bounds_);
+    FORETOUCH_CHECK(query_.answerGap(posed, bounds, scratch_, brackets_));
+    check_.across(posed, gap.links, bounds, inputs_.timeOfStep(gap.to), answer_.counts);
+    return Done{};
+  }
+
+  /// Whether the frames that were left out are within the bounds.
+  Result<Done> check(std::int64_t step, const PosedStep& posed) {
+    const std::int64_t first = inputs_.steps.frameOf(step);
+    const std::int64_t last = inputs_.steps.frameOf(step + 1);
+    if (last - first < 2) return Done{};
+    check_.begin(posed, model_);
+    for (std::int64_t frame = first + 1; frame < last; ++frame) {
+      const double u = static_cast<double>(frame - first) / static_cast<double>(last - first);
+      FORETOUCH_TRY(const Pose truth, poseAtFrame(inputs_, frame));
+      check_.leftOut(
+          truth, u, static_cast<double>(frame) * inputs_.clip.frameTimeS, brackets_,
+          [&](LinkId link) { return !lost_.isLost(link, frame); }, answer_.counts);
+    }
+    return Done{};
+  }
+
+  const ReplayInputs& inputs_;
+  MotionModel model_;
+  const std::vector<LinkBound>& bounds_;
+  const BracketQuery& query_;
+  LostFrames lost_;
+  PoseGaps gaps_;
+  BoundCheck check_;
+  Scratch scratch_;
+  StepBrackets brackets_;
+  BracketJoiner joiner_;
+  PersonAnswer answer_;
 };
 
 double rateOf(const ReplayInputs& inputs) {
@@ -139,6 +197,7 @@ std::string lineOf(const ReplayInputs& inputs, const PersonRequest& request,
     out.field("possible", counts.possible);
     out.field("certain", counts.certain);
     out.field("unclaimed", counts.unclaimed);
+    if (counts.inGaps > 0) out.field("in_gaps", counts.inGaps);
     out.field("bounds_broken", counts.broken);
     if (counts.broken > 0) {
       out.field("worst_link", inputs.avatar.skeleton().name(counts.worstLink));
@@ -149,21 +208,6 @@ std::string lineOf(const ReplayInputs& inputs, const PersonRequest& request,
 }
 
 }  // namespace
-
-void PersonCounts::add(BracketVerdict verdict) {
-  ++intervals;
-  switch (verdict) {
-    case BracketVerdict::Unclaimed: ++unclaimed; break;
-    case BracketVerdict::Excluded: ++excluded; break;
-    case BracketVerdict::Possible: ++possible; break;
-    case BracketVerdict::Certain: ++certain; break;
-  }
-}
-
-void PersonCounts::addExcluded(std::int64_t more) {
-  intervals += more;
-  excluded += more;
-}
 
 Result<LinkBounds> personBounds(const ReplayInputs& inputs, const PersonRequest& request) {
   if (!request.isAsked()) return LinkBounds{};
@@ -176,20 +220,13 @@ Result<PersonAnswer> personTouches(const ReplayInputs& inputs, const PersonReque
                                    const LinkBounds& bounds) {
   FORETOUCH_TRY(const auto query,
                 BracketQuery::build(inputs.avatar, inputs.scene, bracketOptionsOf(inputs.query)));
-  PersonTracker tracker(inputs, bounds.bounds);
-  PosesAround poses(inputs, request.model);
-  Scratch scratch;
-  StepBrackets brackets;
-  for (std::int64_t step = 0; step < inputs.steps.count; ++step) {
-    FORETOUCH_TRY(const PosedStep posed, poses.at(step));
-    FORETOUCH_CHECK(query.answer(posed, request.model, bounds.bounds, scratch, brackets));
-    tracker.add(step, brackets);
-    FORETOUCH_CHECK(tracker.check(step, posed, request.model, brackets));
-  }
-  PersonAnswer answer = tracker.finish();
+  FORETOUCH_TRY(PersonAnswer answer,
+                PersonTracker(inputs, request.model, bounds.bounds, query).run());
   answer.rateHz = rateOf(inputs);
   for (LinkId link = 0; link < inputs.avatar.numLinks(); ++link) {
-    if (!inputs.avatar.lss(link).empty() && bounds.entryOf[slotOf(link)] < 0) {
+    const LinkBound& bound = bounds.bounds[slotOf(link)];
+    const bool isBounded = std::isfinite(bound.acceleration) || std::isfinite(bound.followFloor);
+    if (!inputs.avatar.lss(link).empty() && !isBounded) {
       answer.unclaimed.push_back(link);
     }
   }
@@ -231,18 +268,19 @@ std::string personText(const ReplayInputs& inputs, const PersonRequest& request,
 std::vector<std::string> personNotes(const ReplayInputs& inputs, const PersonAnswer& answer) {
   const PersonCounts& counts = answer.counts;
   std::vector<std::string> notes;
-  if (counts.unclaimed > 0) {
+  if (counts.inGaps > 0) {
+    notes.push_back(fmt::format(
+        "The clip has gaps: of {} of links and steps only gap_speed_m_s says where the person was, "
+        "and nothing at the clip's begin and end or where there is none.",
+        counts.inGaps));
+  }
+  if (!answer.unclaimed.empty()) {
     notes.push_back(fmt::format(
         "Of the person nothing is claimed where a link has no bound: {} of the links have none.",
         answer.unclaimed.size()));
   }
-  if (counts.broken > 0) {
-    notes.push_back(fmt::format(
-        "The clip breaks its bounds at {} of the poses that were left out, link by link: {} at "
-        "{:.3f} s by {:.1f} mm. What is said of the person there does not hold.",
-        counts.broken, inputs.avatar.skeleton().name(counts.worstLink), counts.worstS,
-        1e3 * counts.worstM));
-  }
+  const std::string broken = counts.brokenNote(inputs.avatar.skeleton().name(counts.worstLink));
+  if (!broken.empty()) notes.push_back(broken);
   return notes;
 }
 

@@ -14,20 +14,10 @@
 #include "middleware/bracket/bracket_query.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/person/bracket_joiner.h"
+#include "tools/person/person_counts.h"
 #include "tools/settings/person_settings.h"
 
 namespace foretouch::tools {
-
-struct PersonCounts {
-  std::int64_t intervals = 0;  ///< Links that have LSS, times steps.
-  std::int64_t excluded = 0, possible = 0, certain = 0, unclaimed = 0;
-  std::int64_t broken = 0;  ///< Frames, link by link, at which the clip breaks the bound.
-  LinkId worstLink = 0;     ///< Of them, the one by most: when, and by how much (m).
-  double worstS = 0.0, worstM = 0.0;
-
-  void add(BracketVerdict verdict);
-  void addExcluded(std::int64_t more);
-};
 
 struct PersonAnswer {
   std::vector<PersonTouch> touches;  ///< In the order of their begins.

@@ -16,6 +16,7 @@
 #include "tools/inputs/clip_cut.h"
 #include "tools/inputs/clip_pose.h"
 #include "tools/inputs/joint_map.h"
+#include "tools/inputs/lost_frames.h"
 #include "tools/inputs/own_pairs.h"
 #include "tools/inputs/played_clip.h"
 #include "tools/inputs/step_selection.h"
@@ -88,6 +89,25 @@ Result<std::vector<TimedFrame>> timedFramesOf(const FileBody& body, const Motion
                   inSeconds(timing.fromUs),
                   timing.untilUs ? fmt::format(" to {} s", inSeconds(*timing.untilUs)) : "",
                   clip.durationS()));
+}
+
+/// The clip's frames between those that are taken, at their instants.
+Result<std::vector<BodyKnot>> leftOutOf(const PlacedClip& placed,
+                                        const std::vector<TimedFrame>& frames,
+                                        const LostFrames& lost) {
+  std::vector<BodyKnot> leftOut;
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    const TimedFrame &from = frames[i - 1], &to = frames[i];
+    const double perFrame =
+        static_cast<double>(to.utimeUs - from.utimeUs) / static_cast<double>(to.frame - from.frame);
+    for (std::int64_t frame = from.frame + 1; frame < to.frame; ++frame) {
+      if (!lost.linksAt(frame).empty()) continue;
+      FORETOUCH_TRY(auto pose, poseAtFrame(placed, frame));
+      const double since = perFrame * static_cast<double>(frame - from.frame);
+      leftOut.push_back({from.utimeUs + std::llround(since), std::move(pose), -1});
+    }
+  }
+  return leftOut;
 }
 
 /// The joint of the clip that moves a prop.
@@ -187,9 +207,17 @@ Result<BodyKnots> KnotLoader::ofAvatar(const FileBody& body, const Avatar& avata
   FORETOUCH_CHECK(countPoses(body, countOf(avatar.numLinks()), frames.size(), world));
   const PlacedClip placed{avatar, clip, match.value(), body.clip.placement, motion->isUpright,
                           path};
+  const LostFrames lost(avatar, clip, match.value());
   for (const TimedFrame& timed : frames) {
+    if (lost.isAllLost(timed.frame)) continue;
+    const std::vector<LinkId> links = lost.linksAt(timed.frame);
+    if (!links.empty()) found.lostLinks[timed.utimeUs] = links;
     FORETOUCH_TRY(auto pose, poseAtFrame(placed, timed.frame));
     found.knots.push_back({timed.utimeUs, std::move(pose), -1});
+  }
+  if (!body.boundsPath.empty()) {
+    FORETOUCH_TRY(found.leftOut, leftOutOf(placed, frames, lost));
+    FORETOUCH_CHECK(countPoses(body, countOf(avatar.numLinks()), found.leftOut.size(), world));
   }
   found.remarks = remarksOnClip(avatar, clip, match.value(), body.shape.avatarPath, path);
   if (body.asksSelf) {

@@ -33,6 +33,10 @@ struct BodyKnots {
   std::vector<BodyKnot> knots;       ///< By time; none: the body stands.
   std::optional<PairRules> self;     ///< Where own links are asked.
   std::vector<std::string> remarks;  ///< What a user should know, a sentence each.
+  /// By the instants of knots: links whose pose is made up, as the clip has gaps.
+  std::map<std::int64_t, std::vector<LinkId>> lostLinks = {};
+  /// Of a body with bounds: poses of its clip between two knots, which hold the bounds to account.
+  std::vector<BodyKnot> leftOut = {};
 };
 
 class KnotLoader {

@@ -117,6 +117,8 @@ Result<BodyKnots> addBody(const FileBody& body, ShapeLoader& shapes, KnotLoader&
                     reasonsOf(*told.self)));
   }
   loaded.bodies.push_back({std::move(shape), {}, {}, group});
+  loaded.bodies.back().lostLinks = std::move(told.lostLinks);
+  loaded.bodies.back().leftOut = std::move(told.leftOut);
   return told;
 }
 

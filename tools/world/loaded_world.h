@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "middleware/triggers/triggers.h"
 #include "middleware/world/world.h"
 #include "tools/microseconds.h"
+#include "tools/world/body_knots.h"
 #include "tools/world/body_shapes.h"
 #include "tools/world/body_stretches.h"
 #include "tools/world/world_file.h"
@@ -24,6 +26,8 @@ struct LoadedBody {
   BodyGroup group = 0;
   std::size_t numPoses = 0;                      ///< That its files tell; 0: it stands.
   std::int64_t firstPoseUs = 0, lastPoseUs = 0;  ///< Of these.
+  std::map<std::int64_t, std::vector<LinkId>> lostLinks = {};  ///< As BodyKnots has them.
+  std::vector<BodyKnot> leftOut = {};                          ///< The same.
 
   [[nodiscard]] bool isMesh() const { return shape.mesh.has_value(); }
 };

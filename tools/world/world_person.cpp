@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include "lss/index.h"
 #include "middleware/bracket/bracket_query.h"
 #include "tools/json_line.h"
+#include "tools/person/bound_check.h"
 
 namespace foretouch::tools {
 namespace {
@@ -33,9 +35,10 @@ struct Claimed {
   BodyId id = 0;
   bool isPerson = false;
   MotionModel model = MotionModel::ConstantRate;
-  std::vector<LinkBound> bounds, none;  ///< `none`: of steps that the bounds are not about.
-  double stepS = 0.0;                   ///< That the bounds are about; 0: any.
+  std::vector<LinkBound> bounds;
+  double stepS = 0.0;  ///< That the bounds are about; 0: any.
   std::vector<Knot> knots;
+  const std::map<std::int64_t, std::vector<LinkId>>* lost = nullptr;  ///< By knots.
 };
 
 double secondsBetween(const Knot& from, const Knot& to) {
@@ -88,32 +91,52 @@ class Steps {
   [[nodiscard]] std::size_t count() const { return claimed_.knots.size() - 1; }
   [[nodiscard]] const Knot& from(std::size_t i) const { return claimed_.knots[i]; }
   [[nodiscard]] const Knot& to(std::size_t i) const { return claimed_.knots[i + 1]; }
-  [[nodiscard]] PersonStep at(std::size_t i) const {
-    PersonStep step;
-    step.model = claimed_.model;
-    step.bounds = isUsual(i) ? &claimed_.bounds : &claimed_.none;
+  /// Valid until the next one is asked for. One that the bounds are not about has none.
+  PersonStep at(std::size_t i) {
+    PersonStep step = across(i);
+    if (!isUsual(i)) bounds_.assign(bounds_.size(), LinkBound{});
     PosedStep& posed = step.step;
-    posed.from = from(i).pose;
-    posed.to = to(i).pose;
-    posed.seconds = secondsBetween(from(i), to(i));
     if (i > 0 && isUsual(i - 1)) {
       posed.before = from(i - 1).pose;
       posed.secondsBefore = secondsBetween(from(i - 1), from(i));
+      leaveOutLost(from(i - 1));
     }
     if (i + 1 < count() && isUsual(i + 1) && claimed_.model == MotionModel::CubicLate) {
       posed.after = to(i + 1).pose;
       posed.secondsAfter = secondsBetween(to(i), to(i + 1));
+      leaveOutLost(to(i + 1));
     }
     return step;
   }
-
- private:
+  /// The same, of any length: of the bounds only speeds and errors hold.
+  PersonStep across(std::size_t i) {
+    bounds_ = claimed_.bounds;
+    leaveOutLost(from(i));
+    leaveOutLost(to(i));
+    PersonStep step;
+    step.model = claimed_.model;
+    step.bounds = &bounds_;
+    step.step.from = from(i).pose;
+    step.step.to = to(i).pose;
+    step.step.seconds = secondsBetween(from(i), to(i));
+    return step;
+  }
   [[nodiscard]] bool isUsual(std::size_t i) const {
     const double seconds = secondsBetween(from(i), to(i));
     return claimed_.stepS == 0.0 ||
            std::abs(seconds - claimed_.stepS) <= kRateShare * claimed_.stepS;
   }
 
+ private:
+  /// Of links whose pose is made up nothing is claimed.
+  void leaveOutLost(const Knot& knot) {
+    if (claimed_.lost == nullptr) return;
+    const auto found = claimed_.lost->find(knot.utimeUs);
+    if (found == claimed_.lost->end()) return;
+    for (const LinkId link : found->second) bounds_[slotOf(link)] = LinkBound{};
+  }
+
+  std::vector<LinkBound> bounds_;
   const Claimed& claimed_;
 };
 
@@ -185,10 +208,10 @@ class Persons {
     LinkBound exact;
     exact.acceleration = 0.0;
     claimed.bounds.assign(numLinks, exact);
-    claimed.none.resize(numLinks);
     if (!claimed.isPerson || claimed.knots.size() < 2) return claimed;
     claimed.model = file.between;
     claimed.stepS = usualStepS(claimed.knots);
+    claimed.lost = &body.lostLinks;
     FORETOUCH_TRY(const auto bounds, readBounds(file.boundsPath));
     FORETOUCH_TRY(auto known, inFile(boundsOf(bounds, body.shape.avatar->skeleton(), file.between,
                                               1.0 / claimed.stepS),
@@ -223,22 +246,46 @@ class Persons {
         const auto query,
         BracketQuery::build(avatarOf(claimed), asksScene ? world_.scene : std::nullopt, options));
     BracketJoiner joiner;
-    const Steps steps(claimed);
+    Steps steps(claimed);
+    BoundCheck check(avatarOf(claimed), claimed.bounds);
+    const double worstM = persons_.counts.worstM;
     for (std::size_t i = 0; i < steps.count(); ++i) {
       if (!isWithin(steps.from(i), steps.to(i))) continue;
-      const PersonStep step = steps.at(i);
-      FORETOUCH_CHECK(query.answer(step.step, step.model, *step.bounds, scratch_, brackets_));
-      if (asksScene) count(brackets_.links);
+      const PersonStep step = steps.isUsual(i) ? steps.at(i) : steps.across(i);
+      FORETOUCH_CHECK(steps.isUsual(i)
+                          ? query.answer(step.step, step.model, *step.bounds, scratch_, brackets_)
+                          : query.answerGap(step.step, *step.bounds, scratch_, brackets_));
+      if (asksScene) {
+        count(brackets_.links);
+        if (steps.isUsual(i)) checkLeftOut(step, steps.from(i), steps.to(i), body, check);
+      }
       joiner.add(LoadedWorld::secondsOf(steps.from(i).utimeUs),
                  LoadedWorld::secondsOf(steps.to(i).utimeUs), brackets_);
     }
     addTouches(claimed.id, std::nullopt, joiner);
+    if (persons_.counts.worstM > worstM) persons_.worstBody = claimed.id;
     return Done{};
   }
 
+  /// The clip's poses between the two knots.
+  void checkLeftOut(const PersonStep& step, const Knot& from, const Knot& to,
+                    const LoadedBody& body, BoundCheck& check) {
+    auto next =
+        std::upper_bound(body.leftOut.begin(), body.leftOut.end(), from.utimeUs,
+                         [](std::int64_t us, const BodyKnot& knot) { return us < knot.utimeUs; });
+    if (next == body.leftOut.end() || next->utimeUs >= to.utimeUs) return;
+    check.begin(step.step, step.model);
+    for (; next != body.leftOut.end() && next->utimeUs < to.utimeUs; ++next) {
+      const double u = static_cast<double>(next->utimeUs - from.utimeUs) /
+                       static_cast<double>(to.utimeUs - from.utimeUs);
+      check.leftOut(
+          next->pose, u, LoadedWorld::secondsOf(next->utimeUs), brackets_,
+          [](LinkId) { return true; }, persons_.counts);
+    }
+  }
+
   /// The part of a step from one instant to another.
-  static PersonStep partOf(const Steps& steps, std::size_t i, std::int64_t fromUs,
-                           std::int64_t toUs) {
+  static PersonStep partOf(Steps& steps, std::size_t i, std::int64_t fromUs, std::int64_t toUs) {
     PersonStep step = steps.at(i);
     const auto at = [&](std::int64_t us) {
       return static_cast<double>(us - steps.from(i).utimeUs) /
@@ -259,7 +306,7 @@ class Persons {
     FORETOUCH_TRY(const auto query,
                   PairBracketQuery::build(avatarOf(one), avatarOf(other), options));
     BracketJoiner joiner;
-    const Steps ofOne(one), ofOther(other);
+    Steps ofOne(one), ofOther(other);
     const auto links = avatarOf(one).numLinks() * avatarOf(other).numLinks();
     for (std::size_t i = 0, j = 0; i < ofOne.count() && j < ofOther.count();) {
       const std::int64_t fromUs =
@@ -324,6 +371,13 @@ std::string personLines(const LoadedWorld& world, const WorldPersons& persons) {
            out.field("possible", persons.counts.possible);
            out.field("certain", persons.counts.certain);
            out.field("unclaimed", persons.counts.unclaimed);
+           out.field("bounds_broken", persons.counts.broken);
+           if (persons.counts.broken > 0) {
+             out.field("worst_body", world.nameOf(persons.worstBody));
+             out.field("worst_link", world.linkNameOf(persons.worstBody, persons.counts.worstLink));
+             out.field("worst_s", persons.counts.worstS);
+             out.field("worst_m", persons.counts.worstM);
+           }
          });
 }
 
@@ -344,7 +398,9 @@ std::string personText(const LoadedWorld& world, const WorldPersons& persons) {
   }
   if (told > kMostTold) text += fmt::format("  and {} more in the results\n", told - kMostTold);
   for (const std::string& note : persons.notes) text += note + "\n";
-  return text;
+  const std::string broken =
+      persons.counts.brokenNote(world.labelOf(persons.worstBody, persons.counts.worstLink));
+  return broken.empty() ? text : text + broken + "\n";
 }
 
 }  // namespace foretouch::tools

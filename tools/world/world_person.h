@@ -27,6 +27,7 @@ struct WorldPersons {
   PersonCounts counts;                    ///< Of links and the scene, and of links of two bodies.
   std::vector<std::string> notes;         ///< Sentences.
   std::int64_t persons = 0;
+  BodyId worstBody = 0;  ///< Whose clip breaks its bounds by most, if any does.
 };
 
 /// Of every body that the file has bounds of, from one instant of the world to another: each of its

@@ -186,6 +186,14 @@ TEST_F(BallOverPlate, WithoutABoundNothingIsClaimed) {
   EXPECT_EQ(ask(5.0, 5.0, bound).verdict, BracketVerdict::Unclaimed);
 }
 
+TEST_F(BallOverPlate, OfWhoMayBeAnywhereNothingIsClaimed) {
+  LinkBound bound;
+  bound.acceleration = 9.99 * 8.0 / (kStepS * kStepS);
+  EXPECT_EQ(ask(0.3, 0.2, bound).verdict, BracketVerdict::Possible);
+  bound.acceleration = 10.01 * 8.0 / (kStepS * kStepS);
+  EXPECT_EQ(ask(0.3, 0.2, bound).verdict, BracketVerdict::Unclaimed);
+}
+
 TEST_F(BallOverPlate, TheLesserBoundCountsWhereThePosesDoNotBend) {
   const Pose before = poseAt(0.3), from = poseAt(0.2), to = poseAt(0.15), after = poseAt(0.15);
   PosedStep step{&before, &from, &to, &after, kStepS, kStepS, kStepS};

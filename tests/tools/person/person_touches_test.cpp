@@ -109,6 +109,99 @@ TEST(PersonTouches, NameTheFrameThatBreaksItsBoundAndByHowMuch) {
   EXPECT_NE(notes[1].find("Hips at 0.300 s by 10.0 mm"), std::string::npos) << notes[1];
 }
 
+/// `flight(12)` of which frames 3 to 6 are made up, of `joint` or of all: nonsense stands there.
+/// From pose 2 to pose 7, half a second, the person is only known to be no faster than `speed`.
+ReplayInputs flightWithGap(JointId joint = kNoParent) {
+  std::vector<double> places;
+  for (int i = 0; i < 12; ++i) {
+    places.push_back(joint == kNoParent && i >= 3 && i <= 6 ? 50.0 + i : -0.55 + kStepS * i);
+  }
+  ReplayInputs inputs = test::smallInputs(places);
+  inputs.clip.gaps = {{3, 4, joint}, {5, 6, joint}};
+  return inputs;
+}
+LinkBounds boundsWithSpeed(double speed) {
+  LinkBounds bounds = boundsOfHips(kMost, kStepS);
+  bounds.bounds[0].speed = speed;
+  return bounds;
+}
+
+TEST(PersonTouches, AcrossAGapOnlyTheSpeedCounts) {
+  const ReplayInputs inputs = flightWithGap();
+  const auto told = personTouches(inputs, request(), boundsWithSpeed(1.2));
+  ASSERT_TRUE(told.ok()) << describe(told.error());
+  const PersonAnswer& answer = told.value();
+  ASSERT_EQ(answer.touches.size(), 1u);
+  EXPECT_TRUE(answer.touches[0].isCertain);  // there is no way around the wall so fast
+  EXPECT_FALSE(answer.touches[0].beginsBefore);
+  EXPECT_FALSE(answer.touches[0].endsAfter);
+  EXPECT_LT(answer.touches[0].endsS[0], answer.touches[0].beginsS[1]);
+  // 0.25 m before the wall at 0.2 s, 0.05 m behind it at 0.7 s.
+  EXPECT_NEAR(answer.touches[0].beginsS[0], 0.2 + 0.25 / 1.2, 1e-4);
+  EXPECT_NEAR(answer.touches[0].endsS[1], 0.7 - 0.05 / 1.2, 1e-4);
+  EXPECT_EQ(answer.counts.intervals, 22);
+  EXPECT_EQ(answer.counts.inGaps, 10);
+  EXPECT_EQ(answer.counts.unclaimed, 11);
+  EXPECT_EQ(answer.counts.certain, 5);
+  EXPECT_EQ(answer.counts.excluded, 6);
+  EXPECT_EQ(answer.counts.broken, 0);
+  EXPECT_NE(personText(inputs, request(), answer).find("The clip has gaps: of 10 of"),
+            std::string::npos);
+  EXPECT_NE(personLines(inputs, request(), answer).find("\"in_gaps\":10"), std::string::npos);
+}
+
+TEST(PersonTouches, AcrossAGapNothingIsClaimedWithoutASpeed) {
+  const auto told = personTouches(flightWithGap(), request(), boundsOfHips(kMost, kStepS));
+  ASSERT_TRUE(told.ok()) << describe(told.error());
+  EXPECT_TRUE(told.value().touches.empty());
+  EXPECT_EQ(told.value().counts.unclaimed, 11 + 5);
+  EXPECT_EQ(told.value().counts.excluded, 6);
+}
+
+TEST(PersonTouches, AGapThatTheSpeedCannotCrossIsTold) {
+  const ReplayInputs inputs = flightWithGap();
+  const auto told = personTouches(inputs, request(), boundsWithSpeed(0.9));
+  ASSERT_TRUE(told.ok()) << describe(told.error());
+  EXPECT_EQ(told.value().counts.broken, 1);
+  EXPECT_NEAR(told.value().counts.worstM, 0.5 - 0.45, 1e-6);
+  EXPECT_NEAR(told.value().counts.worstS, 0.7, 1e-9);
+}
+
+TEST(PersonTouches, AtTheClipsBeginAndEndNoSpeedHelps) {
+  ReplayInputs inputs = flight(12);
+  inputs.clip.gaps = {{0, 1}, {11, 11}};
+  const auto told = personTouches(inputs, request(), boundsWithSpeed(1.2));
+  ASSERT_TRUE(told.ok()) << describe(told.error());
+  EXPECT_EQ(told.value().counts.unclaimed, 11 + 3);
+  EXPECT_EQ(told.value().counts.inGaps, 6);
+}
+
+TEST(PersonTouches, AJointThatIsLostLeavesWhatDoesNotHangOnIt) {
+  LinkBounds bounds = boundsWithSpeed(1.2);
+  bounds.bounds[1] = bounds.bounds[0];
+  bounds.entryOf = {0, 0};
+  const PersonAnswer whole = personTouches(flight(12), request(), bounds).value();
+  const PersonAnswer lost = personTouches(flightWithGap(1), request(), bounds).value();
+  const auto ofHips = [](const PersonAnswer& answer) {
+    for (const PersonTouch& touch : answer.touches) {
+      if (touch.link == 0) return touch;
+    }
+    ADD_FAILURE() << "none";
+    return PersonTouch{};
+  };
+  EXPECT_TRUE(ofHips(whole).isCertain);
+  EXPECT_TRUE(ofHips(lost).isCertain);
+  EXPECT_EQ(ofHips(lost).beginsS[1], ofHips(whole).beginsS[1]);
+  EXPECT_EQ(ofHips(lost).endsS[0], ofHips(whole).endsS[0]);
+  // The arm, of which the step behind the gap has no earlier pose to bend it: to pose 8.
+  EXPECT_EQ(lost.counts.inGaps, 6);
+  const PersonTouch& arm = lost.touches[0].link == 1 ? lost.touches[0] : lost.touches[1];
+  EXPECT_LT(arm.endsS[0], arm.beginsS[1]);  // it passed, at no instant that is known
+  EXPECT_NEAR(arm.beginsS[0], 0.2 + 0.3 / 1.2, 1e-4);
+  // Who carries the arm takes it along.
+  EXPECT_EQ(personTouches(flightWithGap(0), request(), bounds).value().counts.inGaps, 10);
+}
+
 /// The page's document of an answer, of which the first `poses` poses are shown.
 json personOf(const ReplayInputs& inputs, const PersonAnswer& answer, int poses) {
   ViewDocument document;

@@ -127,6 +127,51 @@ TEST(WorldPersons, StepsOfAnotherLengthAreUnclaimed) {
   EXPECT_EQ(persons.counts.unclaimed, 1);
 }
 
+TEST(WorldPersons, AcrossALongStepOnlyTheSpeedCounts) {
+  const SmallStage stage;
+  stage.folder.write("fast.bounds.json",
+                     R"({"format": "foretouch-bounds", "version": 1, "bounds": [
+  {"part": "all", "model": "constant-rate", "rate_hz": 10, "acceleration_m_s2": 8,
+   "gap_speed_m_s": 1.5}]})");
+  // The wall at x = 0 is 0.15 m before the ball at 0.2 s and 0.05 m behind it at 0.5 s.
+  std::string poses;
+  for (const auto& [t, x] :
+       {std::pair{0.0, -0.4}, {0.1, -0.3}, {0.2, -0.2}, {0.5, 0.1}, {0.6, 0.2}}) {
+    poses += poseAt(t, std::to_string(x) + ", 0, 0");
+  }
+  const WorldPersons persons =
+      personsOf(stage, "[scene]\nfile = \"wall.obj\"\n" +
+                           sphereNamed("anna", "bounds = \"fast.bounds.json\"\n" + poses));
+  ASSERT_EQ(persons.touches.size(), 1u);
+  const auto& touch = persons.touches[0].touch;
+  EXPECT_FALSE(touch.isCertain);
+  EXPECT_NEAR(touch.beginsS[0], 0.2 + 0.15 / 1.5, 1e-4);
+  EXPECT_NEAR(touch.endsS[1], 0.5 - 0.05 / 1.5, 1e-4);
+  EXPECT_EQ(persons.counts.possible, 1);
+  EXPECT_EQ(persons.counts.excluded, 3);
+}
+
+TEST(WorldPersons, AClipThatBreaksItsBoundsIsTold) {
+  const SmallStage stage;
+  // Every other pose is given: the middle one is 30 mm behind, and the bound is 10 mm.
+  stage.folder.write("bent.bvh", clipAlongX({-0.9, -0.83, -0.7, -0.6, -0.5}));
+  stage.folder.write("five.bounds.json",
+                     R"({"format": "foretouch-bounds", "version": 1, "bounds": [
+  {"part": "all", "model": "constant-rate", "rate_hz": 5, "acceleration_m_s2": 2}]})");
+  const auto world = stage.load(
+      "[scene]\nfile = \"wall.obj\"\n[[body]]\nname = \"anna\"\navatar = \"man.json\"\n"
+      "bounds = \"five.bounds.json\"\n[body.clip]\nfile = \"bent.bvh\"\nrate = 5\n");
+  ASSERT_TRUE(world.ok()) << describe(world.error());
+  const auto found = tools::personsOf(world.value(), world.value().beginUs, world.value().endUs);
+  ASSERT_TRUE(found.ok()) << describe(found.error());
+  const auto& counts = found.value()->counts;
+  EXPECT_EQ(counts.broken, 2);  // of hips and arm
+  EXPECT_NEAR(counts.worstM, 0.03 - 0.01, 1e-6);
+  EXPECT_NEAR(counts.worstS, 0.1, 1e-9);
+  const std::string text = tools::personText(world.value(), *found.value());
+  EXPECT_NE(text.find("anna: Hips at 0.100 s by 20.0 mm"), std::string::npos) << text;
+}
+
 TEST(WorldPersons, BadBoundsAreRefusedByName) {
   const SmallStage stage;
   stage.folder.write("ten.bounds.json", kBounds);
