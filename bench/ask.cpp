@@ -71,8 +71,8 @@ Result<JudgedReport> measureAsk(const AskBenchRequest& request) {
       "to "
       "60 m away. One instant: all questions at the same instant between two poses. Own instants: "
       "each at another one of the second. Own instants of bodies: each body at another one, too.",
-      "clearances: edges between free configurations, as one list on one thread; judged at 64 "
-      "instants by kinematics and distances of the judge's own.",
+      "clearances: edges between free configurations, as one list on one thread, by that thread's "
+      "time; judged at 64 instants by kinematics and distances of the judge's own.",
       "players: what the world takes per second of poses, by the heap's own count; the replay is a "
       "second world of the same poses.",
       "shots: a person goes through a clip and runs 3 m/s, captured 120 times per second; the "

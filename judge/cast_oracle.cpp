@@ -14,6 +14,10 @@ constexpr int kSections = 110;
 constexpr int kHalvings = 80;
 /// Of hulls, which take longer: 0.618^60 = 3e-13.
 constexpr int kSectionsOfHull = 60;
+/// Doubles tell that things are apart only if they are by so much (m), and by so much of all
+/// lengths.
+constexpr double kClearly = 1e-9, kClearShare = 1e-13;
+constexpr int kSteps = 24;
 
 Vec3r unitOf(const Vec3d& direction) {
   const Real size = static_cast<Real>(extent(direction));
@@ -31,24 +35,119 @@ Real determinant(const Vec3r& a, const Vec3r& b, const Vec3r& c, const Vec3r& d)
   return dot(cross(b - a, c - a), d - a);
 }
 
+Closest<Real> closestOfAxis(const Vec3r& a, const Vec3r& b, const OraclePart& part) {
+  const Corners<Real> corners = cornersOf(part);
+  if (part.count == 3) return closestPoints(a, b, corners);
+  return closestPoints(Corners<Real>{a, b, b}, corners);
+}
+
+Real radiiOf(const CastShape& shape, const OraclePart& part) {
+  return static_cast<Real>(shape.radius) + static_cast<Real>(part.radius);
+}
+
+/// Where all corners are, of the shape as it begins and of the part: they stand for the cores.
+template <typename S>
+struct Cores {
+  std::vector<Vec3<S>> shape, part;
+  Vec3<S> way;
+
+  /// Of the difference of all of the way and the part, the point that is lowest along a direction.
+  [[nodiscard]] Vec3<S> lowest(const Vec3<S>& along) const {
+    const auto isLess = [&](const Vec3<S>& x, const Vec3<S>& y) {
+      return dot(along, x) < dot(along, y);
+    };
+    Vec3<S> low = *std::min_element(shape.begin(), shape.end(), isLess);
+    if (dot(along, way) < 0) low = low + way;
+    return low - *std::max_element(part.begin(), part.end(), isLess);
+  }
+};
+
+template <typename S>
+Cores<S> coresOf(const CastShape& shape, Real until, const OraclePart& part) {
+  Cores<S> cores;
+  cores.way = (until * unitOf(shape.direction)).as<S>();
+  if (shape.corners.empty()) cores.shape = {shape.a.as<S>(), shape.b.as<S>()};
+  for (const Vec3d& corner : shape.corners) {
+    cores.shape.push_back(shape.a.as<S>() + corner.as<S>());
+  }
+  for (const Vec3r& corner : cornersOf(part)) cores.part.push_back(corner.as<S>());
+  return cores;
+}
+
+/// Is there a plane between all of the way and the part that parts them by clearly more than this?
+/// Looked for in doubles, by triangles of points of their difference, nearer and nearer to the
+/// origin [Gilbert88]: a plane that is found is one, however it was.
+bool areClearlyApart(const Cores<double>& cores, Real by) {
+  double lengths = extent(cores.way);
+  for (const Vec3d& p : cores.shape) lengths = std::max(lengths, extent(p));
+  for (const Vec3d& p : cores.part) lengths = std::max(lengths, extent(p));
+  const double apart = static_cast<double>(by) + kClearly + kClearShare * lengths;
+  const Vec3d origin, first = cores.shape.front() - cores.part.front();
+  Triangle points{first, first, first};
+  Closest<double> nearest = closestPoints(origin, origin, points);
+  for (int i = 0; i < kSteps && nearest.distance > apart; ++i) {
+    const Vec3d lowest = cores.lowest(nearest.onTriangle);
+    if (dot(nearest.onTriangle, lowest) > apart * nearest.distance) return true;
+    const Triangle before = points;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Triangle with = before;
+      with[k] = lowest;
+      const Closest<double> one = closestPoints(origin, origin, with);
+      if (one.distance >= nearest.distance) continue;
+      nearest = one;
+      points = with;
+    }
+    if (points == before) return false;
+  }
+  return false;
+}
+
+Triangle roughly(const Corners<Real>& corners) {
+  return {corners[0].as<double>(), corners[1].as<double>(), corners[2].as<double>()};
+}
+
 /// Of the hull of corners from a place; 0 inside.
-Real hullGap(const CastShape& shape, const Vec3r& place, const OraclePart& part) {
+Closest<Real> closestOfHull(const CastShape& shape, const Vec3r& place, const OraclePart& part) {
   Corners<Real> corners = cornersOf(part);
   for (Vec3r& corner : corners) corner = corner - place;
-  for (const auto& tetrahedron : shape.tetrahedra) {
-    if (isIn(corners[0], tetrahedron)) return 0;
+  if (!areClearlyApart({shape.corners, {corners[0].as<double>()}, {}}, 0)) {
+    for (const auto& tetrahedron : shape.tetrahedra) {
+      if (isIn(corners[0], tetrahedron)) return {};
+    }
   }
-  Real least = std::numeric_limits<Real>::infinity();
+  // In doubles first: only what may be the nearest counts.
+  const Triangle rough = roughly(corners);
+  std::vector<double> gaps;
+  double lengths = extent(rough[0]);
   for (const Corners<Real>& face : shape.outer) {
-    least = std::min(least, closestPoints(face, corners).distance);
+    gaps.push_back(closestPoints(roughly(face), rough).distance);
+    lengths = std::max(lengths, extent(face[0].as<double>()));
+  }
+  const double nearest =
+      *std::min_element(gaps.begin(), gaps.end()) + kClearly + kClearShare * lengths;
+  Closest<Real> least{std::numeric_limits<Real>::infinity(), {}, {}};
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    if (gaps[i] > nearest) continue;
+    const Closest<Real> one = closestPoints(shape.outer[i], corners);
+    if (one.distance < least.distance) least = one;
   }
   return least;
 }
 
-Real axisGap(const Vec3r& a, const Vec3r& b, const OraclePart& part) {
-  const Corners<Real> corners = cornersOf(part);
-  if (part.count == 3) return closestPoints(a, b, corners).distance;
-  return closestPoints(Corners<Real>{a, b, b}, corners).distance;
+/// Of the cores, after it has moved so far; the points are both from the hull's place, if it is
+/// one.
+Closest<Real> closestAfter(const CastShape& shape, Real along, const OraclePart& part) {
+  const Vec3r moved = along * unitOf(shape.direction);
+  if (!shape.corners.empty()) return closestOfHull(shape, shape.a.as<Real>() + moved, part);
+  return closestOfAxis(shape.a.as<Real>() + moved, shape.b.as<Real>() + moved, part);
+}
+
+/// All along the way it is no nearer than the plane across the closest points at its end says.
+Real boundFromEnd(const CastShape& shape, Real until, const OraclePart& part) {
+  const Closest<Real> end = closestAfter(shape, until, part);
+  if (!(end.distance > 0)) return -radiiOf(shape, part);
+  const Vec3r normal = (1 / end.distance) * (end.onSegment - end.onTriangle);
+  return dot(normal, coresOf<Real>(shape, until, part).lowest(normal)) - radiiOf(shape, part);
 }
 
 /// From a ball around the part to the line that a ball around the shape moves along.
@@ -61,8 +160,7 @@ Real gapOfBalls(const CastShape& shape, const Vec3r& way, Real until, const Orac
   for (const Vec3r& corner : corners) radius = std::max(radius, norm(corner - centre));
   for (const Vec3d& corner : shape.corners) ofHull = std::max(ofHull, norm(corner.as<Real>()));
   const Real between = pointSegmentDistance(centre, middle, middle + until * way);
-  return between - radius - norm(a - middle) - ofHull - static_cast<Real>(shape.radius) -
-         static_cast<Real>(part.radius);
+  return between - radius - norm(a - middle) - ofHull - radiiOf(shape, part);
 }
 
 struct Least {
@@ -72,13 +170,7 @@ struct Least {
 }  // namespace
 
 Real gapAfter(const CastShape& shape, Real along, const OraclePart& part) {
-  const Vec3r moved = along * unitOf(shape.direction);
-  if (!shape.corners.empty()) {
-    return hullGap(shape, shape.a.as<Real>() + moved, part) - static_cast<Real>(shape.radius) -
-           static_cast<Real>(part.radius);
-  }
-  return axisGap(shape.a.as<Real>() + moved, shape.b.as<Real>() + moved, part) -
-         static_cast<Real>(shape.radius) - static_cast<Real>(part.radius);
+  return closestAfter(shape, along, part).distance - radiiOf(shape, part);
 }
 
 namespace {
@@ -86,6 +178,7 @@ namespace {
 Least leastOf(const CastShape& shape, Real until, const OraclePart& part) {
   const Real golden = (std::sqrt(Real(5)) - 1) / 2;
   Least least{gapAfter(shape, 0, part), 0};
+  if (until == 0) return least;
   const auto look = [&](Real along) {
     const Real gap = gapAfter(shape, along, part);
     if (gap < least.gap) least = {gap, along};
@@ -120,6 +213,11 @@ Real leastGap(const CastShape& shape, Real until, const OraclePart& part, Real b
   if (gapOfBalls(shape, unitOf(shape.direction), until, part) > beyond + 1e-6L) {
     return beyond + 1e-6L;
   }
+  if (areClearlyApart(coresOf<double>(shape, until, part), beyond + radiiOf(shape, part))) {
+    return beyond + static_cast<Real>(kClearly);
+  }
+  const Real bound = until > 0 ? boundFromEnd(shape, until, part) : beyond;
+  if (bound > beyond + 1e-14L) return bound;
   return leastOf(shape, until, part).gap;
 }
 
@@ -134,6 +232,10 @@ Real firstTouch(const CastShape& shape, Real until, const OraclePart& part) {
     (gapAfter(shape, middle, part) > 0 ? free : touching) = middle;
   }
   return touching;
+}
+
+bool isClearlyOutside(const Vec3d& p, const std::vector<Vec3d>& corners) {
+  return areClearlyApart({corners, {p}, {}}, 0);
 }
 
 bool isIn(const Vec3r& p, const std::array<Vec3r, 4>& t) {
@@ -225,7 +327,7 @@ bool isInside(const Vec3r& p, const std::vector<Corners<Real>>& surface) {
 }
 
 Real heightOver(const Vec3d& p, const OraclePart& part) {
-  return axisGap(p.as<Real>(), p.as<Real>(), part) - static_cast<Real>(part.radius);
+  return closestOfAxis(p.as<Real>(), p.as<Real>(), part).distance - static_cast<Real>(part.radius);
 }
 
 }  // namespace foretouch::oracle

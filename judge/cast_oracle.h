@@ -1,7 +1,8 @@
 // judge/cast_oracle.h: a shape that moves along a line, or rests, among capsules and triangles that
-// rest: how near it comes to each, by looking at each. The distance of two convex sets is convex
-// along a line, so sections find its least; nothing else is used. The hull of corners is looked at
-// as all the triangles and tetrahedra of them. In long double.
+// rest: how near it comes to each, by looking at each. A plane between the whole way and a part, in
+// doubles with a margin or across the closest points at the way's end, tells that they stay apart.
+// Without one, as the distance of two convex sets is convex along a line, sections find its least.
+// The hull of corners is looked at as all the triangles and tetrahedra of them. In long double.
 #pragma once
 
 #include <vector>
@@ -33,6 +34,8 @@ struct CastShape {
                             Real beyond);
 /// How far it has moved when it first touches the part; -1 if it does not up to `until`.
 [[nodiscard]] Real firstTouch(const CastShape& shape, Real until, const OraclePart& part);
+/// Of the hull of corners; false: in it, or near it, or nobody knows.
+[[nodiscard]] bool isClearlyOutside(const Vec3d& p, const std::vector<Vec3d>& corners);
 /// In a tetrahedron, which has a volume.
 [[nodiscard]] bool isIn(const Vec3r& p, const std::array<Vec3r, 4>& tetrahedron);
 /// The way up to `until` passes through a triangle, farther than `margin` from its edges and from

@@ -11,6 +11,8 @@ namespace {
 
 /// Metres. Computed distances within kilometres of the origin err by less (2e-13 per coordinate).
 constexpr double kRoundingAllowance = 1e-11;
+/// In parts of a place's coordinates and of a ball's radius: far more than doubles round by.
+constexpr double kBallRounding = 1e-12;
 
 }  // namespace
 
@@ -20,6 +22,10 @@ double distanceTo(const Scene& scene, const Vec3d& a, const Vec3d& b, double bou
   box.add(b);
   double least = bound;
   scene.visitNear(box, least, [&](int id) {
+    // By the ball around it first; with room for rounding.
+    const Scene::Ball& ball = scene.ballOf(id);
+    const double room = kBallRounding * (1.0 + extent(ball.center) + ball.radius);
+    if (pointSegmentDistance(ball.center, a, b) - ball.radius > least + room) return;
     least = std::min(least, closestPoints(a, b, scene.triangle(id)).distance);
   });
   return least;

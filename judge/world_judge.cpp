@@ -71,6 +71,22 @@ Real apartAtLeast(const Placed& one, const Placed& other) {
   return norm(one.middle - other.middle) - one.reach - other.reach;
 }
 
+Triangle seenFrom(const Vec3<Real>& origin, const Corners<Real>& corners) {
+  return {(corners[0] - origin).as<double>(), (corners[1] - origin).as<double>(),
+          (corners[2] - origin).as<double>()};
+}
+
+/// Of their surfaces, in doubles from in between: off by much less than kRough (m) for each metre
+/// that they are large or apart.
+constexpr Real kRough = 1e-12L;
+Real roughly(const Placed& one, const Placed& other) {
+  const Triangle x = seenFrom(other.middle, one.corners), y = seenFrom(other.middle, other.corners);
+  const double cores = one.count == 3 && other.count == 3 ? closestPoints(x, y).distance
+                       : one.count == 3                   ? closestPoints(y[0], y[1], x).distance
+                                                          : closestPoints(x[0], x[1], y).distance;
+  return static_cast<Real>(cores) - one.radius - other.radius;
+}
+
 Real coreDistance(const Placed& one, const Placed& other) {
   if (one.count == 3 && other.count == 3) return closestPoints(one.corners, other.corners).distance;
   if (one.count == 3) return coreDistance(other, one);
@@ -131,14 +147,27 @@ Real OracleWorld::separation(int a, const Moving& atA, int linkOfA, int b, const
     return placedOf(body(id).parts, link, at.frames[static_cast<std::size_t>(link)]);
   };
   const std::vector<Placed> ofA = of(a, atA, linkOfA), ofB = of(b, atB, linkOfB);
-  Real least = kForever;
+  // Who is farther apart changes nothing: in doubles who may be the nearest.
+  struct Near {
+    const Placed *one, *other;
+    Real least;
+  };
+  std::vector<Near> near;
+  Real most = kForever;
   for (const Placed& one : ofA) {
     for (const Placed& other : ofB) {
-      const Real radii = one.radius + other.radius;
-      // Who is farther apart changes nothing.
-      if (apartAtLeast(one, other) - radii > least + kTouch) continue;
-      least = std::min(least, coreDistance(one, other) - radii);
+      const Real balls = norm(one.middle - other.middle) + one.reach + other.reach;
+      if (apartAtLeast(one, other) - one.radius - other.radius > most + kTouch) continue;
+      const Real rough = roughly(one, other), slack = kRough * (balls + 1);
+      most = std::min(most, rough + slack);
+      near.push_back({&one, &other, rough - slack});
     }
+  }
+  Real least = kForever;
+  for (const Near& pair : near) {
+    if (pair.least > most) continue;
+    const Real radii = pair.one->radius + pair.other->radius;
+    least = std::min(least, coreDistance(*pair.one, *pair.other) - radii);
   }
   return least;
 }

@@ -1,7 +1,6 @@
 #include "bench/ask/clearances.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "assets/import/model_import.h"
 #include "bench/inputs.h"
 #include "bench/judged.h"
+#include "bench/machine.h"
 #include "bench/scene.h"
 #include "bench/solid/cells.h"
 #include "bench/timing.h"
@@ -179,10 +179,9 @@ Result<JudgedTable> clearancesTable(const std::string& dataFolder, int triangles
         return query.clearanceAll(drawnEdges.q0.data(), drawnEdges.q1.data(), count, pool, answers);
       };
       FORETOUCH_CHECK(ask());
-      const auto begin = std::chrono::steady_clock::now();
+      const double begin = threadTimeUs();
       FORETOUCH_CHECK(ask());
-      const std::chrono::duration<double, std::micro> took =
-          std::chrono::steady_clock::now() - begin;
+      const double tookUs = threadTimeUs() - begin;
       const std::uint64_t wrong = violationsOf(judge, drawnEdges, n, answers);
       judged.violations += wrong;
       std::uint64_t touching = 0;
@@ -193,8 +192,8 @@ Result<JudgedTable> clearancesTable(const std::string& dataFolder, int triangles
       }
       judged.table.rows.push_back(
           {std::string(isShort ? "steps of up to 0.3 rad per joint" : "any two configurations"),
-           static_cast<std::int64_t>(count), 1e3 * tolerance,
-           took.count() / static_cast<double>(count), percent(touching, count),
+           static_cast<std::int64_t>(count), 1e3 * tolerance, tookUs / static_cast<double>(count),
+           percent(touching, count),
            1e2 * sum / static_cast<double>(std::max<std::size_t>(1, count - touching)),
            static_cast<std::int64_t>(std::min(count, kMostJudged)),
            static_cast<std::int64_t>(wrong)});

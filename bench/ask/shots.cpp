@@ -37,7 +37,8 @@ Struck struckOf(const std::vector<OraclePart>& parts, const oracle::CastShape& r
   std::vector<Real> touches;
   Real first = kReachM;
   for (const OraclePart& part : parts) {
-    if (isGrazing != nullptr && std::abs(oracle::leastGap(ray, kReachM, part, 0)) < kGrazing) {
+    if (isGrazing != nullptr &&
+        std::abs(oracle::leastGap(ray, kReachM, part, kGrazing)) < kGrazing) {
       *isGrazing = true;
     }
     const Real touch = oracle::firstTouch(ray, kReachM, part);

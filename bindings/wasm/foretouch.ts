@@ -19,7 +19,7 @@ export {
 export { ForetouchError, type Point } from "./machine.js";
 export { type BracketOptions, BracketQuery, type BracketVerdict, bracketVerdicts, type LinkBound, type LinkBracket, type MotionModel, motionModels, type PosedStep } from "./person.js";
 export { type Contact, Query, type SweptSurface, type Verdict, verdicts } from "./query.js";
-export { Avatar, Clip, type Link, type Lss, type Pose, type PoseLike, Scene, type SceneArrays } from "./shapes.js";
+export { Avatar, Clip, type Link, type Lss, type Pose, type PoseLike, Scene, type SceneArrays, type SkinArrays } from "./shapes.js";
 export { Solid, type SolidContact, type SolidJointState, solidJointStates, type SolidLimit, solidLimits, type SolidOptions, type SolidState, solidStates, type SolidTick } from "./solid.js";
 export { reaches, type SolidBodyContact, type SolidBodyTick, type SolidCrush, type SolidTarget, SolidWorld, type SolidWorldOptions } from "./solid_world.js";
 export {

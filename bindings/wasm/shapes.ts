@@ -43,6 +43,21 @@ export interface SceneArrays {
   readonly objectNames?: readonly string[];
 }
 
+/** Triangles that bend with several links at once. */
+export interface SkinArrays {
+  /** Three vertices each. */
+  readonly triangles: ArrayLike<number>;
+  /** Of each triangle the link whose hit it is. */
+  readonly triangleLinks: ArrayLike<number>;
+  /** So many links per vertex. */
+  readonly influences: number;
+  readonly links: ArrayLike<number>;
+  /** How much each counts; a vertex' add up to 1, to a billionth: floats want to be divided by their sum. Where it is 0, the link does not count. */
+  readonly weights: ArrayLike<number>;
+  /** x, y, z for each link of a vertex: where the vertex was in the link's frame when it was bound. */
+  readonly points: ArrayLike<number>;
+}
+
 const mostTriangles = 50_000_000;
 
 export class Scene extends Held {
@@ -108,6 +123,29 @@ export class Avatar extends Held {
   /** The avatar as a file. */
   file(): string {
     return this.machine.within((room) => this.machine.text(room.answered("ftw_avatar_file", this.handle)));
+  }
+
+  /** From now on questions meet bodies of this avatar, which are added later, by these triangles, as they are bent at the instant. First contacts and events go on by LSS. */
+  setSkin({ triangles, triangleLinks, influences, links, weights, points }: SkinArrays): void {
+    const vertices = weights.length / whole(influences, "influences", 1);
+    if (!Number.isInteger(vertices) || links.length !== weights.length || points.length !== 3 * weights.length) {
+      throw new ForetouchError(`weights: expected ${influences} per vertex, a link for each and three numbers of points, found ${weights.length}, ${links.length} and ${points.length}`);
+    }
+    if (triangles.length !== 3 * triangleLinks.length) throw new ForetouchError(`triangles: expected three vertices each, and a link for each, found ${triangles.length} vertices and ${triangleLinks.length} links`);
+    const used = Array.from(weights, (_, share) => share).filter((share) => weights[share] !== 0), firstShare = new Int32Array(vertices + 1);
+    for (const share of used) ++firstShare[Math.floor(share / influences) + 1];
+    for (let vertex = 0; vertex < vertices; ++vertex) firstShare[vertex + 1] += firstShare[vertex];
+    const wholes = (room: Room, values: ArrayLike<number>, name: string): number => room.integers(Array.from(values, (value) => whole(value, name)));
+    this.machine.within((room) => this.machine.ask("ft_avatar_set_skin", this.handle, room.written(structs.ft_skin, {
+      vertexCount: vertices,
+      firstShare: room.integers(firstShare),
+      shareLinks: wholes(room, used.map((share) => links[share]), "links"),
+      shareWeights: room.doubles(used.map((share) => real(weights[share], "weights"))),
+      sharePoints: room.doubles(used.flatMap((share) => [0, 1, 2].map((axis) => real(points[3 * share + axis], "points")))),
+      triangles: wholes(room, triangles, "triangles"),
+      triangleLinks: wholes(room, triangleLinks, "triangleLinks"),
+      triangleCount: triangleLinks.length,
+    }, "skin")));
   }
 
   /** Every joint as the file has it. */

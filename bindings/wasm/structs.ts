@@ -101,6 +101,10 @@ export const ft_depth = new Struct({
 
 // ask.h
 
+export const ft_skin = new Struct({
+  size, reserved: u32, vertexCount: u32, firstShare: pointer, shareLinks: pointer, shareWeights: pointer, sharePoints: pointer, triangles: pointer,
+  triangleLinks: pointer, triangleCount: u32,
+});
 export const ft_lss = new Struct({ a: point, b: point, radius: f64 });
 export const ft_ask_part = new Struct({ body: i32, link: i32, object: i32 });
 export const ft_ask_instant = new Struct({ body: i32, reserved: i32, timeUs: i64, timeFraction: f64 });

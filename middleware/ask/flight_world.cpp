@@ -16,6 +16,9 @@ using internal::WorldParts;
 Result<Done> checked(const WorldParts& world, const FlightQuestion& question) {
   FORETOUCH_CHECK(internal::checkedShape(question.shape));
   FORETOUCH_CHECK(internal::checkedHull(question.hull, question.shape));
+  if (!question.way.allFinite()) {
+    return Error::in("way", ErrorCode::NonFinite, "expected finite numbers");
+  }
   Lss there = question.shape;
   there.a += question.way;
   there.b += question.way;

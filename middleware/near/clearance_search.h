@@ -55,7 +55,8 @@ struct ClearanceMemory : ScratchPart {
     double bound;  ///< Nothing is nearer in it.
     double begin, end;
     std::int32_t curve;
-    TriangleId near;  ///< One that was near in a span around it; -1: none is known.
+    TriangleId near;         ///< One that was near in a span around it; -1: none is known.
+    double ofQuarter = 0.0;  ///< The bound that cells give about a quarter of it, at its middle.
   };
   /// Where something was near.
   struct Place {

@@ -74,7 +74,7 @@ test("what is not known is no miss", () => {
 
 test("the past is thinned, and kept within bytes", () => {
   const { world, body } = hall();
-  for (let i = 1; i <= 50; ++i) world.push(body, 1_000_000 + 1000 * i, [[1 + 0.001 * i, 0, 0]]);
+  for (let i = 1; i <= 50; ++i) world.push(body, 1_000_000 + 1000 * i, at(1 + 0.001 * i));
   const all = world.poseBytes();
   assert.equal(all, 52 * (56 + 256));
   world.thinBefore(1_050_000, 1e-6);
@@ -102,6 +102,48 @@ test("boxes are cast, overlap and are near; points are inside of what is closed"
     assert.equal(room.probe(0, [0.1, 0.1, 0.1]).verdict, "clear");
     assert.equal(room.probe(0, [1, 1, 1.5], { solids: true }).verdict, "clear");
   }
+});
+
+/** A ribbon on an arm along x, whose two links bend in the middle of it: there its vertices follow both alike. */
+const ribbon = {
+  triangles: [0, 1, 2, 1, 3, 2, 2, 3, 4, 3, 5, 4],
+  triangleLinks: [0, 0, 1, 1],
+  influences: 2,
+  links: [0, 0, 0, 0, 0, 1, 0, 1, 1, 0, 1, 0],
+  weights: [1, 0, 1, 0, 0.5, 0.5, 0.5, 0.5, 1, 0, 1, 0],
+  points: [0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, -1, 1, 0, 1, 0, 0, 1, 1, 0, -1, 0, 0, 0, 1, 0, 1, 0, 0, 0],
+};
+const arm = () => ft.avatar([0, 1].map((link) => ({ name: `link${link}`, parent: link === 0 ? null : "link0", offset: [link, 0, 0], lss: [{ a: [0, 0, 0], b: [1, 0, 0], radius: 0.01 }] })));
+
+test("a skin is met as it is bent at the instant, and by bodies that are added later", () => {
+  const world = ft.world(), avatar = arm(), bare = world.add(avatar, { group: 1 });
+  avatar.setSkin(ribbon);
+  const body = world.add(avatar), turn = Math.PI / 4;
+  for (const one of [bare, body]) {
+    world.push(one, 0, { rotations: [1, 0, 0, 0, 1, 0, 0, 0], translations: [0, 0, 0, 1, 0, 0] });
+    world.push(one, 1_000_000, { rotations: [1, 0, 0, 0, Math.cos(turn), 0, 0, Math.sin(turn)], translations: [0, 0, 0, 1, 0, 0] });
+  }
+  const from = (x, us) => world.probe(us, [x, 5, 0.5], { direction: [0, -1, 0] });
+  assert.equal(world.probe(0, [0.5, 5, 0.5], { direction: [0, -1, 0], groups: [1] }).verdict, "clear");
+  for (const [us, bent] of [[0, 0], [500_000, turn], [1_000_000, 2 * turn]]) {
+    // From the middle, at x = 1, it goes on at the second link's angle: up to one metre.
+    const x = 1 + 0.5 * Math.cos(bent), [hit] = from(us === 1_000_000 ? 0.5 : x, us).hits;
+    isAt(hit.distance, us === 1_000_000 ? 5 : 5 - 0.5 * Math.sin(bent));
+    assert.deepEqual([hit.what.body, hit.what.link], [body, us === 1_000_000 ? 0 : 1]);
+  }
+  const flight = world.fly(0, 1000, { a: [0.5, 1, 0.5], radius: 0.1 }, [0, -2, 0], { groups: [0] });
+  assert.deepEqual([flight.verdict, flight.unknown], ["unknown", [{ body, why: "unresolved", object: -1 }]]);
+  const refused = (change, words) => refuses(() => arm().setSkin({ ...ribbon, ...change }), words);
+  refused({ influences: 0 }, /^influences/);
+  refused({ influences: 5 }, /^weights: expected 5 per vertex/);
+  refused({ points: [0] }, /^weights/);
+  refused({ weights: ribbon.weights.map(() => Number.NaN) }, /weight/);
+  refused({ weights: ribbon.weights.map((weight) => 2 * weight) }, /weights that sum to one/);
+  refused({ triangles: [0, 1, 2] }, /^triangles/);
+  refused({ triangles: ribbon.triangles.map(() => 9) }, /vertices/);
+  refused({ triangles: ribbon.triangles.map(() => 0.5) }, /^triangles/);
+  refused({ triangleLinks: [0, 0, 1, 7] }, /triangle_links|link 7/);
+  refused({ links: ribbon.links.map(() => -1) }, /link/);
 });
 
 test("what flies hits where the ball is by then", () => {

@@ -67,7 +67,7 @@ AskJudge::AskJudge(const WorldQuestion& question, const std::vector<JudgedPart>&
 
 bool AskJudge::surelyTouches(const JudgedPart& part, Real until) const {
   if (question_.shape.radius + part.part.radius > 0.0) {
-    return leastGap(shape_, until, part.part, 0) < -kGuard;
+    return leastGap(shape_, until, part.part, -kGuard) < -kGuard;
   }
   if (!question_.hull.empty()) {
     return leastGap(smaller_, std::max(Real(0), until - kSmaller), part.part, 0) < 1e-15L;

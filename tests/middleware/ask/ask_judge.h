@@ -37,12 +37,12 @@ class AskJudge {
     LinkId link = 0;
     ObjectId object = kEveryObject;
     std::vector<oracle::Corners<Real>> surface;
-    Real gap = 0;     ///< Of the place and the surface.
-    Real boxGap = 0;  ///< How far it is outside of the surface's box; below 0: inside.
+    Real boxGap = 0;  ///< How far the place is outside of the surface's box; below 0: inside.
     bool isClosed = false, isInside = false;
-    bool isWithin = false;  ///< A mean of its corners.
   };
   void findSolids();
+  /// The place is so near to it that either answer is right.
+  [[nodiscard]] bool isAtSurface(const Solid& solid) const;
 
   const WorldQuestion& question_;
   const std::vector<JudgedPart>& parts_;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "middleware/ask/flight.h"
 #include "tests/middleware/ask/asked.h"
 
 namespace foretouch {
@@ -238,6 +239,21 @@ TEST(Ask, RefusesByName) {
               q.direction = Vector3d(0, 0, -1e-300);
             }),
             "");
+  const auto fly = [&](const Vector3d& way, std::int64_t toUs) {
+    FlightQuestion flight;
+    flight.way = way;
+    flight.fromUs = 500;
+    flight.toUs = toUs;
+    Scratch scratch;
+    FlightAnswer answer;
+    const auto done = askFlight(world, flight, scratch, answer);
+    return done.ok() ? std::string() : describe(done.error());
+  };
+  EXPECT_EQ(fly(Vector3d::UnitX(), 900), "");
+  EXPECT_EQ(fly(Vector3d(nan, 0, 0), 900), "way: expected finite numbers");
+  EXPECT_EQ(fly(Vector3d(0, infinite, 0), 900), "way: expected finite numbers");
+  EXPECT_NE(fly(Vector3d(1e8, 0, 0), 900).find("1e7"), std::string::npos);
+  EXPECT_NE(fly(Vector3d::UnitX(), 500).find("to_us"), std::string::npos);
 }
 
 }  // namespace

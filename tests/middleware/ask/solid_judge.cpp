@@ -35,19 +35,26 @@ bool closes(const std::vector<oracle::Corners<Real>>& surface) {
                      [](const auto& edge) { return edge.second % 2 == 0; });
 }
 
-/// In a tetrahedron of corners; of many triangles nobody looks.
+/// In a tetrahedron of corners, of which the first one is enough for all that is between them; of
+/// many triangles nobody looks.
 bool isBetween(const oracle::Vec3r& p, const std::vector<oracle::Corners<Real>>& surface) {
   constexpr std::size_t kMostTriangles = 16;
   if (surface.size() > kMostTriangles) return false;
   std::vector<oracle::Vec3r> corners;
-  for (const auto& v : surface) corners.insert(corners.end(), v.begin(), v.end());
+  std::vector<oracle::Vec3d> inDoubles;
+  for (const auto& v : surface) {
+    for (const oracle::Vec3r& corner : v) {
+      if (std::find(corners.begin(), corners.end(), corner) != corners.end()) continue;
+      corners.push_back(corner);
+      inDoubles.push_back(corner.as<double>());
+    }
+  }
+  if (oracle::isClearlyOutside(p.as<double>(), inDoubles)) return false;
   const std::size_t count = corners.size();
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 1; i < count; ++i) {
     for (std::size_t j = i + 1; j < count; ++j) {
       for (std::size_t k = j + 1; k < count; ++k) {
-        for (std::size_t l = k + 1; l < count; ++l) {
-          if (oracle::isIn(p, {corners[i], corners[j], corners[k], corners[l]})) return true;
-        }
+        if (oracle::isIn(p, {corners[0], corners[i], corners[j], corners[k]})) return true;
       }
     }
   }
@@ -70,11 +77,9 @@ void AskJudge::findSolids() {
   }
   for (auto& [key, solid] : solids) {
     constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
-    solid.gap = kInfinity;
     std::array<Real, 3> low{kInfinity, kInfinity, kInfinity};
     std::array<Real, 3> high{-kInfinity, -kInfinity, -kInfinity};
     for (const auto& v : solid.surface) {
-      solid.gap = std::min(solid.gap, oracle::closestPoints(place_, place_, v).distance);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         for (const auto& corner : v) {
           low[axis] = std::min(low[axis], corner[axis]);
@@ -87,10 +92,15 @@ void AskJudge::findSolids() {
       solid.boxGap = std::max({solid.boxGap, low[axis] - place_[axis], place_[axis] - high[axis]});
     }
     solid.isClosed = closes(solid.surface);
-    solid.isWithin = solid.boxGap < 0 && isBetween(place_, solid.surface);
     solid.isInside = solid.isClosed && solid.boxGap < 0 && oracle::isInside(place_, solid.surface);
     solids_.push_back(solid);
   }
+}
+
+bool AskJudge::isAtSurface(const Solid& solid) const {
+  return std::any_of(solid.surface.begin(), solid.surface.end(), [&](const auto& v) {
+    return oracle::closestPoints(place_, place_, v).distance < kAtSurface;
+  });
 }
 
 void AskJudge::judgeSolids(const WorldAnswer& answer, AskTally& tally) const {
@@ -105,7 +115,7 @@ void AskJudge::judgeSolids(const WorldAnswer& answer, AskTally& tally) const {
       return one.body == hit.what.body && one.link == hit.what.link && one.object == hit.object;
     });
     const bool isThere = solid != solids_.end() && solid->isClosed &&
-                         (solid->isInside || solid->gap < kAtSurface) && hit.distance == 0.0;
+                         (solid->isInside || isAtSurface(*solid)) && hit.distance == 0.0;
     if (!isThere) report("not inside", hit.what.body, hit.object);
   }
   const bool isComplete = question_.which == AskWhich::All;
@@ -114,13 +124,13 @@ void AskJudge::judgeSolids(const WorldAnswer& answer, AskTally& tally) const {
     return;
   }
   for (const Solid& solid : solids_) {
-    if (!solid.isInside || solid.gap < kAtSurface) continue;
+    if (!solid.isInside) continue;
     const bool isTold =
         std::any_of(answer.hits.begin(), answer.hits.end(), [&](const WorldHit& hit) {
           return hit.what.lss < 0 && hit.what.triangle < 0 && hit.what.body == solid.body &&
                  hit.what.link == solid.link && hit.object == solid.object;
         });
-    if (!isTold) report("missed inside", solid.body, solid.object);
+    if (!isTold && !isAtSurface(solid)) report("missed inside", solid.body, solid.object);
   }
 }
 
@@ -141,7 +151,9 @@ void AskJudge::judgeUnknown(const WorldAnswer& answer, std::vector<UnknownBody> 
       continue;
     }
     // Of what moves it is the box in its own frame, which is around all means of corners.
-    if (solid.isWithin && !isTold) tally.problems.emplace_back("missed that an object is open");
+    if (!isTold && solid.boxGap < 0 && isBetween(place_, solid.surface)) {
+      tally.problems.emplace_back("missed that an object is open");
+    }
     told.erase(std::remove_if(told.begin(), told.end(), isIt), told.end());
   }
   std::sort(others.begin(), others.end(),

@@ -119,7 +119,25 @@ class SolidHand : public testing::Test {
       ASSERT_TRUE(triggers_.update(world_->world(), events_, triggered_).ok());
       inside_.insert(inside_.end(), triggered_.events.begin(), triggered_.events.end());
     }
+    expectPressedIsOpen();
     world_->world().forgetBefore(toUs - kTickUs);
+  }
+  /// State beside events: what presses on it now is in contact with it now, since some instant.
+  void expectPressedIsOpen() {
+    const auto expectOpen = [&](BodyId other, double push) {
+      if (!(push > 0.0)) return;
+      ++pressed_;
+      const std::vector<OpenPart>& open = world_->follower().open();
+      const auto isIt = [&](const OpenPart& part) {
+        return (part.a.body == hand_ && part.b.body == other) ||
+               (part.a.body == other && part.b.body == hand_);
+      };
+      const auto part = std::find_if(open.begin(), open.end(), isIt);
+      ASSERT_NE(part, open.end()) << "pressed by " << other << " at " << world_->utimeUs();
+      EXPECT_FALSE(WorldTime{world_->utimeUs()} < part->since);
+    };
+    for (const SolidContact& held : ticks_[0].tick.contacts) expectOpen(kStillScene, held.push);
+    for (const SolidBodyContact& held : ticks_[0].contacts) expectOpen(held.body, held.push);
   }
   [[nodiscard]] double endUs() const { return static_cast<double>(world_->utimeUs()); }
 
@@ -127,6 +145,7 @@ class SolidHand : public testing::Test {
   BodyId hand_ = 0;
   std::vector<SolidBodyTick> ticks_;
   WorldEvents events_;
+  int pressed_ = 0;  // so many pushes of single contacts were looked at
   ShownWay way_;
   Told told_;
   Triggers triggers_;
@@ -148,6 +167,7 @@ TEST_F(SolidHand, EntersAWallThatStopsItAndLeavesIt) {
   EXPECT_GT(times[1] - times[0], 400'000.0);
   // At 2 m/s the tolerance is half a millisecond; a contact may last until twice the tolerance.
   expectTold(told_.of(hand_, kStillScene), times, 1'500.0);
+  EXPECT_GT(pressed_, 40);
 }
 
 TEST_F(SolidHand, EntersAndLeavesWhatMoves) {
@@ -174,6 +194,7 @@ TEST_F(SolidHand, EntersAndLeavesWhatMoves) {
   ASSERT_GE(near.size(), 3U);
   std::vector<WorldEvent> events = told_.of(hand_, lift);
   expectTold(events, near, 8'000.0);
+  EXPECT_GT(pressed_, 40);
 }
 
 TEST_F(SolidHand, GoesThroughVolumesThatTellOfIt) {
