@@ -35,7 +35,13 @@ def moving_lines(p, ends, width, color, opacity=1.0):
     p.parts.append(f'<line {first} stroke="{color}" stroke-width="{width:g}" stroke-opacity="{opacity:g}">{parts}</line>')
 
 
-def legend(p, width, words):
+def tracked_and_shown(p, ways, radius, width, words):
+    """Two capsules by their ends over time, and what the picture is of."""
+    tracked, shown = ways
+    p.parts.append('<g opacity="0.5">')
+    p.capsule_through(tracked, radius, ORANGE)
+    p.parts.append("</g>")
+    p.capsule_through(shown, radius, "#7fa3dc", BLUE)
     p.box(0, 0, width, 40, "none", PAPER, 0.86)
     p.text(14, 26, "tracked", ORANGE, weight="bold")
     p.text(86, 26, "shown", BLUE, weight="bold")
@@ -66,15 +72,8 @@ def godot(rows):
     moving_lines(p, door, 0.03 * scale, WOOD)
     p.dot(at(1.0, -0.4), 4, INK)
 
-    def hand(column, color, edge=None):
-        ends = [(at(row[column], row[column + 1] - 0.03), at(row[column], row[column + 1] + 0.27)) for row in rows]
-        p.capsule_through(ends, 0.03 * scale, color, edge)
-
-    p.parts.append('<g opacity="0.5">')
-    hand(0, ORANGE)
-    p.parts.append("</g>")
-    hand(2, "#7fa3dc", BLUE)
-    legend(p, 560, "between bars, at a button, through a door that gives way")
+    hands = [[(at(row[column], row[column + 1] - 0.03), at(row[column], row[column + 1] + 0.27)) for row in rows] for column in (0, 2)]
+    tracked_and_shown(p, hands, 0.03 * scale, 560, "between bars, at a button, through a door that gives way")
     p.write("godot.svg")
 
 
@@ -91,15 +90,8 @@ def unity(rows):
     px, py = at(-0.8, 0.02)
     p.box(px, py, 1.6 * scale, 0.04 * scale, WOOD, WOOD, 0.6)
 
-    def ball(column, color, edge=None):
-        ends = [(at(row[column], row[column + 1]),) * 2 for row in rows]
-        p.capsule_through(ends, 0.05 * scale, color, edge)
-
-    p.parts.append('<g opacity="0.5">')
-    ball(0, ORANGE)
-    p.parts.append("</g>")
-    ball(2, "#7fa3dc", BLUE)
-    legend(p, 480, "the sample Hand on a desk")
+    balls = [[(at(row[column], row[column + 1]),) * 2 for row in rows] for column in (0, 2)]
+    tracked_and_shown(p, balls, 0.05 * scale, 480, "the sample Hand on a desk")
     p.write("unity.svg")
 
 

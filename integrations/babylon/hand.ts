@@ -2,7 +2,7 @@
 
 import type { Camera, Nullable, WebXRSessionManager } from "@babylonjs/core";
 import { ForetouchError } from "foretouch";
-import { framesOf, handParents, type JointSource, linksOfHand, moveHand, readHand, RigidPart, trackedHand } from "foretouch/host";
+import { framesOf, type JointSource, moveHand, readHand, RigidPart, sourceOfHand } from "foretouch/host";
 import type { Thing } from "./objects.js";
 import type { Hand } from "./touchers.js";
 
@@ -14,9 +14,9 @@ export interface Experience {
 }
 
 export function handSource({ sessionManager, camera = null }: Experience, handedness: "left" | "right", hand: Hand): JointSource<Thing> {
-  const tracked = trackedHand(), name = `The ${handedness} hand`;
+  const name = `The ${handedness} hand`;
   let rig: RigidPart | null = null;
-  const read = (): boolean => {
+  return sourceOfHand<Thing>(hand.object, name, (tracked) => {
     const { currentFrame: frame, referenceSpace, session } = sessionManager;
     const source = frame ? Array.from(session?.inputSources ?? []).find((one) => one.handedness === handedness && one.hand) : undefined;
     if (!frame || source === undefined || !readHand(frame, source, referenceSpace, tracked)) return false;
@@ -27,19 +27,5 @@ export function handSource({ sessionManager, camera = null }: Experience, handed
     if (rig.scale === null || !rig.read(matrix, frames, 0)) throw new ForetouchError(`${name}: the camera's parent is scaled unevenly, or its scale has changed; expected one scale that stays`);
     moveHand(tracked, frames, rig.scale);
     return true;
-  };
-  return {
-    object: hand.object,
-    name,
-    parents: handParents,
-    links: () => (read() ? linksOfHand(tracked) : null),
-    read: ({ rotations, places }) => {
-      if (!read()) return false;
-      rotations.set(tracked.frames.rotations);
-      places.set(tracked.frames.places);
-      return true;
-    },
-    show: (frames) => hand.show(frames, tracked.radii),
-    tell: hand.tell,
-  };
+  }, (frames, radii) => hand.show(frames, radii), hand.tell);
 }

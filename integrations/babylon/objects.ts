@@ -2,6 +2,7 @@
 
 import type { AbstractMesh, Mesh, Node, Scene, TransformNode } from "@babylonjs/core";
 import { Matrix, Quaternion } from "@babylonjs/core/Maths/math.vector.js";
+import { ForetouchError } from "foretouch";
 import type { Host, HostMesh, Note } from "foretouch/host";
 import { SkinnedNodes } from "./skinned.js";
 
@@ -10,6 +11,12 @@ export type Thing = TransformNode | Scene;
 
 export const isScene = (thing: Thing | Node): thing is Scene => "rootNodes" in thing;
 export const nameOf = (thing: Thing): string => (isScene(thing) ? "the scene" : thing.name === "" ? `${thing.getClassName()} ${thing.uniqueId}` : thing.name);
+
+/** Where a node is; of what was disposed of Babylon.js goes on to say where it was last. */
+export function worldOf(node: TransformNode): Matrix {
+  if (node.isDisposed()) throw new ForetouchError(`${nameOf(node)} was disposed of; remove it from the world, too`);
+  return node.computeWorldMatrix(true);
+}
 
 /** A node's place in the world becomes this one. */
 export function putInWorld(node: TransformNode, elements: ArrayLike<number>): void {
@@ -48,7 +55,7 @@ export const babylon = (isRightHanded: boolean): Host<Thing> => ({
   mirror: isRightHanded ? 1 : -1,
   nameOf,
   parentOf: (thing) => (isScene(thing) ? null : ((thing.parent as TransformNode | null) ?? thing.getScene())),
-  matrixOf: (thing) => (thing as TransformNode).computeWorldMatrix(true).asArray(),
+  matrixOf: (thing) => worldOf(thing as TransformNode).asArray(),
   place: (thing, matrix) => putInWorld(thing as TransformNode, matrix),
   meshesOf,
   skinnedOf: (root) => new SkinnedNodes(root),

@@ -4,7 +4,7 @@ import type { AbstractMesh, Bone, Node, Skeleton } from "@babylonjs/core";
 import { Matrix, Quaternion, Vector3 } from "@babylonjs/core/Maths/math.vector.js";
 import { ForetouchError } from "foretouch";
 import type { HostBone, HostSkin, Skinned } from "foretouch/host";
-import { isScene, nameOf, type Thing } from "./objects.js";
+import { isScene, nameOf, type Thing, worldOf } from "./objects.js";
 
 export class SkinnedNodes implements Skinned<Thing> {
   readonly bones: readonly HostBone[];
@@ -53,7 +53,7 @@ export class SkinnedNodes implements Skinned<Thing> {
 
   /** Every bone's matrix to the world, as the mesh is drawn by. */
   private worlds(): Matrix[] {
-    const { skeleton, mesh } = this, all = new Map<Bone, Matrix>(), world = mesh.computeWorldMatrix(true);
+    const { skeleton, mesh } = this, all = new Map<Bone, Matrix>(), world = worldOf(mesh);
     skeleton.prepare(true);
     const of = (bone: Bone): Matrix => {
       let matrix = all.get(bone);

@@ -1,7 +1,7 @@
 // What is added to a world: it hears what it touches.
 
 import { EventDispatcher, Group, type Object3D, Vector3 } from "three";
-import type { SolidBodyTick, SolidState } from "foretouch";
+import type { Point, SolidBodyTick, SolidState } from "foretouch";
 import { type Frames, handJoints, type JointMember, type Press, type RigidMember, stateOf, type SceneWorld, type Touch as HostTouch, usualRadius } from "foretouch/host";
 
 /** A touch, as its listeners have it: `object` is what is touched. */
@@ -15,7 +15,8 @@ export type Touches = { [K in HostTouch<Object3D>["kind"]]: Touch };
 /** Where a surface holds or pushes a solid body. */
 export type Pressing = Omit<Press<Object3D>, "point" | "normal"> & { readonly point: Vector3; readonly normal: Vector3 };
 
-export const threes = ({ kind, point, normal, ...touch }: HostTouch<Object3D>): Touch & { readonly type: HostTouch<Object3D>["kind"] } => ({ ...touch, type: kind, point: new Vector3(...point), normal: new Vector3(...normal) });
+const placed = <T extends { readonly point: Point; readonly normal: Point }>(told: T) => ({ ...told, point: new Vector3(...told.point), normal: new Vector3(...told.normal) });
+export const threes = ({ kind, ...touch }: HostTouch<Object3D>): Touch & { readonly type: HostTouch<Object3D>["kind"] } => ({ ...placed(touch), type: kind });
 
 /** "enter", "leave", "starts_inside", "unresolved_from", "unresolved_to". */
 export class Toucher extends EventDispatcher<Touches> {
@@ -57,7 +58,7 @@ export class Body extends Toucher {
 
   /** Where surfaces hold or push it. */
   get presses(): Pressing[] {
-    return this.member === null ? [] : this.world.presses(this.member).map((press) => ({ ...press, point: new Vector3(...press.point), normal: new Vector3(...press.normal) }));
+    return this.member === null ? [] : this.world.presses(this.member).map(placed);
   }
 }
 

@@ -53,6 +53,8 @@ export class Engine {
   private still: Scene | null = null;
   private readonly shapes = new Map<number, Avatar | Scene>();
   private world: SolidWorld | null = null;
+  /** Where the last tick ended. */
+  private timeUs = 0;
 
   constructor(readonly library: Foretouch) {}
 
@@ -82,7 +84,7 @@ export class Engine {
     if (this.still === null) this.stands(null);
     const world = this.library.solidWorld(this.still as Scene, timeUs, options);
     this.world?.dispose();
-    this.world = world;
+    [this.world, this.timeUs] = [world, timeUs];
     for (const body of bodies) this.join(timeUs, body);
   }
 
@@ -94,13 +96,14 @@ export class Engine {
   }
 
   tick({ timeUs, moves, targets, holds }: Tick): Told {
-    const all = this.begun(), { world } = all, beganUs = all.timeUs;
+    const all = this.begun(), { world } = all, beganUs = this.timeUs;
     for (const { body, by, pose } of holds) {
       if (by === null) world.detach(body, beganUs, pose);
       else world.attach(body, by.body, beganUs, pose, { link: by.link });
     }
     for (const { body, pose } of moves) world.push(body, timeUs, pose);
     const solids = all.tick(timeUs, targets);
+    this.timeUs = timeUs;
     const { events } = all.follow();
     // Whoever is held or let go of next, is so from this tick's end on.
     world.forgetBefore(beganUs);

@@ -141,7 +141,8 @@ export class RigidPart {
     places[3 * at] = matrix[12];
     places[3 * at + 1] = matrix[13];
     places[3 * at + 2] = this.mirror * matrix[14];
-    quaternionOf(xx, yy, zz, yz - zy, zx - xz, xy - yx, yx + xy, zx + xz, zy + yz, rotations, 4 * at);
+    l[0] = xx; l[1] = xy; l[2] = xz; l[3] = yx; l[4] = yy; l[5] = yz; l[6] = zx; l[7] = zy; l[8] = zz;
+    quaternionOf(l, rotations, 4 * at);
     const off = Math.max(
       Math.abs(xx * xx + xy * xy + xz * xz - 1), Math.abs(yx * yx + yy * yy + yz * yz - 1), Math.abs(zx * zx + zy * zy + zz * zz - 1),
       Math.abs(xx * yx + xy * yy + xz * yz), Math.abs(xx * zx + xy * zy + xz * zz), Math.abs(yx * zx + yy * zy + yz * zz),
@@ -180,8 +181,9 @@ function invert(a: Float64Array, out: Float64Array): void {
   out.set([c0, c1, c2, a[5] * a[6] - a[3] * a[8], a[0] * a[8] - a[2] * a[6], a[2] * a[3] - a[0] * a[5], a[3] * a[7] - a[4] * a[6], a[1] * a[6] - a[0] * a[7], a[0] * a[4] - a[1] * a[3]].map((value) => value / volume));
 }
 
-/** Of a rotation: its diagonal, the differences and sums of what lies across it. */
-function quaternionOf(xx: number, yy: number, zz: number, dx: number, dy: number, dz: number, sz: number, sy: number, sx: number, out: Float64Array, at: number): void {
+/** Of a rotation, column after column. Numbers that are handed on one by one would be garbage. */
+function quaternionOf(r: Float64Array, out: Float64Array, at: number): void {
+  const xx = r[0], yy = r[4], zz = r[8], dx = r[5] - r[7], dy = r[6] - r[2], dz = r[1] - r[3], sx = r[7] + r[5], sy = r[6] + r[2], sz = r[3] + r[1];
   let w = 1 + xx + yy + zz, x = dx, y = dy, z = dz;
   if (w < 1) {
     if (xx >= yy && xx >= zz) [w, x, y, z] = [dx, 1 + xx - yy - zz, sz, sy];

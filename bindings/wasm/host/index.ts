@@ -12,4 +12,4 @@ export { serve } from "./serve.js";
 export { fitted, type HostBone, type HostSkin, readRig, type Rig, rigOf } from "./skin.js";
 export { TouchWorld, type TouchWorldOptions } from "./touch_world.js";
 export { type Press, type Touch, type TouchCause } from "./touches.js";
-export { type HandFrame, type HandSource, handJoints, handParents, linksOfHand, moveHand, readHand, type TrackedHand, trackedHand, usualRadius } from "./webxr_hand.js";
+export { type HandFrame, type HandSource, handJoints, moveHand, readHand, sourceOfHand, type TrackedHand, usualRadius } from "./webxr_hand.js";

@@ -3,6 +3,7 @@
 import type { Point } from "../machine.js";
 import type { Link } from "../shapes.js";
 import { type Frames, framesOf, localPose, poseRoom, worldFrames } from "./frames.js";
+import type { JointSource } from "./members.js";
 
 const fingers = ["thumb", "index-finger", "middle-finger", "ring-finger", "pinky-finger"];
 const segments = ["metacarpal", "phalanx-proximal", "phalanx-intermediate", "phalanx-distal", "tip"];
@@ -63,6 +64,20 @@ export function moveHand({ frames, radii }: TrackedHand, rig: Frames, scale: num
   frames.rotations.set(all.rotations.subarray(4));
   frames.places.set(all.places.subarray(3));
   radii.forEach((radius, joint) => (radii[joint] = scale * radius));
+}
+
+/** A hand as a world has it. `track`: where all its joints are now; false: not all are tracked. */
+export function sourceOfHand<O>(object: O, name: string, track: (hand: TrackedHand) => boolean, show: (frames: Frames, radii: Float64Array) => void, tell: NonNullable<JointSource<O>["tell"]>): JointSource<O> {
+  const first = trackedHand(), { radii } = first;
+  return {
+    object,
+    name,
+    parents: handParents,
+    links: () => (track(first) ? linksOfHand(first) : null),
+    read: (frames) => track({ frames, radii }),
+    show: (frames) => show(frames, radii),
+    tell,
+  };
 }
 
 /**

@@ -133,3 +133,17 @@ test("bad habits are told in Babylon's words", async () => {
   assert.deepEqual(notes, ["The skeleton of worm has changed: it has 4 bones, and had 5; remove the body and add it anew"]);
   assert.equal(hand.state, "equal");
 });
+
+test("what is disposed of by whoever is told is told of, and in nobody's way", async () => {
+  const scene = sceneOf(), notes = [], xr = experience(), door = box(scene, "door", [2, 2, 0.02], [0, 0, 0.5]), tracked = worm(scene);
+  tracked.position.x = 5;
+  const world = new TouchWorld(ft, scene, { note: (words) => notes.push(words) });
+  world.addMoving(door);
+  await world.addBody(tracked);
+  const hand = world.addHand(xr, "right");
+  hand.onEnterObservable.add(() => (door.dispose(), tracked.dispose()));
+  let now = frames(world, 5, () => xr.lead([0, 0, 0]));
+  now = frames(world, 72, () => xr.lead([0, 0, -1]), now);
+  assert.deepEqual(notes, ["door was disposed of; remove it from the world, too", "worm was disposed of; remove it from the world, too"]);
+  assert.equal(hand.state, "equal");
+});

@@ -36,8 +36,8 @@ static double determinant(const double m[9]) {
          m[2] * (m[3] * m[7] - m[4] * m[6]);
 }
 
-/* Of a rotation matrix, by its largest component, so that nothing cancels. */
-static void quaternion_of(const double m[9], double q[4]) {
+/* Of a rotation matrix times `scale`, by its largest component, so that nothing cancels. */
+static void quaternion_of(const double m[9], double scale, double q[4]) {
   const double trace[4] = {m[0] + m[4] + m[8], m[0] - m[4] - m[8], m[4] - m[0] - m[8],
                            m[8] - m[0] - m[4]};
   double length = 0;
@@ -47,34 +47,36 @@ static void quaternion_of(const double m[9], double q[4]) {
   {
     const double wx = m[7] - m[5], wy = m[2] - m[6], wz = m[3] - m[1];
     const double xy = m[3] + m[1], xz = m[2] + m[6], yz = m[7] + m[5];
-    const double rows[4][4] = {
-        {1 + trace[0], wx, wy, wz}, {wx, 1 + trace[1], xy, xz}, {wy, xy, 1 + trace[2], yz}, {wz, xz, yz, 1 + trace[3]}};
+    const double own = scale + trace[largest];
+    const double rows[4][4] = {{own, wx, wy, wz}, {wx, own, xy, xz}, {wy, xy, own, yz}, {wz, xz, yz, own}};
     for (i = 0; i < 4; ++i) {
       q[i] = rows[largest][i];
       length += q[i] * q[i];
     }
   }
-  length = sqrt(length);
-  for (i = 0; i < 4; ++i) q[i] /= length;
+  length = 1 / sqrt(length);
+  for (i = 0; i < 4; ++i) q[i] *= length;
 }
 
+/* Roots and quotients are most of what it costs to read a skeleton: one root and no quotient here. */
 bool place_of(const Affine* from, Place* place, double scales[3]) {
-  double turn[9];
-  int row, column;
-  for (column = 0; column < 3; ++column) {
-    const double x = from->basis[column], y = from->basis[3 + column], z = from->basis[6 + column];
-    scales[column] = sqrt(x * x + y * y + z * z);
+  const double* m = from->basis;
+  double squares[3], volume = determinant(m);
+  bool is_even = true;
+  int i;
+  for (i = 0; i < 3; ++i) {
+    squares[i] = m[i] * m[i] + m[3 + i] * m[3 + i] + m[6 + i] * m[6 + i];
+    is_even = is_even && isfinite(from->origin[i]) && fabs(squares[i] - squares[0]) <= 2 * SCALE_SLACK * squares[0];
   }
-  for (column = 0; column < 3; ++column) {
-    if (!(scales[column] > 0) || !isfinite(scales[column]) || !isfinite(from->origin[column])) return false;
-    if (!(fabs(scales[column] - scales[0]) <= SCALE_SLACK * scales[0])) return false;
-    for (row = 0; row < 3; ++row) turn[3 * row + column] = from->basis[3 * row + column] / scales[column];
+  place->scale = sqrt(squares[0]);
+  /* Of axes at right angles the volume is the product of their lengths, and below it where they are mirrored. */
+  if (!is_even || !(volume > 0) || !isfinite(place->scale) ||
+      !(volume * volume > (1 - 2 * SCALE_SLACK * SCALE_SLACK) * squares[0] * squares[1] * squares[2])) {
+    for (i = 0; i < 3; ++i) scales[i] = sqrt(squares[i]);
+    return false;
   }
-  /* 1 for a rotation, below it where axes are not at right angles, -1 where it is mirrored. */
-  if (!(determinant(turn) > 1 - SCALE_SLACK * SCALE_SLACK)) return false;
-  quaternion_of(turn, place->rotation);
-  for (row = 0; row < 3; ++row) place->position[row] = from->origin[row];
-  place->scale = scales[0];
+  quaternion_of(m, place->scale, place->rotation);
+  for (i = 0; i < 3; ++i) place->position[i] = from->origin[i];
   return true;
 }
 

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <time.h>
 
-#define ROUNDS 40
-#define FRAMES 2000
+#define ROUNDS 100
+#define FRAMES 200
 #define MOST 4096
 
 static ft_contact contacts[MOST];

@@ -1,11 +1,11 @@
-# What steps cost in GDScript: of the bundled clip, and of a Skeleton and a Spatial that move; the least of several
+# What steps cost in GDScript: of the bundled clip, and of a Skeleton and a Spatial that move; the least of many short
 # rounds. Poses go into a file for cost.c, which asks the same in C.
 extends "check.gd"
 
 const FtScene := preload("res://addons/foretouch/ft_scene.gdns")
 const FtBody := preload("res://addons/foretouch/ft_body.gdns")
-const ROUNDS := 40
-const FRAMES := 2000
+const ROUNDS := 100
+const FRAMES := 200
 
 
 func _init() -> void:

@@ -131,3 +131,17 @@ test("what a host's bad habits are told, and what happens then", async () => {
   assert.ok(told().has("prop: prop: its scale has changed; expected the one that it was added with: remove it and add it anew"));
   assert.equal(hand.state, "equal");
 });
+
+test("who is told may remove what it touches, and itself", () => {
+  const room = new THREE.Scene(), space = handSpace(), other = handSpace(), door = box("door", [0.02, 2, 2], [0.5, 0, 0], room);
+  const world = worldOf(room), moving = world.addMoving(door), hand = world.addHand(space), gone = world.addHand(other), told = [];
+  let now = frames(world, 5, () => [space, other].forEach((one, i) => lead(one, [0, i, 0])));
+  gone.addEventListener("enter", () => world.remove(gone));
+  now = frames(world, 20, () => lead(other, [1, 1, 0]), now);
+  assert.ok(gone.member.body < 0 && hand.state === "equal");
+  hand.addEventListener("enter", ({ object }) => (told.push(object), world.remove(moving)));
+  hand.addEventListener("leave", ({ cause }) => told.push(cause));
+  now = frames(world, 72, () => lead(space, [1, 0, 0]), now);
+  assert.ok(told.includes(door) && told.at(-1) === "gap", "the touch ends with what is touched");
+  assert.ok(hand.state === "equal" && hand.shown.joints.wrist.position.x > 0.99);
+});
