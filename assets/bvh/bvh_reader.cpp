@@ -12,6 +12,7 @@
 
 #include "articulated/try.h"
 #include "assets/bvh/bvh_hierarchy.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/bvh/bvh_text.h"
 #include "assets/text_file.h"
 #include "lss/index.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "articulated/clip.h"
-#include "assets/bvh/bvh_reader.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/decimal.h"
 #include "assets/text_file.h"
 

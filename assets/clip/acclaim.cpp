@@ -10,7 +10,7 @@
 
 #include "articulated/quoted.h"
 #include "articulated/try.h"
-#include "assets/bvh/bvh_reader.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/bvh/bvh_text.h"
 #include "assets/clip/asf_skeleton.h"
 #include "lss/index.h"

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "articulated/try.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/clip/acclaim.h"
 #include "assets/clip/webxr_session.h"

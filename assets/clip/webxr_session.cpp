@@ -12,7 +12,7 @@
 
 #include "articulated/quoted.h"
 #include "articulated/try.h"
-#include "assets/bvh/bvh_reader.h"
+#include "assets/bvh/bvh_limits.h"
 #include "lss/index.h"
 
 namespace foretouch {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "articulated/result.h"
-#include "assets/import/scene_import.h"
+#include "assets/import/imported_scene.h"
 
 namespace foretouch::internal {
 

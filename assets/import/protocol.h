@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-#include "assets/import/scene_import.h"
+#include "assets/import/imported_scene.h"
 #include "assets/import/stream.h"
 
 namespace foretouch::internal {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "articulated/result.h"
-#include "assets/import/scene_import.h"
+#include "assets/import/imported_scene.h"
 #include "assets/import/stream.h"
 
 namespace foretouch::internal {

@@ -10,6 +10,7 @@
 
 #include "articulated/robot.h"
 #include "articulated/try.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/model/joint_table.h"
 #include "assets/model/model_avatar.h"

@@ -8,6 +8,7 @@
 
 #include "articulated/skeleton.h"
 #include "articulated/try.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/bvh/bvh_text.h"
 #include "assets/text_file.h"

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "articulated/try.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/model/chord_error.h"
 #include "assets/model/model_avatar.h"

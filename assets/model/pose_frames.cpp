@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "articulated/try.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/bvh/bvh_text.h"
 #include "assets/model/model_ownership.h"

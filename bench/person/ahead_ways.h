@@ -12,7 +12,7 @@
 #include "articulated/avatar.h"
 #include "articulated/skeleton.h"
 #include "bench/person/held_back.h"
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 
 namespace foretouch::tools {
 

@@ -6,7 +6,7 @@
 #include "bench/person/bounded_person.h"
 #include "bench/person/person_tally.h"
 #include "bench/solid/stage.h"
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 
 namespace foretouch::tools {
 

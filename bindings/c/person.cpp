@@ -13,7 +13,7 @@
 #include "bindings/c/query_options.h"
 #include "bindings/c/sized_struct.h"
 #include "lss/index.h"
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 
 /// For one thread.
 struct ft_brackets {

@@ -14,7 +14,7 @@
 #include "bindings/python/poses.h"
 #include "bindings/python/query_options.h"
 #include "lss/index.h"
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 
 namespace foretouch::python {
 namespace {
@@ -269,8 +269,7 @@ void bindPerson(py::module_& module) {
       .def(py::init(&createQuery), py::arg("avatar").none(false), py::arg("scene").none(false),
            py::kw_only(), py::arg("fidelity") = "link", py::arg("surface") = py::none(),
            py::arg("ignore") = py::tuple(), py::arg("self_pairs") = py::none(),
-           py::arg("resolution") = BracketOptions{}.resolution,
-           py::arg("work_budget") = py::none(),
+           py::arg("resolution") = BracketOptions{}.resolution, py::arg("work_budget") = py::none(),
            "fidelity: 'link', or 'exact' (triangles, which are never certain; needs surface).\n"
            "ignore, self_pairs: as of a Query. resolution: metres; instants are as near to the\n"
            "true ones as that. work_budget: evaluations (about 10 ns each) that a step may cost;\n"

@@ -1,5 +1,3 @@
-#include "middleware/bracket/bracket_query.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,6 +8,7 @@
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
+#include "middleware/bracket/bracket.h"
 #include "middleware/bracket/bracket_run.h"
 #include "middleware/pair/query_plan.h"
 

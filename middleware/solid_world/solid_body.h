@@ -13,7 +13,7 @@
 #include "middleware/solid_world/held_tools.h"
 #include "middleware/solid_world/moving_controller.h"
 #include "middleware/solid_world/passage.h"
-#include "middleware/solid_world/solid_world.h"
+#include "middleware/solid_world/solid_body_tick.h"
 #include "middleware/solid_world/world_movers.h"
 
 namespace foretouch::internal {

@@ -11,7 +11,7 @@
 #include "middleware/depth/body_places.h"
 #include "middleware/events/world_event.h"
 #include "middleware/triggers/presence.h"
-#include "middleware/triggers/triggers.h"
+#include "middleware/triggers/trigger_event.h"
 #include "middleware/triggers/volume_parts.h"
 #include "middleware/world/world_parts.h"
 

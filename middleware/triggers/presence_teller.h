@@ -8,7 +8,7 @@
 
 #include "middleware/triggers/link_presence.h"
 #include "middleware/triggers/presence.h"
-#include "middleware/triggers/triggers.h"
+#include "middleware/triggers/trigger_event.h"
 
 namespace foretouch::internal {
 

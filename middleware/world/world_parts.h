@@ -12,7 +12,7 @@
 #include "lss/index.h"
 #include "middleware/scene/scene.h"
 #include "middleware/surface/link_surface.h"
-#include "middleware/world/world.h"
+#include "middleware/world/world_options.h"
 #include "tessellation/aabb.h"
 
 namespace foretouch::internal {

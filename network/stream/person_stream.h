@@ -27,7 +27,7 @@
 #include "articulated/skeleton.h"
 #include "assets/bounds/bounds_file.h"
 #include "middleware/bracket/axis_places.h"
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 #include "middleware/scene/scene.h"
 #include "network/stream/avatar_stream.h"
 #include "network/wire/messages.h"

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "network/stream/avatar_stream.h"
+#include "network/stream/stream_policy.h"
 #include "network/wire/messages.h"
 
 namespace foretouch::internal {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "assets/bvh/bvh_limits.h"
 #include "assets/bvh/bvh_reader.h"
 #include "tests/assets/bvh_samples.h"
 

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "assets/bounds/bounds_file.h"
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 #include "tests/bindings/c_world.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/support/temp_folder.h"

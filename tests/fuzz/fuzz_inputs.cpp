@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "assets/avatar/avatar_file.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/bvh/bvh_reader.h"
 #include "tests/fuzz/promise.h"
 

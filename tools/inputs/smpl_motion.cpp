@@ -10,7 +10,7 @@
 
 #include "articulated/quoted.h"
 #include "articulated/try.h"
-#include "assets/bvh/bvh_reader.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/clip/clip_file.h"
 #include "assets/text_file.h"
 #include "lss/index.h"

@@ -11,6 +11,7 @@
 
 #include "articulated/skeleton.h"
 #include "articulated/try.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/text_file.h"
 #include "lss/index.h"

@@ -11,7 +11,7 @@
 #include "articulated/motion_model.h"
 #include "articulated/result.h"
 #include "assets/bounds/bounds_file.h"
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 #include "tools/inputs/replay_inputs.h"
 #include "tools/person/bracket_joiner.h"
 #include "tools/person/person_counts.h"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "articulated/try.h"
+#include "assets/bvh/bvh_limits.h"
 #include "assets/bvh/bvh_reader.h"
 #include "assets/bvh/bvh_rewrite.h"
 #include "assets/clip/clip_file.h"

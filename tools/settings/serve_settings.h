@@ -8,7 +8,7 @@
 
 #include "articulated/result.h"
 #include "network/service/service.h"
-#include "network/stream/avatar_stream.h"
+#include "network/stream/stream_policy.h"
 #include "network/vmc/vmc_body.h"
 #include "network/wire/wire.h"
 #include "network/world_stream/world_setup.h"

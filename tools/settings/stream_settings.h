@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "network/stream/avatar_stream.h"
+#include "network/stream/stream_policy.h"
 #include "network/world_stream/world_setup.h"
 #include "tools/settings/settings.h"
 #include "tools/settings/solid_settings.h"

@@ -13,7 +13,7 @@
 #include "assets/bounds/bound_presets.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 #include "tools/json_line.h"
 #include "tools/person/bound_check.h"
 

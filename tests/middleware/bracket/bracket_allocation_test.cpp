@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 #include "tests/middleware/random_scene.h"
 #include "tests/support/allocation_count.h"
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 #include "tests/middleware/random_scene.h"
 
 namespace foretouch {

@@ -1,10 +1,9 @@
 // What brackets say of a ball whose true touches are known in closed form.
-#include "middleware/bracket/bracket_query.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "middleware/bracket/bracket.h"
 #include "tests/middleware/balls.h"
 #include "tests/middleware/own_body.h"
 #include "tests/support/random_motion.h"

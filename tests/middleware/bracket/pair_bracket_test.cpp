@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "judge/plain_motion.h"
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 #include "tests/middleware/balls.h"
 #include "tests/middleware/own_body.h"
 #include "tests/support/random_motion.h"

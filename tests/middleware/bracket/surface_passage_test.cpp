@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 #include "tests/middleware/balls.h"
 #include "tests/support/random_geometry.h"
 

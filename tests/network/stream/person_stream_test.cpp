@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/bracket/bracket_query.h"
+#include "middleware/bracket/bracket.h"
 #include "network/stream/stream_solver.h"
 #include "network/wire/codec.h"
 #include "tests/network/small_stream.h"
