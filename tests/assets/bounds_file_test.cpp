@@ -170,7 +170,9 @@ TEST(BoundPresets, ClaimNothingOfWhatIsNotTracked) {
 }
 
 TEST(BoundPresets, SayAtWhatQuantileTheirErrorHolds) {
-  for (const BoundEntry& entry : readBounds("preset:markerless").value().entries) {
+  const auto file = readBounds("preset:markerless");
+  ASSERT_TRUE(file.ok());
+  for (const BoundEntry& entry : file.value().entries) {
     EXPECT_EQ(entry.quantile, 0.9);
     EXPECT_EQ(entry.bound.error, 0.04);
   }
