@@ -146,13 +146,13 @@ Result<JudgedTable> clearancesTable(const std::string& dataFolder, int triangles
       {"clearances",
        "How near edges of a Panda come to a room of " + std::to_string(triangles) + " triangles",
        {{"edges", "edges"},
-        {"count", "clearances"},
+        {"count", "clearances", 0},
         {"tolerance_mm", "known to mm", 1},
         {"us", "us per clearance", 2},
         {"touching_percent", "touch %", 1},
         {"mean_cm", "else mean, cm", 1},
-        {"judged", "judged"},
-        {"wrong", "wrong bounds"}},
+        {"judged", "judged", 0},
+        {"wrong", "wrong bounds", 0}},
        {}},
       0};
   const std::filesystem::path file =

@@ -84,7 +84,8 @@ void BodyAsker::askSkin(BodyId body, const PieceBoxes* pieces, const AskedShape&
   Aabb place;
   place.add(shape.lss.a);
   place.grow(shape.rounding);
-  if (open_ != nullptr && shape.moved == 0.0 && memory_.bodies.box(body).overlaps(place)) {
+  if (open_ != nullptr && shape.moved == 0.0 && memory_.bodies.box(body).overlaps(place) &&
+      asker.takesTriangles(body)) {
     open_->push_back({body, AskUnknown::Open, kEveryObject});
   }
   const std::vector<LinkPlace>& places = memory_.bodies.places(body);

@@ -62,6 +62,13 @@ void SkinAsker::findBounds(const Vector3d& origin, double extent) {
       .nearest(static_cast<int>(memory_.bounds.size()), lower, upper, memory_.bounds.data());
 }
 
+bool SkinAsker::takesTriangles(BodyId body) const {
+  for (LinkId link = 0; link < kind_.skeleton.numJoints(); ++link) {
+    if (skin_.numTriangles(link) > 0 && filter_.takes(body, link, kEveryObject)) return true;
+  }
+  return false;
+}
+
 bool SkinAsker::findLinks(BodyId body, const PieceBoxes* pieces) {
   const std::int32_t count = kind_.skeleton.numJoints();
   memory_.bounds.assign(countOf(count), 0.0);

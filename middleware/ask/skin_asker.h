@@ -38,6 +38,8 @@ class SkinAsker {
   SkinAsker(const BodyKind& kind, const AskedShape& shape, const AskFilter& filter, bool isAssumed,
             HitList& hits, SkinMemory& memory);
 
+  /// Some of its triangles are asked about, wherever they are.
+  [[nodiscard]] bool takesTriangles(BodyId body) const;
   /// Whose surface the shape may come to, by the boxes of `pieces`; every link if that is null.
   /// False: none's.
   [[nodiscard]] bool findLinks(BodyId body, const PieceBoxes* pieces);

@@ -41,6 +41,11 @@ TEST(AskOracle, QuestionsNowAndThenAreAnsweredAsTheJudgeSees) {
   EXPECT_LE(static_cast<double>(tally.widest), 1.01 * kAskTolerance);
 }
 
+// Of a body with a skin, a link that has no triangles of it, asked about alone, is not open.
+TEST(AskOracle, ALinkBesideASkinIsNotOpen) {
+  EXPECT_TRUE(test::judgeQuestions(4'000'105, 66).problems.empty());
+}
+
 /// So many answers of few are found wrong.
 std::size_t problemsWith(const AskTamper& tamper) {
   return judgeSome(12, 40, tamper).problems.size();

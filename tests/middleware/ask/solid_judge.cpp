@@ -161,7 +161,17 @@ void AskJudge::judgeUnknown(const WorldAnswer& answer, std::vector<UnknownBody> 
   const bool isSame =
       std::equal(others.begin(), others.end(), told.begin(), told.end(),
                  [](const UnknownBody& x, const UnknownBody& y) { return keyOf(x) == keyOf(y); });
-  if (!isSame) tally.problems.emplace_back("what is unknown differs");
+  if (!isSame) {
+    std::ostringstream out;
+    out << "what is unknown differs:";
+    for (const UnknownBody& x : told) {
+      out << " told " << x.body << '/' << static_cast<int>(x.why) << '/' << x.object;
+    }
+    for (const UnknownBody& x : others) {
+      out << " known " << x.body << '/' << static_cast<int>(x.why) << '/' << x.object;
+    }
+    tally.problems.push_back(out.str());
+  }
 }
 
 }  // namespace foretouch::test
