@@ -79,5 +79,11 @@ for (let i = 2; i <= count; ++i) {
   border.push(ours.at(-1) - bare.at(-1));
   queried.push(asked);
 }
+// Hands alone, of an engine that answers at once: what is read and placed, with nothing between that takes the caches.
+const ignored = () => undefined, atOnce = { fit: () => [], stands: ignored, shape: ignored, forget: ignored, begin: ignored, join: ignored, dispose: ignored };
+const { tick: template } = hands[0], answered = ({ body, pose }) => ({ ...template, body, contacts: [], tick: { ...template.tick, shown: pose, contacts: [] } });
+const alone = new TouchWorld({ ...atOnce, tick: ({ targets }) => ({ solids: targets.map(answered), events: [] }) }, null), shown = spaces.map((space) => alone.addHand(space));
+const read = Array.from({ length: count }, (_, i) => (tracked(i), timed(() => alone.update((i + 1) * tickMs)))).slice(warm);
+if (shown.some(({ state }) => state === null)) throw new Error("expected hands that are shown");
 console.log(`${2 * handJoints.length + 2} joints in ${scene.triangles} triangles, ${ours.length} frames`);
-console.table([summary("what both hands meet first (query.step)", queried), summary("solid: world.update()", ours), summary("solid: the package's own calls", bare), summary("what three.js' objects add, per frame", border)]);
+console.table([summary("what both hands meet first (query.step)", queried), summary("solid: world.update()", ours), summary("solid: the package's own calls", bare), summary("what three.js' objects add, per frame", border), summary("of that, hands read and placed, by themselves", read)]);
