@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "middleware/ask/flight.h"
 #include "tests/middleware/ask/asked.h"
 
 namespace foretouch {
