@@ -170,6 +170,9 @@ class Backtracker {
         candidate.nearest = leastGap(query_, candidate, states_.at(t));
       }
     }
+    // What is beyond reach stays so, as contacts that are found only bring it nearer.
+    const auto isBeyond = [most = reach()](const Candidate& one) { return one.nearest > most; };
+    heap_.erase(std::remove_if(heap_.begin(), heap_.end(), isBeyond), heap_.end());
     std::make_heap(heap_.begin(), heap_.end(), Farther{});
     while (!heap_.empty() && heap_.front().nearest <= reach()) {
       if (query_.meter.isPartSpent(counters_)) return false;
