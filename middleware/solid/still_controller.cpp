@@ -158,13 +158,13 @@ bool StillController::iterate(const FollowRequest& request, Certifier& certifier
     if (direct.isClear || isOver_) return false;
     hasDirectFailed_ = true;
   }
-  if (!hasStep || (hasMoved_ && size_ < enough_)) return false;
+  if (!hasStep || (hasMoved_ && size_ < enough_ && isHeld(certifier.plan()))) return false;
   const bool isShort = mostShare_ < 1.0;
   const double moved = std::min(1.0, mostShare_) * size_;
   const Outcome outcome = show(request, tried_, certifier, shown, tick);
   if (outcome != Outcome::Clear) return ++fruitless_ < kMostFruitless;
   const bool isNearlyThere = moved * moved < 2.0 * kLever * enough_;
-  if (isWhole_ && isNearlyThere && enough_ > kSettled) return false;
+  if (isWhole_ && isNearlyThere && enough_ > kSettled) return !isHeld(certifier.plan());
   if (isShort && trust_ < size_) trust_ = std::min(2.0 * trust_, kMostTrust);
   if (!request.pace.isSpent()) return moved >= enough_;
   if (isShort) tick.limit = SolidLimit::CatchUp;
@@ -497,6 +497,17 @@ bool StillController::warmOwn(const FollowRequest& request, const QueryPlan& pla
   if (deeper.one == kNoParent) return false;
   activeFor_[slotOf(deeper.one)] = activeFor_[slotOf(deeper.other)] = kActiveTicks;
   return true;
+}
+
+/// Something that pushes is near enough to hold what is shown, or nothing pushes.
+bool StillController::isHeld(const QueryPlan& plan) const {
+  bool isPushed = false;
+  for (const ContactRow& row : rows_) {
+    if (!(row.push > 0.0) || row.isTurn) continue;
+    if (gapAt(here_.states, plan, row) + row.slack <= kHolds * options_.skin) return true;
+    isPushed = true;
+  }
+  return !isPushed;
 }
 
 bool StillController::hasPushes() const {

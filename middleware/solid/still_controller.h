@@ -82,6 +82,7 @@ class StillController {
   void aim(const FollowRequest& request, const Pose& shown);
   void gather(const FollowRequest& request, Certifier& certifier, SolidTick& tick);
   [[nodiscard]] bool areAllSoft() const;
+  [[nodiscard]] bool isHeld(const QueryPlan& plan) const;
   [[nodiscard]] bool warmOwn(const FollowRequest& request, const QueryPlan& plan, double share);
   void trustBy(std::uint64_t gathering);
   void setBounds(bool mayPush);
