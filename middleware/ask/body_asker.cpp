@@ -92,6 +92,7 @@ void BodyAsker::askSkin(BodyId body, const PieceBoxes* pieces, const AskedShape&
   asker.askTriangles(side, places);
   for (const LinkId link : asker.bareLinks()) {
     side.link = link;
+    askSolidsOf(side, shape);
     for (std::size_t i = 0; i < kind.volumes[slotOf(link)].size(); ++i) {
       side.lss = static_cast<std::int32_t>(i);
       askLink(side, places[slotOf(link)], shape);
@@ -114,11 +115,8 @@ void BodyAsker::askLinks(BodyId body, const PieceBoxes* pieces, const AskedShape
   ContactSide side;
   side.body = body;
   for (LinkId link = 0; open_ != nullptr && link < kind.skeleton.numJoints(); ++link) {
-    const LinkSurface* const surface = surfaceOf(kind, link);
-    if (surface == nullptr || surface->triangles().empty()) continue;
     side.link = link;
-    const LinkPlace& place = memory_.bodies.places(body)[slotOf(link)];
-    askSolids(*surface, side, shape.seenFrom(place, memory_.seen));
+    askSolidsOf(side, shape);
   }
   const std::size_t count = kind.linkOf.size();
   memory_.bounds.assign(count, 0.0);
@@ -186,6 +184,13 @@ void BodyAsker::askSolids(const SceneParts& scene, BodyId body, const AskedShape
       if (rooms[slotOf(object)].isClosed) addSolid(side, object);
     }
   }
+}
+
+void BodyAsker::askSolidsOf(const ContactSide& side, const AskedShape& shape) {
+  const LinkSurface* const surface = surfaceOf(world_.kindOf(side.body), side.link);
+  if (open_ == nullptr || surface == nullptr || surface->triangles().empty()) return;
+  const LinkPlace& place = memory_.bodies.places(side.body)[slotOf(side.link)];
+  askSolids(*surface, side, shape.seenFrom(place, memory_.seen));
 }
 
 void BodyAsker::askSolids(const LinkSurface& surface, const ContactSide& side,

@@ -63,6 +63,8 @@ class BodyAsker {
   /// Solid objects around the shape's place, of a scene or mesh, and of a link with triangles.
   /// `shape`: as seen from their frame.
   void askSolids(const SceneParts& scene, BodyId body, const AskedShape& shape);
+  /// Of a link's own surface, if it has one.
+  void askSolidsOf(const ContactSide& side, const AskedShape& shape);
   void askSolids(const LinkSurface& surface, const ContactSide& side, const AskedShape& shape);
   void addSolid(const ContactSide& side, ObjectId object);
   [[nodiscard]] bool isAssumed(BodyId body) const {

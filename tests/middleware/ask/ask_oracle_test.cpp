@@ -45,6 +45,10 @@ TEST(AskOracle, QuestionsNowAndThenAreAnsweredAsTheJudgeSees) {
 TEST(AskOracle, ALinkBesideASkinIsNotOpen) {
   EXPECT_TRUE(test::judgeQuestions(4'000'105, 66).problems.empty());
 }
+// But it is if it has a surface of its own that does not close.
+TEST(AskOracle, ALinkBesideASkinHasAnInsideOfItsOwn) {
+  EXPECT_TRUE(test::judgeQuestions(5'001'044, 95).problems.empty());
+}
 
 /// So many answers of few are found wrong.
 std::size_t problemsWith(const AskTamper& tamper) {
