@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # coverage.sh coverage [ARGS...]: what of the kernel, and of what reads a stranger's bytes, does no test
-# come by? The arguments are those of tests/coverage/coverage.py.
+# come by? The arguments are those of tests/mutants/coverage.py.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . dev/common.sh
@@ -8,4 +8,4 @@ cd "$(dirname "$0")/.."
 install_group coverage
 configure coverage -DFORETOUCH_TESTS=ON -DFORETOUCH_BENCH=ON
 shift  # the task's name
-exec python3 tests/coverage/coverage.py "$@"
+exec python3 tests/mutants/coverage.py "$@"

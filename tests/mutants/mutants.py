@@ -17,21 +17,16 @@ import random
 import re
 import subprocess
 import sys
-import time
 from collections import Counter
 from pathlib import Path
 
+from findings import KERNEL, ROOT, judged, record, show, test_environment
 from operators import code_of, mutants_of
 from switches import with_switches
 
-ROOT = Path(__file__).resolve().parents[2]
 PLACE = ROOT / "build/mutants"
 SOURCE, BUILD = PLACE / "source", PLACE / "build"
 
-# The kernel's test programs: whoever comes by a mutant may notice it.
-KERNEL = ["lss_tests", "articulated_tests", "tessellation_tests", "middleware_tests", "scene_tests", "near_tests",
-          "solid_parts_tests", "world_tests", "event_tests", "trigger_tests", "bracket_tests", "depth_tests",
-          "ask_tests", "edge_tests", "solid_tests"]
 # A folder: the programs whose tests cover it, nearest first.
 FOLDERS = {
     "lss": KERNEL,
@@ -132,7 +127,7 @@ def build(mutants, programs):
 def reach_of(program):
     """Per mutant, the tests that come by it: (milliseconds, name). And all tests, by name."""
     path = PLACE / f"{program}.reach"
-    done = run([BUILD / "bin" / program], env={**test_environment(), "FORETOUCH_REACHED": str(path)})
+    done = run([BUILD / "bin" / program], env={**test_environment(), "GTEST_FAIL_FAST": "1", "FORETOUCH_REACHED": str(path)})
     if done.returncode != 0:
         sys.exit(f"mutants: {program} fails as it stands; expected tests that pass\n{done.stdout[-2000:]}")
     reached, always, tests = {}, [], []
@@ -150,11 +145,6 @@ def reach_of(program):
     return {k: sorted(found) for k, found in reached.items()}
 
 
-def test_environment():
-    return {**os.environ, "GTEST_FAIL_FAST": "1", "GTEST_BRIEF": "1",
-            "FORETOUCH_DATA": os.environ.get("FORETOUCH_DATA", str(ROOT.parent / "shared/data"))}
-
-
 def fate_of(k, reach, patience):
     """'killed by PROGRAM', 'survived', or 'unreached': no test comes by it."""
     left = 1000.0 * patience
@@ -163,7 +153,7 @@ def fate_of(k, reach, patience):
     if 0 < sum(len(reached.get(k, [])) for reached in reach.values()) <= 2:
         program = next(program for program, reached in reach.items() if reached.get(k))
         done = run([BUILD / "bin" / program], 60 + 10 * patience,
-                   env={**test_environment(), "FORETOUCH_MUTANT": str(k)})
+                   env={**test_environment(), "GTEST_FAIL_FAST": "1", "FORETOUCH_MUTANT": str(k)})
         if done is None or done.returncode != 0:
             return f"killed by {program}"
     for program, reached in reach.items():
@@ -178,7 +168,7 @@ def fate_of(k, reach, patience):
             left -= usual
             names = ":".join(name for _, name in chunk)
             tested = run([BUILD / "bin" / program], 20 + 10e-3 * usual,
-                         env={**test_environment(), "FORETOUCH_MUTANT": str(k), "GTEST_FILTER": names})
+                         env={**test_environment(), "GTEST_FAIL_FAST": "1", "FORETOUCH_MUTANT": str(k), "GTEST_FILTER": names})
             if tested is None or tested.returncode != 0:
                 return f"killed by {program}"
     return "survived" if is_reached else "unreached"
@@ -216,11 +206,6 @@ def read_results(path):
     return {result["key"]: result for result in map(json.loads, path.read_text().splitlines())}
 
 
-def judged():
-    lines = (ROOT / "tests/mutants/judged.txt").read_text().splitlines()
-    return {line for line in lines if line and not line.startswith(("#", " "))}
-
-
 COLUMNS = {"folder": "folder", "mutants": "mutants", "killed": "killed", "equivalent": "equivalent",
            "survived": "survived"}
 
@@ -236,17 +221,6 @@ def rows_of(results, equivalent):
     for folder in sorted({folder for folder, _ in folders}):
         counts = [folders[folder, fate] for fate in ("killed", "equivalent", "survived")]
         yield dict(zip(COLUMNS, [folder, sum(counts), *counts]))
-
-
-def record(rows):
-    figures = {
-        "format": "foretouch-figures", "version": 1, "title": "Mutants",
-        "tables": [{"name": "kernel", "title": "What tests notice", "command": "./run mutants",
-                    "date": time.strftime("%Y-%m-%d"),
-                    "columns": [{"key": key, "title": title} for key, title in COLUMNS.items()],
-                    "rows": rows}]}
-    path = ROOT / "docs/measurements/mutants.json"
-    path.write_text(json.dumps(figures, indent=1) + "\n")
 
 
 def main():
@@ -288,12 +262,11 @@ def main():
                 out.flush()
                 print(f"{done}/{len(mutants)} {fate}: {mutant.name}", file=sys.stderr, flush=True)
     results = read_results(given.out)
-    equivalent = judged()
+    equivalent = judged("tests/mutants/judged.txt")
     rows = list(rows_of(results.values(), equivalent))
-    for row in [COLUMNS, dict.fromkeys(COLUMNS, "---"), *rows]:
-        print("| " + " | ".join(str(value) for value in row.values()) + " |")
+    show(COLUMNS, rows)
     if given.record:
-        record(rows)
+        record("mutants", "Mutants", ("kernel", "What tests notice"), COLUMNS, rows)
     for result in results.values():
         if not result["fate"].startswith("killed") and result["key"] not in equivalent:
             print(f"{result['fate']}: {result['key']} (line {result['line']}, {result['operator']})")

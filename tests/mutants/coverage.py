@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What does no test come by? Builds the kernel and what reads a stranger's bytes so that it counts
 (the preset `coverage`), runs their tests, and says per folder which share of lines and of branches
-was taken. Lists the lines that none came by and that judged.txt does not name with a reason.
+was taken. Lists the lines that none came by and that uncovered.txt does not name with a reason.
 
   coverage.py [--folders F,...] [--programs P,...] [--again] [--record] [--branches FOLDER]
 
@@ -12,19 +12,16 @@ import json
 import os
 import subprocess
 import sys
-import time
 from collections import defaultdict
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from findings import KERNEL, ROOT, judged, record, show, test_environment
+
 BUILD = ROOT / "build/coverage"
 COUNTS = BUILD / "counts.json"
 
-PROGRAMS = ["lss_tests", "articulated_tests", "tessellation_tests", "middleware_tests", "scene_tests", "near_tests",
-            "mechanics_tests", "solid_parts_tests", "solid_tests", "solid_sample_tests", "solid_world_tests",
-            "world_tests", "event_tests", "trigger_tests", "bracket_tests", "depth_tests", "ask_tests", "edge_tests",
-            "verify_tests", "assets_tests", "import_tests", "model_import_tests", "mjcf_tests", "motion_format_tests",
-            "smpl_tests", "wire_tests", "vmc_tests", "network_tests", "fuzz_corpus_tests", "fuzz_vmc_tests"]
+PROGRAMS = [*KERNEL, "mechanics_tests", "solid_sample_tests", "solid_world_tests", "verify_tests", "assets_tests",
+            "import_tests", "model_import_tests", "mjcf_tests", "motion_format_tests", "smpl_tests", "wire_tests",
+            "vmc_tests", "network_tests", "fuzz_corpus_tests", "fuzz_vmc_tests"]
 # The kernel, and what reads a stranger's bytes.
 FOLDERS = ["lss", "articulated", "tessellation", "middleware", "assets", "network/wire", "network/log",
            "network/vmc", "verify"]
@@ -37,8 +34,7 @@ def run_tests(programs, folders):
         counts.unlink()
     for program in have:
         print(f"coverage: {program}", file=sys.stderr, flush=True)
-        done = subprocess.run([BUILD / "bin" / program, "--gtest_brief=1"], env={
-            **os.environ, "FORETOUCH_DATA": os.environ.get("FORETOUCH_DATA", str(ROOT.parent / "shared/data"))})
+        done = subprocess.run([BUILD / "bin" / program], env=test_environment())
         if done.returncode != 0:
             sys.exit(f"coverage: {program} fails; expected tests that pass")
     subprocess.run(["gcovr", "--root", ROOT, "--object-directory", BUILD, "--json", COUNTS,
@@ -54,11 +50,6 @@ def target_exists(program):
 def room_of(path):
     parts = path.split("/")
     return "/".join(parts[:2]) if parts[0] in ("middleware", "assets", "network") and len(parts) > 2 else parts[0]
-
-
-def judged():
-    lines = (Path(__file__).parent / "judged.txt").read_text().splitlines()
-    return {line for line in lines if line and not line.startswith(("#", " "))}
 
 
 def lines_of(counts):
@@ -88,15 +79,6 @@ def rows_of(lines, known):
                                  round(100 * taken / max(branches, 1), 1), named]))
 
 
-def record(rows):
-    figures = {
-        "format": "foretouch-figures", "version": 1, "title": "Coverage",
-        "tables": [{"name": "lines", "title": "What tests come by", "command": "./run coverage",
-                    "date": time.strftime("%Y-%m-%d"),
-                    "columns": [{"key": key, "title": title} for key, title in COLUMNS.items()], "rows": rows}]}
-    (ROOT / "docs/measurements/coverage.json").write_text(json.dumps(figures, indent=1) + "\n")
-
-
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--folders", default=",".join(FOLDERS))
@@ -108,12 +90,11 @@ def main():
     if not given.again:
         run_tests(given.programs.split(","), given.folders.split(","))
     lines = sorted(lines_of(json.loads(COUNTS.read_text())))
-    known = judged()
+    known = judged("tests/mutants/uncovered.txt")
     rows = list(rows_of(lines, known))
-    for row in [COLUMNS, dict.fromkeys(COLUMNS, "---"), *rows]:
-        print("| " + " | ".join(str(value) for value in row.values()) + " |")
+    show(COLUMNS, rows)
     if given.record:
-        record(rows)
+        record("coverage", "Coverage", ("lines", "What tests come by"), COLUMNS, rows)
     left = 0
     for path, number, text, ran, branches, taken in lines:
         if not ran and f"{path}: {text}" not in known:
