@@ -143,22 +143,19 @@ Gesture clap(double t) {
   return gesture;
 }
 
-RawScene table() {
+RawScene table(double height = 0.0) {
   RawScene raw;
-  addSheet(raw, {-1, 0, -1}, {2, 0, 0}, {0, 0, 1}, kFineTable);
-  addSheet(raw, {-1, 0, 0}, {2, 0, 0}, {0, -0.03, 0}, 40);
+  addSheet(raw, {-1, height, -1}, {2, 0, 0}, {0, 0, 1}, kFineTable);
+  addSheet(raw, {-1, height, 0}, {2, 0, 0}, {0, -0.03, 0}, 40);
   return raw;
 }
 
 std::vector<Task> tasks() {
-  RawScene bar = table(), button = table();
-  addBox(bar, {-0.4, 0.06, -0.015}, {0.4, 0.09, 0.015});
+  RawScene bar = table(-0.075), button = table();
+  addBox(bar, {-0.4, -0.015, -0.015}, {0.4, 0.015, 0.015});
   for (const double side : {-1.0, 1.0}) {
     const double x = side * (kHalfApart - 0.032);
     addBox(button, {x - 0.012, 0, -0.06}, {x + 0.012, 0.05, -0.02});
-  }
-  for (Triangle& triangle : bar.triangles) {
-    for (Vector3d& corner : triangle.vertices) corner.y() -= 0.075;
   }
   return {{"grasp a bar", 6.0, std::move(bar), grasp},
           {"press a button", 4.0, std::move(button), press},

@@ -499,12 +499,16 @@ bool StillController::warmOwn(const FollowRequest& request, const QueryPlan& pla
   return true;
 }
 
+bool StillController::holds(const ContactRow& row, double gap) const {
+  return !row.isTurn && gap + row.slack <= kHolds * options_.skin;
+}
+
 /// Something that pushes is near enough to hold what is shown, or nothing pushes.
 bool StillController::isHeld(const QueryPlan& plan) const {
   bool isPushed = false;
   for (const ContactRow& row : rows_) {
     if (!(row.push > 0.0) || row.isTurn) continue;
-    if (gapAt(here_.states, plan, row) + row.slack <= kHolds * options_.skin) return true;
+    if (holds(row, gapAt(here_.states, plan, row))) return true;
     isPushed = true;
   }
   return !isPushed;
@@ -527,7 +531,7 @@ void StillController::keepActive() {
 
 void StillController::letGo() {
   for (ContactRow& row : rows_) {
-    if (row.isTurn || row.gap + row.slack > kHolds * options_.skin) row.push = 0.0;
+    if (!holds(row, row.gap)) row.push = 0.0;
   }
 }
 

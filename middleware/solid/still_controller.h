@@ -82,6 +82,8 @@ class StillController {
   void aim(const FollowRequest& request, const Pose& shown);
   void gather(const FollowRequest& request, Certifier& certifier, SolidTick& tick);
   [[nodiscard]] bool areAllSoft() const;
+  /// Its surface is so near, at this gap, that it holds what is shown.
+  [[nodiscard]] bool holds(const ContactRow& row, double gap) const;
   [[nodiscard]] bool isHeld(const QueryPlan& plan) const;
   [[nodiscard]] bool warmOwn(const FollowRequest& request, const QueryPlan& plan, double share);
   void trustBy(std::uint64_t gathering);
