@@ -11,7 +11,11 @@ void PersonCounter::said(const PersonMessage& message) {
   count.broken += message.broken.size();
   times_.record(message.personUs);
   if (message.kind == StepKind::First) return;  // no step is answered
-  for (const BracketVerdict verdict : message.verdicts) ++count.links[slotOf(verdict)];
+  for (const BracketVerdict verdict : message.verdicts) {
+    // The others were counted step by step.
+    if (!message.isOfFoundLinks() || verdict != BracketVerdict::Unclaimed)
+      ++count.links[slotOf(verdict)];
+  }
 }
 
 PersonCounts PersonCounter::counts() const {

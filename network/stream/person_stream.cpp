@@ -22,6 +22,8 @@ constexpr double kPlaceRounding = 1e-6;
 constexpr double kBelow = 1.0 - 1e-12;
 /// As many pieces as a question about what comes may have.
 constexpr std::size_t kMostAheadPieces = 4096;
+/// In place of where a link is lost since.
+constexpr std::int8_t kIsKnown = -1, kNotFollowed = -2;
 
 std::int64_t hashOf(const BoundsFile& bounds) {
   HashedBytes bytes;
@@ -35,6 +37,16 @@ double rateOf(std::int64_t fromUs, std::int64_t toUs, std::int64_t steps) {
 
 bool isTold(const LinkBracket& bracket) {
   return bracket.verdict == BracketVerdict::Possible || bracket.verdict == BracketVerdict::Certain;
+}
+
+void keepOf(const std::vector<std::uint8_t>& isOf, StepBrackets& brackets) {
+  const auto isOther = [&](const LinkBracket& one) {
+    const bool isOfOther = one.other != kNoParent && isOf[slotOf(one.other)] != 0;
+    return isOf[slotOf(one.link)] == 0 && !isOfOther;
+  };
+  for (std::vector<LinkBracket>* const list : {&brackets.links, &brackets.pairs}) {
+    list->erase(std::remove_if(list->begin(), list->end(), isOther), list->end());
+  }
 }
 
 /// As kMostCountedLost: a sender may lie about its numbers.
@@ -101,6 +113,7 @@ void PersonStream::keep(const StreamStep& step) {
 
 void PersonStream::follow(const StreamStep& step) {
   const bool isWaiting = waits();
+  std::size_t own = 0;  // the message about the pose itself: what is found again comes after it
   numSaid_ = 0;
   broken_.clear();
   hasEndedWait_ = false;
@@ -117,16 +130,20 @@ void PersonStream::follow(const StreamStep& step) {
     // What was waited for does not come.
     if (isWaiting) sayStep(step, 0);
     keep(step);
+    own = numSaid_;
     if (step.kind == StepKind::AcrossGap && numKept_ > 1) sayGap(step);
     std::swap(kept_[0], kept_[(numKept_ - 1) % kept_.size()]);
     numKept_ = 1;
     notBeforeUs_.clear();
-    if (step.kind == StepKind::First) begin(step);
+    if (step.kind == StepKind::First) {
+      lostSince_.clear();
+      for (LostSince& lost : lost_) lost.numLinks = 0;
+      begin(step);
+    }
   }
-  if (numSaid_ == 0) begin(step);
-  PersonMessage& last = said_[numSaid_ - 1];
-  last.broken = broken_;
-  lookAhead(last);
+  if (numSaid_ == own) begin(step);
+  said_[own].broken = broken_;
+  lookAhead(said_[own]);
 }
 
 /// For the pose after the newest step.
@@ -137,11 +154,13 @@ bool PersonStream::waits() const {
 void PersonStream::endWait() {
   numSaid_ = 0;
   if (!waits()) return;
+  broken_.clear();
   StreamStep step;
   step.session = session_;
   step.sequenceTo = back(0)->sequence;
   step.utimeToUs = back(0)->utimeUs;
   sayStep(step, 0);
+  said_[0].broken = broken_;
   hasEndedWait_ = true;
 }
 
@@ -184,14 +203,23 @@ PersonMessage& PersonStream::begin(const StreamStep& step, StepKind kind, const 
   return message;
 }
 
-/// The bounds at a rate, but for links that one of these poses does not know.
-const std::vector<LinkBound>& PersonStream::claimed(double rateHz,
-                                                    std::initializer_list<const Kept*> ends) {
-  claimed_ = bounds_.at(rateHz);
+/// Per link, whether one of these poses does not know it.
+const std::vector<std::uint8_t>& PersonStream::unknownIn(std::initializer_list<const Kept*> ends) {
+  isUnknown_.assign(countOf(query_.avatar().numLinks()), 0);
   for (const Kept* const end : ends) {
-    for (std::size_t link = 0; end != nullptr && link < claimed_.size(); ++link) {
-      if (end->isUnknown[link] != 0) claimed_[link] = LinkBound{};
+    for (std::size_t link = 0; end != nullptr && link < isUnknown_.size(); ++link) {
+      isUnknown_[link] |= end->isUnknown[link];
     }
+  }
+  return isUnknown_;
+}
+
+/// The bounds at a rate, but for links that are unknown.
+const std::vector<LinkBound>& PersonStream::claimed(double rateHz,
+                                                    const std::vector<std::uint8_t>& isUnknown) {
+  claimed_ = bounds_.at(rateHz);
+  for (std::size_t link = 0; link < claimed_.size(); ++link) {
+    if (isUnknown[link] != 0) claimed_[link] = LinkBound{};
   }
   return claimed_;
 }
@@ -212,23 +240,91 @@ void PersonStream::sayStep(const StreamStep& step, int newer) {
     posed.secondsAfter = secondsBetween(to, *after);
   }
   const auto& bounds = claimed(rateOf(from.utimeUs, to.utimeUs, 1),
-                               {&to, before == nullptr ? nullptr : &from, after});
+                               unknownIn({&to, before == nullptr ? nullptr : &from, after}));
   PersonMessage& message = begin(step, StepKind::Consecutive, from, to);
   if (query_.answer(posed, model_, bounds, scratch_, brackets_).ok()) take(brackets_, message);
   message.personUs = std::chrono::duration<double, std::micro>(PersonClock::now() - start).count();
+  followLost(step, from, 1);
 }
 
 void PersonStream::sayGap(const StreamStep& step) {
-  const PersonClock::time_point start = PersonClock::now();
   const Kept &from = *back(1), &to = *back(0);
+  sayAcross(step, from, to, stepsAcross(step), unknownIn({&to}), nullptr);
+  followLost(step, from, stepsAcross(step));
+}
+
+/// What poses that nobody has let happen, of all links or of some.
+void PersonStream::sayAcross(const StreamStep& step, const Kept& from, const Kept& to,
+                             std::int64_t steps, const std::vector<std::uint8_t>& isUnknown,
+                             const std::vector<std::uint8_t>* isOf) {
+  const PersonClock::time_point start = PersonClock::now();
   PosedStep posed = between(from, to);
   if (to.sequence >= kFirstUncounted) posed.seconds += kUncountedClockUs / kPersonUsPerS;
-  const auto& bounds = claimed(rateOf(from.utimeUs, to.utimeUs, stepsAcross(step)), {&to});
+  const auto& bounds = claimed(rateOf(from.utimeUs, to.utimeUs, steps), isUnknown);
   if (to.sequence >= kFirstUntimed) claimed_.assign(claimed_.size(), LinkBound{});
-  checkGap(posed, bounds);
+  checkGap(posed, bounds, isOf);
   PersonMessage& message = begin(step, StepKind::AcrossGap, from, to);
-  if (query_.answerGap(posed, bounds, scratch_, brackets_).ok()) take(brackets_, message);
+  if (query_.answerGap(posed, bounds, scratch_, brackets_).ok()) {
+    if (isOf != nullptr) keepOf(*isOf, brackets_);
+    take(brackets_, message);
+  }
   message.personUs = std::chrono::duration<double, std::micro>(PersonClock::now() - start).count();
+}
+
+/// After a step that begins at `from` and does not know isUnknown_: which links are lost since
+/// when, and what those touched that are known again.
+void PersonStream::followLost(const StreamStep& step, const Kept& from, std::int64_t steps) {
+  lostSince_.resize(isUnknown_.size(), kIsKnown);
+  for (std::size_t since = 0; since < lost_.size(); ++since) {
+    if (lost_[since].numLinks > 0) sayFound(step, since, from);
+  }
+  for (std::size_t link = 0; link < isUnknown_.size(); ++link) {
+    if (isUnknown_[link] == 0) {
+      lostSince_[link] = kIsKnown;
+    } else if (lostSince_[link] == kIsKnown) {
+      lose(link, from);
+    }
+  }
+  for (LostSince& lost : lost_) lost.steps += steps;
+}
+
+void PersonStream::lose(std::size_t link, const Kept& from) {
+  lostSince_[link] = kNotFollowed;
+  if (from.isUnknown[link] != 0) return;
+  auto place = std::find_if(lost_.begin(), lost_.end(), [&](const LostSince& lost) {
+    return lost.numLinks > 0 && lost.steps == 0;
+  });
+  if (place == lost_.end()) {
+    place = std::find_if(lost_.begin(), lost_.end(),
+                         [](const LostSince& lost) { return lost.numLinks == 0; });
+    if (place == lost_.end()) return;
+    place->pose = from;
+    place->steps = 0;
+  }
+  ++place->numLinks;
+  lostSince_[link] = static_cast<std::int8_t>(place - lost_.begin());
+}
+
+/// Of the links that are lost since then and known from `to` on.
+void PersonStream::sayFound(const StreamStep& step, std::size_t since, const Kept& to) {
+  LostSince& lost = lost_[since];
+  isFound_.assign(isUnknown_.size(), 0);
+  isApart_ = isUnknown_;
+  std::size_t found = 0;
+  for (std::size_t link = 0; link < isFound_.size(); ++link) {
+    isApart_[link] |= lost.pose.isUnknown[link];
+    const bool isFound = lostSince_[link] == static_cast<int>(since) && isUnknown_[link] == 0;
+    isFound_[link] = isFound ? 1 : 0;
+    found += isFound ? 1 : 0;
+  }
+  lost.numLinks -= found;
+  if (found == 0) return;
+  const std::size_t before = numSaid_;
+  sayAcross(step, lost.pose, to, lost.steps, isApart_, &isFound_);
+  const PersonMessage& message = said_[before];
+  const bool isClaimed = std::any_of(message.verdicts.begin(), message.verdicts.end(),
+                                     [](auto v) { return v != BracketVerdict::Unclaimed; });
+  if (!isClaimed && message.brackets.empty()) numSaid_ = before;
 }
 
 void PersonStream::take(const StepBrackets& brackets, PersonMessage& message) const {
@@ -260,7 +356,7 @@ void PersonStream::lookAhead(PersonMessage& message) {
   const Kept& to = *back(0);
   message.aheadUs = aheadUs_;
   const PosedStep posed = between(*from, to);
-  const auto& bounds = claimed(rateOf(from->utimeUs, to.utimeUs, 1), {&to});
+  const auto& bounds = claimed(rateOf(from->utimeUs, to.utimeUs, 1), unknownIn({&to}));
   const double horizonS = static_cast<double>(aheadUs_) / kPersonUsPerS;
   nowNotBeforeUs_.assign(message.verdicts.size(), kNotClaimed);
   if (query_.lookAhead(posed, horizonS, bounds, scratch_, brackets_).ok()) {
@@ -273,9 +369,6 @@ void PersonStream::lookAhead(PersonMessage& message) {
       lower(pair, pair.link, to.utimeUs);
       lower(pair, pair.other, to.utimeUs);
     }
-  }
-  for (const BrokenBound& broken : broken_) {
-    if (!notBeforeUs_.empty()) notBeforeUs_[slotOf(broken.link)] = kNotClaimed;
   }
   // What was excluded before is excluded still.
   for (std::size_t i = 0; i < notBeforeUs_.size(); ++i) {
@@ -297,9 +390,9 @@ void PersonStream::lower(const LinkBracket& bracket, LinkId link, std::int64_t u
 }
 
 void PersonStream::addBroken(BrokenBound::Claim claim, LinkId link, double beyond) {
-  if (!query_.avatar().lss(link).empty() && beyond > kPlaceRounding) {
-    broken_.push_back({link, claim, beyond});
-  }
+  if (query_.avatar().lss(link).empty() || !(beyond > kPlaceRounding)) return;
+  broken_.push_back({link, claim, beyond});
+  if (!notBeforeUs_.empty()) notBeforeUs_[slotOf(link)] = kNotClaimed;
 }
 
 /// Whether the next pose is where the last one let it be.
@@ -313,7 +406,7 @@ void PersonStream::checkAhead(const StreamStep& step) {
   placer_.place(aheadPoses_.back(), one_);
   placer_.place(*step.to, other_);
   placer_.differences(one_, other_, apart_);
-  const auto& bounds = claimed(rateOf(from->utimeUs, to.utimeUs, 1), {&to});
+  const auto& bounds = claimed(rateOf(from->utimeUs, to.utimeUs, 1), unknownIn({&to}));
   for (LinkId link = 0; link < query_.avatar().numLinks(); ++link) {
     const LinkBound& bound = bounds[slotOf(link)];
     const bool isKnown = (*step.unknown)[slotOf(link)] == UndecidedReason::None;
@@ -324,12 +417,14 @@ void PersonStream::checkAhead(const StreamStep& step) {
 }
 
 /// Whether the person can have come so far.
-void PersonStream::checkGap(const PosedStep& step, const std::vector<LinkBound>& bounds) {
+void PersonStream::checkGap(const PosedStep& step, const std::vector<LinkBound>& bounds,
+                            const std::vector<std::uint8_t>* isOf) {
   placer_.place(*step.from, one_);
   placer_.place(*step.to, other_);
   placer_.differences(one_, other_, apart_);
   for (LinkId link = 0; link < query_.avatar().numLinks(); ++link) {
     const LinkBound& bound = bounds[slotOf(link)];
+    if (isOf != nullptr && (*isOf)[slotOf(link)] == 0) continue;
     const double most = 2.0 * bound.error + step.seconds * bound.speed;
     addBroken(BrokenBound::Claim::InGap, link, apart_[slotOf(link)] - most);
   }

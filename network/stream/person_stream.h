@@ -8,7 +8,9 @@
 //   gap or another timeline begins, or the wait for the pose ends (endWait()). So a pose has one
 //   message, or two.
 // - A bound is about poses at its rate: of a step that is not so long nothing is claimed.
-// - A link that a pose does not know is unclaimed in every step whose curve that pose bends.
+// - A link that a pose does not know is unclaimed in every step whose curve that pose bends. Once
+//   it is known again a message of its own says what it touched from the last pose before these
+//   steps to the first one behind them, as across lost poses.
 // - Across lost poses only LinkBound::speed and error count, at the rate that the lost ones had.
 // - `notBeforeUs` never falls while poses go on: what was excluded stays excluded, unless a pose
 //   shows that the bound was wrong.
@@ -35,6 +37,8 @@
 namespace foretouch {
 
 inline constexpr std::int64_t kMostAheadUs = 10'000'000;
+/// Links that are lost since as many different poses are followed; of others nothing is said.
+inline constexpr std::size_t kMostLostSince = 6;
 
 struct PersonStreamOptions {
   BoundsFile bounds;
@@ -59,8 +63,8 @@ class PersonStream {
   void endWait();
   /// Whether this is what endWait() says now: a recorded stream says when a wait ended.
   [[nodiscard]] bool isEndOfWait(const PersonMessage& message) const;
-  /// What the last pose, or the end of a wait, lets be said: one message or two, or none, but for
-  /// the stamps of receiving and sending.
+  /// What the last pose, or the end of a wait, lets be said, but for the stamps of receiving and
+  /// sending: one message or two, or none, and those about links that are known again.
   [[nodiscard]] std::size_t numSaid() const { return numSaid_; }
   [[nodiscard]] PersonMessage& said(std::size_t i) { return said_[i]; }
   [[nodiscard]] const PersonMessage& said(std::size_t i) const { return said_[i]; }
@@ -74,6 +78,12 @@ class PersonStream {
     std::int64_t sequence = 0, utimeUs = 0;
     std::vector<std::uint8_t> isUnknown;  ///< Per link: in the step that it ends.
   };
+  /// Links that no pose knows since this one, and how many steps ago that was; numLinks 0: none.
+  struct LostSince {
+    Kept pose;
+    std::int64_t steps = 0;
+    std::size_t numLinks = 0;
+  };
   PersonStream(std::int32_t id, BracketQuery query, const Scene& scene, BoundsByRate bounds,
                const PersonStreamOptions& options);
 
@@ -82,16 +92,23 @@ class PersonStream {
   void keep(const StreamStep& step);
   [[nodiscard]] const Kept* back(int i) const;
   [[nodiscard]] bool waits() const;
-  const std::vector<LinkBound>& claimed(double rateHz, std::initializer_list<const Kept*> ends);
+  const std::vector<std::uint8_t>& unknownIn(std::initializer_list<const Kept*> ends);
+  const std::vector<LinkBound>& claimed(double rateHz, const std::vector<std::uint8_t>& isUnknown);
   PersonMessage& begin(const StreamStep& step);
   PersonMessage& begin(const StreamStep& step, StepKind kind, const Kept& from, const Kept& to);
   void sayStep(const StreamStep& step, int newer);
   void sayGap(const StreamStep& step);
+  void sayAcross(const StreamStep& step, const Kept& from, const Kept& to, std::int64_t steps,
+                 const std::vector<std::uint8_t>& isUnknown, const std::vector<std::uint8_t>* isOf);
+  void followLost(const StreamStep& step, const Kept& from, std::int64_t steps);
+  void lose(std::size_t link, const Kept& from);
+  void sayFound(const StreamStep& step, std::size_t since, const Kept& to);
   void take(const StepBrackets& brackets, PersonMessage& message) const;
   void lookAhead(PersonMessage& message);
   void lower(const LinkBracket& bracket, LinkId link, std::int64_t utimeUs);
   void checkAhead(const StreamStep& step);
-  void checkGap(const PosedStep& step, const std::vector<LinkBound>& bounds);
+  void checkGap(const PosedStep& step, const std::vector<LinkBound>& bounds,
+                const std::vector<std::uint8_t>* isOf);
   void addBroken(BrokenBound::Claim claim, LinkId link, double beyond);
 
   std::int32_t id_ = 0;
@@ -108,12 +125,16 @@ class PersonStream {
   bool hasEndedWait_ = false;  // the newest step is said already
   std::vector<std::int64_t> notBeforeUs_, nowNotBeforeUs_;
   std::vector<BrokenBound> broken_;  // of the pose at hand
-  std::array<PersonMessage, 2> said_;
+  std::array<LostSince, kMostLostSince> lost_;
+  std::vector<std::int8_t> lostSince_;  ///< Per link: its place in lost_, or a mark.
+  /// Two steps may end at a pose; after each of them links may be found.
+  std::array<PersonMessage, 2 * (1 + kMostLostSince)> said_;
   std::size_t numSaid_ = 0;
   // Scratch.
   Scratch scratch_;
   StepBrackets brackets_;
   std::vector<LinkBound> claimed_;
+  std::vector<std::uint8_t> isUnknown_, isFound_, isApart_;
   AxisPlacer placer_;
   AxisPlaces one_, other_;
   std::vector<double> apart_;

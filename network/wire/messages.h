@@ -254,6 +254,11 @@ struct PersonMessage {
 
   std::int64_t receiveUtimeUs = 0, sendUtimeUs = 0;
   double personUs = 0.0;
+
+  /// It is about links that poses in between did not know, and about no other.
+  [[nodiscard]] bool isOfFoundLinks() const {
+    return kind == StepKind::AcrossGap && sequenceTo < sequence;
+  }
 };
 
 struct StatusMessage {

@@ -105,8 +105,11 @@ std::string personStepLine(const PersonMessage& message, Stamps stamps) {
 }
 
 std::string personStepText(const PersonMessage& message) {
+  const bool isOfFound = message.isOfFoundLinks();
   std::string text =
-      fmt::format("avatar {}, pose {}: the person", message.avatar, message.sequenceTo);
+      isOfFound ? fmt::format("avatar {}, poses {} to {}: the person, with links that were lost,",
+                              message.avatar, message.sequenceFrom, message.sequenceTo)
+                : fmt::format("avatar {}, pose {}: the person", message.avatar, message.sequenceTo);
   const std::string surely = touchesText(message, BracketVerdict::Certain, " surely touched "),
                     perhaps = touchesText(message, BracketVerdict::Possible, " perhaps touched ");
   text += surely + (surely.empty() || perhaps.empty() ? "" : ",") + perhaps;
@@ -122,6 +125,7 @@ std::string personStepText(const PersonMessage& message) {
 }
 
 bool PersonNews::isNews(const PersonMessage& message) {
+  if (message.isOfFoundLinks()) return !message.brackets.empty();
   if (last_.size() >= kMostToldAvatars && last_.count(message.avatar) == 0) last_.clear();
   Touching now;
   for (const ToldBracket& told : message.brackets) {

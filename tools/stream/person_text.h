@@ -26,8 +26,8 @@ void writePerson(const PersonMessage& message, Stamps stamps, JsonWriter& out);
 /// Finds what is news for people. Bounded memory, whatever arrives.
 class PersonNews {
  public:
-  /// True if other links touch, surely or perhaps, than in the avatar's last step, or a bound is
-  /// broken.
+  /// True if other links touch, surely or perhaps, than in the avatar's last step, if a bound is
+  /// broken, or if links that were lost touched.
   [[nodiscard]] bool isNews(const PersonMessage& message);
 
  private:

@@ -154,6 +154,11 @@ TEST(MetricsText, SaysWhatIsKnownOfPersons) {
   message.kind = StepKind::First;  // no step
   message.broken.clear();
   counter.said(message);
+  message.kind = StepKind::AcrossGap;  // of the second link alone
+  message.sequence = 9;
+  message.sequenceTo = 8;
+  message.verdicts = {BracketVerdict::Unclaimed, BracketVerdict::Possible};
+  counter.said(message);
   const Page page = read(metricsText({}, {}, {}, {}, nullptr, counter.counts()));
   const auto value = [&](const std::string& name) {
     const auto found = page.values.find(name);
@@ -161,9 +166,10 @@ TEST(MetricsText, SaysWhatIsKnownOfPersons) {
   };
   EXPECT_EQ(value("foretouch_person_links_total{avatar=\"4\",verdict=\"excluded\"}"), "2");
   EXPECT_EQ(value("foretouch_person_links_total{avatar=\"4\",verdict=\"certain\"}"), "1");
-  EXPECT_EQ(value("foretouch_person_links_total{avatar=\"4\",verdict=\"possible\"}"), "none");
+  EXPECT_EQ(value("foretouch_person_links_total{avatar=\"4\",verdict=\"possible\"}"), "1");
+  EXPECT_EQ(value("foretouch_person_links_total{avatar=\"4\",verdict=\"unclaimed\"}"), "none");
   EXPECT_EQ(value("foretouch_person_bounds_broken_total{avatar=\"4\"}"), "2");
-  EXPECT_EQ(value("foretouch_person_seconds_count"), "2");
+  EXPECT_EQ(value("foretouch_person_seconds_count"), "3");
   EXPECT_EQ(read(metricsText({}, {}, {})).types.count("foretouch_person_links_total"), 0U);
 }
 

@@ -2,6 +2,7 @@
 // nothing where nothing is claimed; never a touch before the instant until which none was possible.
 #include "network/stream/person_stream.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -66,7 +67,25 @@ class PersonStreams : public testing::Test {
       ASSERT_EQ(decode(bytes, read), Reject::None);
     }
   }
-  [[nodiscard]] const PersonMessage& last() { return person_->said(person_->numSaid() - 1); }
+  /// About the pose itself: what is said of links that are known again comes after it.
+  [[nodiscard]] const PersonMessage& last() {
+    std::size_t i = person_->numSaid() - 1;
+    while (i > 0 && person_->said(i).isOfFoundLinks()) --i;
+    return person_->said(i);
+  }
+  std::vector<BrokenBound> brokenInGap() {
+    std::vector<BrokenBound> broken = last().broken;
+    const auto isAhead = [](const BrokenBound& one) {
+      return one.claim == BrokenBound::Claim::Ahead;
+    };
+    broken.erase(std::remove_if(broken.begin(), broken.end(), isAhead), broken.end());
+    return broken;
+  }
+  void followWithoutArm(double x, std::int64_t n) {
+    PoseMessage pose = hipsAt(x, n);
+    pose.joints[1].flags = 0;
+    follow(pose);
+  }
 
   std::optional<StreamSolver> solver_;
   std::optional<PersonStream> person_;
@@ -278,6 +297,173 @@ TEST_F(PersonStreams, ClaimNothingOfLinksThatAPoseDoesNotKnow) {
     EXPECT_GE(last().notBeforeUs[0], 0);
   }
   EXPECT_EQ(unclaimed, 2 * 4);
+}
+
+/// The arm and the hand on it, once they are known again: of the metre to the wall a second at
+/// 3 m/s is enough, 60 ms are not.
+TEST_F(PersonStreams, ExcludeOfLostLinksWhatTheirSpeedExcludes) {
+  for (const auto& [model, bends] :
+       {std::pair(MotionModel::CubicLate, 1), std::pair(MotionModel::Cubic, 0)}) {
+    SCOPED_TRACE(toString(model));
+    begin(model);
+    std::vector<PersonMessage> found;
+    for (std::int64_t n = 1; n <= 140; ++n) {
+      const bool isLost = (n >= 6 && n <= 8) || (n >= 20 && n < 120);
+      isLost ? followWithoutArm(0.0, n) : follow(hipsAt(0.0, n));
+      for (std::size_t i = 0; i < person_->numSaid(); ++i) {
+        if (person_->said(i).isOfFoundLinks()) found.push_back(person_->said(i));
+      }
+      EXPECT_TRUE(last().broken.empty());
+    }
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].sequenceFrom, 5 - bends);
+    EXPECT_EQ(found[0].sequenceTo, 10);
+    EXPECT_EQ(found[1].sequenceFrom, 19 - bends);
+    EXPECT_EQ(found[1].sequenceTo, 121);
+    for (const std::size_t link : {std::size_t{1}, std::size_t{2}}) {
+      EXPECT_EQ(found[0].verdicts[link], BracketVerdict::Excluded);
+      EXPECT_EQ(found[1].verdicts[link], BracketVerdict::Possible);
+    }
+    for (const std::size_t link : {std::size_t{0}, std::size_t{3}}) {
+      EXPECT_EQ(found[0].verdicts[link], BracketVerdict::Unclaimed) << "it was never lost";
+      EXPECT_EQ(found[1].verdicts[link], BracketVerdict::Unclaimed);
+    }
+    EXPECT_TRUE(found[0].brackets.empty());
+    EXPECT_EQ(found[1].brackets.size(), 2U);
+  }
+}
+
+TEST_F(PersonStreams, SayWhatLostLinksDidWhenTheWaitEnds) {
+  begin(MotionModel::CubicLate);
+  for (std::int64_t n = 1; n <= 5; ++n) {
+    n == 2 ? followWithoutArm(0.0, n) : follow(hipsAt(0.0, n));
+    EXPECT_EQ(person_->numSaid(), 1U);
+  }
+  person_->endWait();
+  ASSERT_EQ(person_->numSaid(), 2U);
+  EXPECT_EQ(person_->said(0).kind, StepKind::Consecutive);
+  EXPECT_TRUE(person_->said(1).isOfFoundLinks());
+  EXPECT_EQ(person_->said(1).sequenceFrom, 1);
+  EXPECT_EQ(person_->said(1).sequenceTo, 4);
+}
+
+TEST_F(PersonStreams, SayNothingOfLostLinksWithoutASpeedOrAKnownPose) {
+  const auto numFound = [&](const BoundsFile& file, std::int64_t firstLost,
+                            std::int64_t firstKnown) {
+    begin(MotionModel::Cubic, file);
+    std::size_t found = 0;
+    for (std::int64_t n = 1; n < firstKnown + 5; ++n) {
+      const bool isLost = n >= firstLost && n < firstKnown;
+      isLost ? followWithoutArm(0.0, n) : follow(hipsAt(0.0, n));
+      for (std::size_t i = 0; i < person_->numSaid(); ++i) {
+        found += person_->said(i).isOfFoundLinks() ? 1 : 0;
+      }
+    }
+    return found;
+  };
+  BoundsFile without = bounds();
+  without.entries[0].bound.speed = LinkBound::kNone;
+  EXPECT_EQ(numFound(bounds(), 3, 6), 1U);
+  EXPECT_EQ(numFound(without, 3, 6), 0U);
+  EXPECT_EQ(numFound(bounds(), 1, 6), 0U) << "nobody knows where they were";
+}
+
+TEST_F(PersonStreams, SayEachLinkFromWhereItWasLost) {
+  begin(MotionModel::Cubic);
+  std::vector<PersonMessage> found;
+  for (std::int64_t n = 1; n <= 20; ++n) {
+    PoseMessage pose = hipsAt(0.0, n);
+    if (n >= 4 && n <= 12) pose.joints[2].flags = 0;  // the hand
+    if (n >= 7 && n <= 12) pose.joints[3].flags = 0;  // the leg
+    follow(pose);
+    for (std::size_t i = 0; i < person_->numSaid(); ++i) {
+      if (person_->said(i).isOfFoundLinks()) found.push_back(person_->said(i));
+    }
+  }
+  ASSERT_EQ(found.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::size_t link = i == 0 ? 2 : 3;
+    EXPECT_EQ(found[i].sequenceFrom, i == 0 ? 3 : 6);
+    EXPECT_EQ(found[i].sequenceTo, 14);
+    for (std::size_t other = 0; other < 4; ++other) {
+      EXPECT_EQ(found[i].verdicts[other],
+                other == link ? BracketVerdict::Excluded : BracketVerdict::Unclaimed);
+    }
+  }
+}
+
+TEST_F(PersonStreams, FollowLostLinksAcrossLostPoses) {
+  begin(MotionModel::Cubic);
+  for (std::int64_t n = 1; n <= 3; ++n) follow(hipsAt(0.0, n));
+  followWithoutArm(0.0, 4);
+  followWithoutArm(0.0, 8);  // three are lost
+  ASSERT_EQ(last().kind, StepKind::AcrossGap);
+  EXPECT_EQ(last().verdicts[0], BracketVerdict::Excluded);
+  EXPECT_EQ(last().verdicts[1], BracketVerdict::Unclaimed);
+  follow(hipsAt(0.0, 9));
+  follow(hipsAt(0.0, 10));
+  follow(hipsAt(0.0, 11));
+  ASSERT_EQ(person_->numSaid(), 2U);
+  const PersonMessage& found = person_->said(1);
+  EXPECT_EQ(found.sequenceFrom, 3);
+  EXPECT_EQ(found.sequenceTo, 10);
+  EXPECT_EQ(found.verdicts[1], BracketVerdict::Excluded);
+  // Another timeline knows nothing of them.
+  followWithoutArm(0.0, 12);
+  follow(hipsAt(0.0, 1, 2));
+  for (std::int64_t n = 2; n < 6; ++n) {
+    follow(hipsAt(0.0, n, 2));
+    EXPECT_EQ(person_->numSaid(), 1U);
+  }
+}
+
+TEST_F(PersonStreams, SayWhichSpeedALostLinkBreaks) {
+  begin(MotionModel::Cubic);
+  for (std::int64_t n = 1; n <= 3; ++n) follow(hipsAt(0.0, n));
+  followWithoutArm(0.0, 4);
+  follow(hipsAt(0.3, 5));  // 20 ms, then one more step that the lost pose bends
+  follow(hipsAt(0.3, 6));
+  EXPECT_TRUE(brokenInGap().empty());
+  follow(hipsAt(0.3, 7));
+  std::vector<LinkId> links;
+  for (const BrokenBound& broken : brokenInGap()) {
+    links.push_back(broken.link);
+    EXPECT_NEAR(broken.beyond, 0.3 - 0.03 * kSpeed, 1e-9);
+  }
+  EXPECT_EQ(links, (std::vector<LinkId>{1, 2}));
+}
+
+/// Wherever a walk at random below the speed takes the lost arm, what it touches is not excluded.
+TEST_F(PersonStreams, NeverExcludeWhatALostLinkTouched) {
+  int touched = 0, excluded = 0;
+  for (int run = 0; run < 200; ++run) {
+    SCOPED_TRACE(run);
+    begin(run % 2 == 0 ? MotionModel::CubicLate : MotionModel::Cubic);
+    const std::int64_t firstLost = 4 + run % 3, numLost = 1 + run % 40;
+    double x = 0.3;
+    bool hasTouched = false, wasFound = false;
+    for (std::int64_t n = 1; n < firstLost + numLost + 6; ++n) {
+      const bool isLost = n >= firstLost && n < firstLost + numLost;
+      isLost ? followWithoutArm(x, n) : follow(hipsAt(x, n));
+      const bool isInGap = n >= firstLost - 1 && n <= firstLost + numLost;
+      hasTouched = hasTouched || (isInGap && x + 0.05 >= 1.0);
+      const double phase = static_cast<double>(n) / static_cast<double>(5 + run % 11);
+      x += 0.99 * kSpeed * static_cast<double>(kStepUs) / 1e6 * std::sin(phase);
+      for (std::size_t i = 0; i < person_->numSaid(); ++i) {
+        const PersonMessage& said = person_->said(i);
+        if (!said.isOfFoundLinks()) continue;
+        wasFound = true;
+        EXPECT_TRUE(brokenInGap().empty());
+        const bool isExcluded = said.verdicts[1] == BracketVerdict::Excluded;
+        EXPECT_FALSE(isExcluded && hasTouched);
+        touched += hasTouched ? 1 : 0;
+        excluded += isExcluded ? 1 : 0;
+      }
+    }
+    EXPECT_TRUE(wasFound);
+  }
+  EXPECT_GT(touched, 10);
+  EXPECT_GT(excluded, 10);
 }
 
 TEST_F(PersonStreams, ClaimNothingAtRatesThatNoBoundIsAbout) {

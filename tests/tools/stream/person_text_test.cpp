@@ -55,6 +55,18 @@ TEST(PersonText, IsForPeople) {
   EXPECT_EQ(personStepText(message), "avatar 1, pose 42: the person: nothing is claimed\n");
 }
 
+TEST(PersonText, SaysWhatLinksDidThatWereLost) {
+  PersonMessage message = handOnTable();
+  message.kind = StepKind::AcrossGap;
+  message.sequenceFrom = 30;
+  message.aheadUs = 0;
+  message.notBeforeUs = {-1, -1};
+  message.brackets[0].bracket.verdict = BracketVerdict::Possible;
+  EXPECT_EQ(personStepText(message),
+            "avatar 1, poses 30 to 42: the person, with links that were lost, perhaps touched "
+            "'LeftHand' on 'table'\n");
+}
+
 TEST(PersonText, LinesOfJsonHaveAllOfIt) {
   PersonMessage message = handOnTable();
   message.personUs = 12.5;
@@ -97,6 +109,11 @@ TEST(PersonNews, AreWhereWhatIsTouchedChanges) {
   EXPECT_TRUE(news.isNews(message));
   message.avatar = 2;
   EXPECT_FALSE(news.isNews(message)) << "nothing touched, as before";
+  PersonMessage found = handOnTable();
+  found.avatar = 2;
+  found.kind = StepKind::AcrossGap;
+  EXPECT_TRUE(news.isNews(found));
+  EXPECT_FALSE(news.isNews(message)) << "of the links that were known nothing is new";
 }
 
 }  // namespace
