@@ -2,6 +2,7 @@
 // they meet something. Metres in W. Not installed.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 
@@ -64,6 +65,13 @@ class Certifier {
   [[nodiscard]] std::uint64_t workDone() const { return workDone_; }
   [[nodiscard]] std::uint32_t queries() const { return queries_; }
   void spend(std::uint64_t work);
+  /// Keeps so much of the tick's work, if it is there, for giveBack(); says how much.
+  [[nodiscard]] std::uint64_t keepBack(std::uint64_t work) {
+    const std::uint64_t kept = std::min(work, workLeft_);
+    workLeft_ -= kept;
+    return kept;
+  }
+  void giveBack(std::uint64_t kept) { workLeft_ += kept; }
   /// Null, or what times the phases of ticks; must outlive them.
   void watch(SolidPhases* phases) { phases_ = phases; }
 

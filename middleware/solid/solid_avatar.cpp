@@ -27,6 +27,8 @@ namespace {
 constexpr double kLongestTick = 10.0;
 /// Two places of one root are the same (m).
 constexpr double kSamePlace = 1e-6;
+/// Of a way around, in one tick: among narrow places it has many, and they cost.
+constexpr int kMostPieces = 8;
 
 Result<Done> inRange(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return Done{};
@@ -189,6 +191,7 @@ class SolidAvatar::Parts {
     controller_.reset();
     placing_.reset();
     around_.reset();
+    around_.forgetTrail();
     pace_.rest();
     stuck_.reset();
     mustSayPlace_ = false;
@@ -231,10 +234,14 @@ class SolidAvatar::Parts {
     const bool goesAlong = wasEqual_ && !target_.hasFound();
     if (goesAlong && !controller_.isAnyActive()) {
       pace_.rest();
-      if (controller_.goStraight(target_.pose(), certifier_, shown_, tick)) return;
+      if (controller_.goStraight(target_.pose(), certifier_, shown_, tick)) {
+        around_.rememberFree(controller_.body(), shown_, dtS);
+        return;
+      }
     }
     before_ = shown_;
     const internal::VisualBody& body = controller_.body();
+    around_.remember(body, shown_, wasEqual_);
     body.place(target_.states(), wanted_);
     lastWanted_.clear();
     if (target_.hasLast()) body.place(target_.lastStates(), lastWanted_);
@@ -244,12 +251,15 @@ class SolidAvatar::Parts {
                 std::abs(lift_.lift() - liftBefore), dtS);
     // Before the tick's work is spent on other questions: what is announced has to come.
     isTargetFree_ = stuck_.wantsSnapIn(dtS) && certifier_.isClear(target_.pose(), target_.pose());
-    if (around_.isStale(shown_, wanted_)) around_.reset();
+    if (around_.isStale(places_, wanted_)) around_.reset();
     if (!(around_.hasWay() && walkAround(tick))) {
+      const std::uint64_t kept = wantsAround() ? certifier_.keepBack(3 * internal::kSearchWork) : 0;
       controller_.follow({target_.pose(), target_.states(), wanted_, target_.ranges(), pace_},
                          certifier_, shown_, tick);
+      certifier_.giveBack(kept);
       if (!internal::isSamePose(shown_, target_.pose())) lookFurther(dtS, tick);
     }
+    for (std::size_t i = 0; i < tick.numWay; ++i) around_.remember(body, tick.way[i], false);
     pace_.end();
   }
 
@@ -265,8 +275,8 @@ class SolidAvatar::Parts {
   bool walkAround(SolidTick& tick) {
     const internal::PhaseScope scope(phases_, internal::SolidPhase::Around);
     isAround_ = true;
-    around_.tighten(controller_.body(), shown_, certifier_);
-    while (around_.hasWay() && !pace_.isSpent()) {
+    around_.tighten(controller_.body(), shown_, target_.pose(), wanted_, certifier_);
+    for (int i = 0; i < kMostPieces && around_.hasWay() && !pace_.isSpent(); ++i) {
       const double share = pace_.shareOf(shown_, around_.next(), towards_);
       if (!(share > 0.0)) break;
       const Pose& to = share < 1.0 ? towards_ : around_.next();
@@ -315,14 +325,17 @@ class SolidAvatar::Parts {
     return found;
   }
 
+  [[nodiscard]] bool wantsAround() const {
+    return options_.aroundPerTick > 0 && !around_.hasFailed() &&
+           (around_.isSearching() || stuck_.wantsAround());
+  }
+
   /// Held away from the target: is there a way around, or has the time come to snap?
   void lookFurther(double dtS, SolidTick& tick) {
     std::size_t farthest = 0;
     stuck_.look(deviation(farthest), dtS);
-    const bool wantsAround =
-        options_.aroundPerTick > 0 && !around_.hasFailed() && stuck_.wantsAround();
-    const bool wantsSnap = stuck_.wantsSnap();
-    if (!wantsAround && !wantsSnap) return;
+    const bool looks = wantsAround(), wantsSnap = stuck_.wantsSnap();
+    if (!looks && !wantsSnap) return;
     const internal::PhaseScope scope(phases_, internal::SolidPhase::Around);
     const std::uint32_t before = certifier_.queries();
     // Where a snap may come, that was asked as the tick began.
@@ -332,7 +345,7 @@ class SolidAvatar::Parts {
       stuck_.foundInside();
       return;
     }
-    if (wantsAround) {
+    if (looks) {
       const internal::VisualBody& body = controller_.body();
       around_.search(body, shown_, target_.pose(), wanted_, body.points()[farthest].link,
                      static_cast<std::uint32_t>(options_.aroundPerTick), certifier_);

@@ -9,8 +9,9 @@ namespace {
 // by less than this share of it for so long (s, ticks).
 constexpr double kFarEnough = 0.05, kProgress = 0.02, kStuckFor = 0.05;
 constexpr int kStuckTicks = 3;
-/// The target of the point that is farthest off stays within this, meanwhile (m).
-constexpr double kStaysWithin = 0.02;
+/// The target of the point that is farthest off stays within this (m), or within this share of how
+/// far it is, meanwhile.
+constexpr double kStaysWithin = 0.02, kStaysWithinShare = 0.25;
 /// After the target was found inside something.
 constexpr int kTicksToLookAgain = 8;
 
@@ -22,8 +23,9 @@ StuckWatch::StuckWatch(const SolidOptions& options)
 
 void StuckWatch::look(const Deviation& deviation, double dtS) {
   // What leads on meanwhile leads a search astray.
+  const double stays = std::max(kStaysWithin, kStaysWithinShare * deviation.far);
   const bool isStuck = deviation.far > kFarEnough && deviation.moved < kProgress * deviation.far &&
-                       (stuckTicks_ == 0 || (deviation.wanted - stuckAt_).norm() < kStaysWithin);
+                       (stuckTicks_ == 0 || (deviation.wanted - stuckAt_).norm() < stays);
   if (!isStuck || stuckTicks_ == 0) stuckAt_ = deviation.wanted;
   stuckS_ = isStuck ? stuckS_ + dtS : 0.0;
   stuckTicks_ = isStuck ? stuckTicks_ + 1 : 0;

@@ -9,8 +9,15 @@
 namespace foretouch::internal {
 namespace {
 
-/// A target that has moved farther than this (m) is another one.
-constexpr double kSameTarget = 0.05;
+/// A target that has moved farther than this (m), or than this share of its distance, is another
+/// one; so is a begin that has moved farther than this (m).
+constexpr double kSameTarget = 0.05, kSameShare = 0.25, kSameStart = 0.01;
+/// Poses of the trail are so far apart at first (m), and twice as far where they become too many.
+constexpr double kSpacing = 1e-3;
+constexpr std::size_t kMostTrail = 128;
+/// Before it: poses where it is tracked, so far apart (m), looked at so rarely (s), and so many.
+constexpr double kFreeSpacing = 0.05, kFreeEveryS = 0.05;
+constexpr std::size_t kMostFree = 32;
 /// Of trials: those that grow straight towards the other tree.
 constexpr double kStraight = 0.2;
 /// How far a joint turns from where it is shown or tracked (rad), nearest the trunk and farther
@@ -28,8 +35,6 @@ constexpr std::size_t kMostNodes = 400;
 /// shorter.
 constexpr int kShortcutsPerTick = 16;
 constexpr double kShorter = 0.98;
-/// Of a tick, in evaluations in lanes: a search is spread over ticks.
-constexpr std::uint64_t kSearchWork = 12'000;
 /// A cut that advances less than this (m) is not worth a node.
 constexpr double kLeastAdvance = 0.01;
 
@@ -51,10 +56,46 @@ void WayAround::reset() {
   next_ = 0;
 }
 
-bool WayAround::isStale(const Pose& shown, const std::vector<Eigen::Vector3d>& wanted) const {
+bool WayAround::isStale(const std::vector<Eigen::Vector3d>& places,
+                        const std::vector<Eigen::Vector3d>& wanted) const {
   if (!isBegun_) return false;
-  if (VisualBody::farthest(wanted, wanted_) > kSameTarget) return true;
-  return way_.empty() && !isSamePose(shown, from_);
+  const double moved = VisualBody::farthest(wanted, wanted_);
+  if (moved > std::max(kSameTarget, kSameShare * far_)) return true;
+  return way_.empty() && VisualBody::farthest(places, trees_[0].nodes[0].places) > kSameStart;
+}
+
+void WayAround::rememberFree(const VisualBody& body, const Pose& shown, double dtS) {
+  sinceFreeS_ += dtS;
+  if (sinceFreeS_ < kFreeEveryS && !free_.empty()) return;
+  sinceFreeS_ = 0.0;
+  if (!free_.empty() && !(length(body, free_.back(), shown) > kFreeSpacing)) return;
+  if (free_.size() == kMostFree) {
+    short_.clear();
+    short_.push(free_, kMostFree / 2, kMostFree);
+    free_.swap(short_);
+  }
+  free_.push(shown);
+}
+
+void WayAround::remember(const VisualBody& body, const Pose& shown, bool isFree) {
+  if (isFree) trail_.clear();
+  if (trail_.empty()) spacing_ = kSpacing;
+  if (!trail_.empty() && !(length(body, trail_.back(), shown) > spacing_)) return;
+  trail_.push(shown);
+  if (trail_.size() < kMostTrail) return;
+  short_.clear();
+  for (std::size_t i = 0; i < trail_.size(); i += 2) short_.push(trail_[i]);
+  trail_.swap(short_);
+  spacing_ *= 2.0;
+}
+
+void WayAround::forgetTrail() {
+  trail_.clear();
+  free_.clear();
+}
+
+const Pose& WayAround::trailAt(std::size_t i) const {
+  return i < free_.size() ? free_[i] : trail_[i - free_.size()];
 }
 
 /// splitmix64 (Steele, Lea, Flood, OOPSLA 2014): the standard's distributions differ.
@@ -76,12 +117,14 @@ void WayAround::begin(const VisualBody& body, const Pose& shown, const Pose& tar
   turn_ = 0;
   way_.clear();
   next_ = 0;
-  from_ = shown;
   wanted_ = wanted;
   chooseLimb(body, farthest);
   for (Tree& tree : trees_) tree.count = 0;
-  add(body, trees_[0], -1, shown);
+  tip_ = add(body, trees_[0], -1, shown);
   add(body, trees_[1], -1, target);
+  trailLeft_ = free_.size() + trail_.size();
+  stride_ = 1;
+  far_ = VisualBody::farthest(trees_[0].nodes[0].places, wanted);
 }
 
 /// The joints that lead to the farthest link, up to the trunk; of the trunk itself: the root.
@@ -133,20 +176,27 @@ void WayAround::sample(const Pose& shown, const Pose& target) {
   }
 }
 
+/// Not of the trail between its ends: what is beside it was tried, as a rule.
 std::size_t WayAround::nearest(const Tree& tree) const {
+  const std::size_t first = &tree == &trees_[0] ? std::max<std::size_t>(tip_, 1) : 1;
   std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < tree.count; ++i) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < sampledPlaces_.size(); ++k) {
-      sum += (tree.nodes[i].places[k] - sampledPlaces_[k]).squaredNorm();
-    }
-    if (sum < least) {
-      least = sum;
-      best = i;
-    }
+  double least = distanceOf(tree.nodes[0]);
+  for (std::size_t i = first; i < tree.count; ++i) {
+    const double distance = distanceOf(tree.nodes[i]);
+    if (distance >= least) continue;
+    least = distance;
+    best = i;
   }
   return best;
+}
+
+/// From what was sampled (m^2, of all points).
+double WayAround::distanceOf(const Node& node) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < sampledPlaces_.size(); ++k) {
+    sum += (node.places[k] - sampledPlaces_[k]).squaredNorm();
+  }
+  return sum;
 }
 
 void WayAround::search(const VisualBody& body, const Pose& shown, const Pose& target,
@@ -164,8 +214,15 @@ void WayAround::search(const VisualBody& body, const Pose& shown, const Pose& ta
       return;
     }
     const std::uint32_t asked = certifier.queries();
+    if (trailLeft_ > 0) {
+      const bool isBack = goBack(body, certifier);
+      spent_ += certifier.queries() - asked;
+      if (isBack) return;
+      continue;
+    }
     // The target may have moved a little: the way leads to where it was.
-    sample(from_, trees_[1].nodes[0].pose);
+    const std::size_t begin = uniform(0.0, 1.0) < 0.5 ? 0 : tip_;
+    sample(trees_[0].nodes[begin].pose, trees_[1].nodes[0].pose);
     if (uniform(0.0, 1.0) < kStraight) sampled_ = trees_[1 - turn_].nodes[0].pose;
     placeLinks(skeleton_, sampled_, states_);
     body.place(states_, sampledPlaces_);
@@ -174,6 +231,26 @@ void WayAround::search(const VisualBody& body, const Pose& shown, const Pose& ta
     if (isDone) return;
     turn_ = 1 - turn_;
   }
+}
+
+/// Back along the trail, in longer steps as long as they are free; true: from there the way to the
+/// target is.
+bool WayAround::goBack(const VisualBody& body, Certifier& certifier) {
+  Tree& tree = trees_[0];
+  const std::size_t step = std::min(stride_, trailLeft_);
+  const Pose& back = trailAt(trailLeft_ - step);
+  if (!certifier.isClear(tree.nodes[tip_].pose, back)) {
+    if (certifier.workLeft() == 0) return false;  // perhaps it is
+    if (step == 1) trailLeft_ = 0;
+    stride_ = std::max<std::size_t>(1, step / 2);
+    return false;
+  }
+  trailLeft_ -= step;
+  stride_ = 2 * step;
+  tip_ = add(body, tree, static_cast<std::int32_t>(tip_), back);
+  if (!certifier.isClear(back, trees_[1].nodes[0].pose)) return false;
+  finish(tip_, 0, certifier);
+  return true;
 }
 
 /// One tree towards the sample, the other towards what the first one has reached; true: they met.
@@ -215,24 +292,33 @@ void WayAround::finish(std::size_t here, std::size_t there, Certifier& certifier
   next_ = 1;
 }
 
-void WayAround::tighten(const VisualBody& body, const Pose& shown, Certifier& certifier) {
+void WayAround::tighten(const VisualBody& body, const Pose& shown, const Pose& target,
+                        const std::vector<Eigen::Vector3d>& wanted, Certifier& certifier) {
+  // Where the target goes on freely, the way goes on to it.
+  if (!isSamePose(way_.back(), target) && certifier.isClear(way_.back(), target)) {
+    way_.push(target);
+    wanted_ = wanted;
+  }
   if (next_ + 1 == way_.size()) return;  // straight to its end
   short_.clear();
   short_.push(shown);
   short_.push(way_, next_, way_.size());
   way_.swap(short_);
   next_ = 1;
+  const std::uint64_t left = certifier.workLeft();
+  const std::uint64_t kept = certifier.keepBack(left - std::min(left, kSearchWork));
   shorten(body, kShortcutsPerTick, certifier);
   skipPoses(certifier);
+  certifier.giveBack(kept);
 }
 
-/// Goes on to the farthest pose to which the motion is clear.
+/// Goes on to a far pose to which the motion is clear.
 void WayAround::skipPoses(Certifier& certifier) {
   short_.clear();
   short_.push(way_[0]);
   for (std::size_t i = 0; i + 1 < way_.size();) {
     std::size_t to = way_.size() - 1;
-    while (to > i + 1 && !certifier.isClear(way_[i], way_[to])) --to;
+    while (to > i + 1 && !certifier.isClear(way_[i], way_[to])) to = i + (to - i) / 2;
     short_.push(way_[to]);
     i = to;
   }

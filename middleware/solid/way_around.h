@@ -1,7 +1,8 @@
 // middleware/solid/way_around.h: a proven way around what sliding cannot pass: two trees of
 // certified motions, one from the shown pose and one from the target, grown towards each other and
-// towards random poses ([Kuffner00], REFERENCES.md). The random numbers are the same in every run.
-// Not installed.
+// towards random poses ([Kuffner00], REFERENCES.md). Before that, back along the way that the
+// avatar came, to where nothing is between it and the target: so fingers come out of where they
+// hooked in. The random numbers are the same in every run. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +14,9 @@
 
 namespace foretouch::internal {
 
+/// Of a tick, in evaluations in lanes: a search is spread over ticks.
+inline constexpr std::uint64_t kSearchWork = 8'000;
+
 /// For one thread; keeps its memory.
 class WayAround {
  public:
@@ -20,21 +24,30 @@ class WayAround {
 
   /// Forgets the search and the way.
   void reset();
+  /// After a tick in which it was as tracked, and touched nothing.
+  void rememberFree(const VisualBody& body, const Pose& shown, double dtS);
+  /// On its way in a tick that something holds; `isFree`: the first one, as tracked.
+  void remember(const VisualBody& body, const Pose& shown, bool isFree);
+  void forgetTrail();
   /// A way is found, and not yet walked to its end.
   [[nodiscard]] bool hasWay() const { return next_ < way_.size(); }
+  /// A search is under way.
+  [[nodiscard]] bool isSearching() const { return isBegun_ && !hasFailed_ && way_.empty(); }
   /// The search for this target has spent all it may.
   [[nodiscard]] bool hasFailed() const { return hasFailed_; }
-  /// A search, or a way, towards `target` is no longer about it.
-  [[nodiscard]] bool isStale(const Pose& shown, const std::vector<Eigen::Vector3d>& wanted) const;
+  /// A search, or a way, is no longer about where the points of the body are shown and wanted.
+  [[nodiscard]] bool isStale(const std::vector<Eigen::Vector3d>& places,
+                             const std::vector<Eigen::Vector3d>& wanted) const;
 
   /// Goes on looking for a way, by at most `motions` queries. `farthest`: the link that is farthest
   /// from its place. Preconditions: `target` touches nothing.
   void search(const VisualBody& body, const Pose& shown, const Pose& target,
               const std::vector<Eigen::Vector3d>& wanted, LinkId farthest, std::uint32_t motions,
               Certifier& certifier);
-  /// Makes what is left of the way shorter, from `shown` on, by a few queries. Precondition:
-  /// hasWay().
-  void tighten(const VisualBody& body, const Pose& shown, Certifier& certifier);
+  /// Makes what is left of the way shorter, from `shown` on, by a few queries, and lets it go on to
+  /// where the target is now. Precondition: hasWay().
+  void tighten(const VisualBody& body, const Pose& shown, const Pose& target,
+               const std::vector<Eigen::Vector3d>& wanted, Certifier& certifier);
   /// The next pose of the way. Precondition: hasWay().
   [[nodiscard]] const Pose& next() const { return way_[next_]; }
   /// `shown` is where the way to next() led to.
@@ -56,8 +69,11 @@ class WayAround {
   void chooseLimb(const VisualBody& body, LinkId farthest);
   void sample(const Pose& shown, const Pose& target);
   [[nodiscard]] double uniform(double low, double high);
+  [[nodiscard]] double distanceOf(const Node& node) const;
   [[nodiscard]] std::size_t nearest(const Tree& tree) const;
   std::size_t add(const VisualBody& body, Tree& tree, std::int32_t parent, const Pose& pose);
+  [[nodiscard]] const Pose& trailAt(std::size_t i) const;
+  [[nodiscard]] bool goBack(const VisualBody& body, Certifier& certifier);
   [[nodiscard]] bool grow(const VisualBody& body, Certifier& certifier);
   void finish(std::size_t here, std::size_t there, Certifier& certifier);
   void skipPoses(Certifier& certifier);
@@ -76,8 +92,14 @@ class WayAround {
   PoseList way_, short_;
   Pose cornerIn_, cornerOut_;
   std::size_t next_ = 0;
-  Pose from_;  // the shown pose that the search began at
+  // Of the search's begin: where the target has the points, and how far that is.
   std::vector<Eigen::Vector3d> wanted_;
+  double far_ = 0.0;
+  /// Where the avatar has been: as tracked, and since then, `spacing_` apart (m).
+  PoseList free_, trail_;
+  double sinceFreeS_ = 0.0, spacing_ = 0.0;
+  // Poses of it that are not asked yet; the last one's node; how many to go back at once.
+  std::size_t trailLeft_ = 0, tip_ = 0, stride_ = 1;
   std::uint32_t spent_ = 0;
   std::uint64_t random_ = 0;
   bool isBegun_ = false, hasFailed_ = false;

@@ -7,6 +7,7 @@
 #include "articulated/motion.h"
 #include "lss/index.h"
 #include "tessellation/swept_lss.h"
+#include "tests/middleware/balls.h"
 #include "tests/middleware/solid/solid_runner.h"
 
 namespace foretouch::test {
@@ -439,6 +440,36 @@ TEST(SolidUsers, AHandSlidesAlongTheWallInsteadOfStoppingThere) {
   moved = run.tick.shown.translations[0].x() - from.x();
   EXPECT_GT(moved, 0.8 * 0.5);
   EXPECT_FALSE(run.tick.contacts.empty());
+  EXPECT_EQ(run.violations(), 0u);
+}
+
+// Behind the bottom of a box that is open at one side the target never stands still, and no way
+// that it goes leads out: the body goes back as it came.
+TEST(SolidUsers, WhatIsCaughtComesOutThoughTheTargetGoesOn) {
+  RawScene box;
+  const double low = -0.2, high = 0.2, bottom = 1.0;
+  addSheet(box, {bottom, low, low}, {0, 0, high - low}, {0, high - low, 0}, 4);
+  for (const double side : {low, high}) {
+    addSheet(box, {0.4, side, low}, {bottom - 0.4, 0, 0}, {0, 0, high - low}, 4);
+    addSheet(box, {0.4, low, side}, {bottom - 0.4, 0, 0}, {0, high - low, 0}, 4);
+  }
+  SolidRunner run(box, {}, ball(0.05));
+  const auto targetAt = [&](int i) {
+    Pose target = run.rest();
+    const double t = i / 90.0, beyond = std::max(0.0, t - 2.0);
+    target.translations[0] = {std::min(2.0, t) + 0.3 * std::sin(3.0 * beyond), 0.0,
+                              0.3 * std::sin(2.0 * beyond)};
+    return target;
+  };
+  int held = 0, around = 0;
+  for (int i = 0; i <= 90 * 6; ++i) {
+    run.follow(targetAt(i));
+    held += run.tick.state == SolidState::Held ? 1 : 0;
+    around += run.tick.state == SolidState::Around ? 1 : 0;
+  }
+  EXPECT_GT(held, 5);
+  EXPECT_GT(around, 5);
+  EXPECT_TRUE(isSame(run.tick.shown, targetAt(90 * 6))) << run.tick.deviation;
   EXPECT_EQ(run.violations(), 0u);
 }
 
