@@ -25,6 +25,8 @@ class PoseList {
   void push(const PoseList& from, std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) push(from[i]);
   }
+  /// Only the first ones stay. Precondition: count <= size().
+  void shorten(std::size_t count) { count_ = count; }
   void reverse() {
     std::reverse(poses_.begin(), poses_.begin() + static_cast<std::ptrdiff_t>(count_));
   }

@@ -177,6 +177,7 @@ class SolidAvatar::Parts {
     isPlaced_ = true;
     isInside_ = mustSayPlace_ = hasSnapped_ = false;
     wasEqual_ = internal::isSamePose(shown_, target_.pose());
+    around_.takeBack();
     controller_.reset();
   }
 
@@ -241,7 +242,7 @@ class SolidAvatar::Parts {
     }
     before_ = shown_;
     const internal::VisualBody& body = controller_.body();
-    around_.remember(body, shown_, wasEqual_);
+    around_.rememberBegin(body, shown_, wasEqual_);
     body.place(target_.states(), wanted_);
     lastWanted_.clear();
     if (target_.hasLast()) body.place(target_.lastStates(), lastWanted_);
@@ -259,7 +260,7 @@ class SolidAvatar::Parts {
       certifier_.giveBack(kept);
       if (!internal::isSamePose(shown_, target_.pose())) lookFurther(dtS, tick);
     }
-    for (std::size_t i = 0; i < tick.numWay; ++i) around_.remember(body, tick.way[i], false);
+    for (std::size_t i = 0; i < tick.numWay; ++i) around_.remember(body, tick.way[i]);
     pace_.end();
   }
 

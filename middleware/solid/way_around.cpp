@@ -77,8 +77,13 @@ void WayAround::rememberFree(const VisualBody& body, const Pose& shown, double d
   free_.push(shown);
 }
 
-void WayAround::remember(const VisualBody& body, const Pose& shown, bool isFree) {
+void WayAround::rememberBegin(const VisualBody& body, const Pose& shown, bool isFree) {
   if (isFree) trail_.clear();
+  remember(body, shown);
+  atTick_ = trail_.size();
+}
+
+void WayAround::remember(const VisualBody& body, const Pose& shown) {
   if (trail_.empty()) spacing_ = kSpacing;
   if (!trail_.empty() && !(length(body, trail_.back(), shown) > spacing_)) return;
   trail_.push(shown);

@@ -5,6 +5,7 @@
 // hooked in. The random numbers are the same in every run. Not installed.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -26,8 +27,12 @@ class WayAround {
   void reset();
   /// After a tick in which it was as tracked, and touched nothing.
   void rememberFree(const VisualBody& body, const Pose& shown, double dtS);
-  /// On its way in a tick that something holds; `isFree`: the first one, as tracked.
-  void remember(const VisualBody& body, const Pose& shown, bool isFree);
+  /// Where a tick begins that something holds; `isFree`: as tracked.
+  void rememberBegin(const VisualBody& body, const Pose& shown, bool isFree);
+  /// On its way in this tick.
+  void remember(const VisualBody& body, const Pose& shown);
+  /// What the last tick remembered after its begin was not shown.
+  void takeBack() { trail_.shorten(std::min(trail_.size(), atTick_)); }
   void forgetTrail();
   /// A way is found, and not yet walked to its end.
   [[nodiscard]] bool hasWay() const { return next_ < way_.size(); }
@@ -98,6 +103,7 @@ class WayAround {
   /// Where the avatar has been: as tracked, and since then, `spacing_` apart (m).
   PoseList free_, trail_;
   double sinceFreeS_ = 0.0, spacing_ = 0.0;
+  std::size_t atTick_ = 0;  // of the trail, when the tick began
   // Poses of it that are not asked yet; the last one's node; how many to go back at once.
   std::size_t trailLeft_ = 0, tip_ = 0, stride_ = 1;
   std::uint32_t spent_ = 0;
