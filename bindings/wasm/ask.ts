@@ -4,7 +4,6 @@
 
 import { ForetouchError, instant, type Machine, numberOf, point, type Point, real, type Room, type Values, whole, type Writes } from "./machine.js";
 import * as structs from "./structs.js";
-import type { ContactSide } from "./world.js";
 
 /** A point; a segment with a radius, where both ends alike, or no `b`, is a sphere; or the convex solid between corners, from `a` (left out: where W begins), with a radius around it. */
 export type AskShape =
@@ -53,6 +52,22 @@ export const askVerdicts = ["clear", "hit", "unknown"] as const;
 /** `clear`: nothing is hit or near, proven. `unknown`: nothing that is known is. */
 export type AskVerdict = (typeof askVerdicts)[number];
 export const askUnknowns = ["assumed", "silent", "not_there", "unresolved", "open"] as const;
+
+/** One of two that meet. */
+export interface ContactSide {
+  /** Or stillScene; of what is unresolved it may be everyBody. */
+  readonly body: number;
+  /** 0 of a mesh and of what stands still; or everyLink. */
+  readonly link: number;
+  /** Which of the link's LSS; -1: none. */
+  readonly lss: number;
+  /** Of a mesh, or of what stands still; -1: none. */
+  readonly triangle: number;
+  /** Of that mesh, or of what stands still (Scene.objectNames); -1: none. */
+  readonly object: number;
+  /** On its surface, W. */
+  readonly point: Point;
+}
 
 /** An LSS or a triangle that was hit or is near; or, without either, an object that is solid and holds the shape's place. */
 export interface WorldHit {

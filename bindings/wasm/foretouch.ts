@@ -13,7 +13,7 @@ import { SolidWorld, type SolidWorldOptions } from "./solid_world.js";
 import { World, type WorldOptions } from "./world.js";
 
 export {
-  type AskOptions, type AskPart, type AskQuestion, type AskShape, type AskTime, type AskVerdict, askVerdicts, type AskWhich, askWhich, type AskWhom, type FlightAnswer, type UnknownBody,
+  type AskOptions, type AskPart, type AskQuestion, type AskShape, type AskTime, type AskVerdict, askVerdicts, type AskWhich, askWhich, type AskWhom, type ContactSide, type FlightAnswer, type UnknownBody,
   type WorldAnswer, type WorldHit,
 } from "./ask.js";
 export { ForetouchError, type Point } from "./machine.js";
@@ -23,7 +23,7 @@ export { Avatar, Clip, type Link, type Lss, type Pose, type PoseLike, Scene, typ
 export { Solid, type SolidContact, type SolidJointState, solidJointStates, type SolidLimit, solidLimits, type SolidOptions, type SolidState, solidStates, type SolidTick } from "./solid.js";
 export { reaches, type SolidBodyContact, type SolidBodyTick, type SolidCrush, type SolidTarget, SolidWorld, type SolidWorldOptions } from "./solid_world.js";
 export {
-  type BodyOptions, type ContactSide, type Depth, type EventKind, eventKinds, type EventPoint, everyBody, everyLink, Follower, type FollowOptions, type LeaveCause,
+  type BodyOptions, type Depth, type EventKind, eventKinds, type EventPoint, everyBody, everyLink, Follower, type FollowOptions, type LeaveCause,
   leaveCauses, type Occupant, type Reason, reasons, type SilentBody, silences, stillScene, type TriggerEvent, type TriggerOptions, Triggers, type WhenSilent, World,
   type WorldContact, type WorldContacts, type WorldEvent, type WorldEvents, type WorldOptions, type WorldPart,
 } from "./world.js";

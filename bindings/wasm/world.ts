@@ -2,7 +2,7 @@
 // meets whom between two of these, from enter to leave; and volumes that tell who is in them. What
 // it is good for, and where it ends: docs/moving.md. Instants are whole microseconds since any epoch.
 
-import { type AskOptions, type AskQuestion, type AskShape, type AskTime, type AskWhom, type FlightAnswer, flown, manyProbed, probed, type WorldAnswer } from "./ask.js";
+import { type AskOptions, type AskQuestion, type AskShape, type AskTime, type AskWhom, type ContactSide, type FlightAnswer, flown, manyProbed, probed, type WorldAnswer } from "./ask.js";
 import { type Fields, ForetouchError, Held, handleOf, instant, known, type Machine, numberOf, type Point, point, real, type Room, type Struct, type Values, whole, type Writes } from "./machine.js";
 import { type Verdict, verdicts } from "./query.js";
 import { Avatar, type PoseLike, Scene, writtenPose } from "./shapes.js";
@@ -46,22 +46,6 @@ export interface BodyOptions {
   readonly group?: number;
   /** Left out: "wait". */
   readonly whenSilent?: WhenSilent;
-}
-
-/** One of two that meet. */
-export interface ContactSide {
-  /** Or stillScene; of what is unresolved it may be everyBody. */
-  readonly body: number;
-  /** 0 of a mesh and of what stands still; or everyLink. */
-  readonly link: number;
-  /** Which of the link's LSS; -1: none. */
-  readonly lss: number;
-  /** Of a mesh, or of what stands still; -1: none. */
-  readonly triangle: number;
-  /** Of that mesh, or of what stands still (Scene.objectNames); -1: none. */
-  readonly object: number;
-  /** On its surface, W. */
-  readonly point: Point;
 }
 
 /** The first contact of two links in a window. Metres, W. */

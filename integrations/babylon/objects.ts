@@ -3,8 +3,7 @@
 import type { AbstractMesh, Mesh, Node, Scene, TransformNode } from "@babylonjs/core";
 import { Matrix, Quaternion } from "@babylonjs/core/Maths/math.vector.js";
 import { ForetouchError } from "foretouch";
-import type { Host, HostMesh, Note } from "foretouch/host";
-import { SkinnedNodes } from "./skinned.js";
+import type { HostMesh, Note } from "foretouch/host";
 
 /** What a world knows of: nodes, and a scene as what stands still. */
 export type Thing = TransformNode | Scene;
@@ -29,7 +28,7 @@ export function putInWorld(node: TransformNode, elements: ArrayLike<number>): vo
 const isMesh = (node: Node): node is AbstractMesh => "getVerticesData" in node;
 
 /** All shown meshes of a tree; instances one by one. */
-function meshesOf(root: Thing, note: Note<Thing>, isOut: (thing: Thing) => boolean): HostMesh<Thing>[] {
+export function meshesOf(root: Thing, note: Note<Thing>, isOut: (thing: Thing) => boolean): HostMesh<Thing>[] {
   const all: HostMesh<Thing>[] = [];
   const add = (mesh: AbstractMesh): void => {
     if (mesh.skeleton !== null) return note(`${nameOf(mesh)} has a skeleton and is left out of what stands still: add it as a body, world.addBody(mesh)`, mesh);
@@ -51,12 +50,3 @@ function meshesOf(root: Thing, note: Note<Thing>, isOut: (thing: Thing) => boole
 }
 
 /** `isRightHanded`: as of Scene.useRightHandedSystem. */
-export const babylon = (isRightHanded: boolean): Host<Thing> => ({
-  mirror: isRightHanded ? 1 : -1,
-  nameOf,
-  parentOf: (thing) => (isScene(thing) ? null : ((thing.parent as TransformNode | null) ?? thing.getScene())),
-  matrixOf: (thing) => worldOf(thing as TransformNode).asArray(),
-  place: (thing, matrix) => putInWorld(thing as TransformNode, matrix),
-  meshesOf,
-  skinnedOf: (root) => new SkinnedNodes(root),
-});

@@ -5,7 +5,8 @@ import type { Scene, TransformNode } from "@babylonjs/core";
 import type { BodyOptions, Foretouch, SolidOptions } from "foretouch";
 import { type EngineLike, SceneWorld, type SceneWorldOptions, type Shown } from "foretouch/host";
 import { type Experience, handSource } from "./hand.js";
-import { babylon, type Thing } from "./objects.js";
+import { babylon } from "./host.js";
+import type { Thing } from "./objects.js";
 import { Body, Hand, Rigid, Teller, type Toucher } from "./touchers.js";
 
 export type WorldOptions = SceneWorldOptions<Thing> & {

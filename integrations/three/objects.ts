@@ -2,8 +2,7 @@
 
 import type { BufferAttribute, BufferGeometry, InterleavedBufferAttribute, Mesh, Object3D } from "three";
 import { type InstancedMesh, Matrix4 } from "three";
-import type { Host, HostMesh, Note } from "foretouch/host";
-import { SkinnedTree } from "./skinned.js";
+import type { HostMesh, Note } from "foretouch/host";
 
 /** As three.js tells people apart: by name, else by kind. */
 export const nameOf = (object: Object3D): string => (object.name === "" ? `${object.type} ${object.id}` : object.name);
@@ -67,16 +66,3 @@ export function meshesOf(root: Object3D, note: Note<Object3D>, isOut: (object: O
   visit(root);
   return all;
 }
-
-export const three: Host<Object3D> = {
-  mirror: 1,
-  nameOf,
-  parentOf: ({ parent }) => parent,
-  matrixOf: (object) => {
-    refresh(object, false);
-    return object.matrixWorld.elements;
-  },
-  place: putInWorld,
-  meshesOf,
-  skinnedOf: (root) => new SkinnedTree(root),
-};

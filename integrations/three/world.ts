@@ -5,7 +5,8 @@ import { EventDispatcher, type Object3D } from "three";
 import { type BodyOptions, type Foretouch, ForetouchError, type SolidOptions } from "foretouch";
 import { type EngineLike, SceneWorld, type SceneWorldOptions, type Shown } from "foretouch/host";
 import { handSource } from "./hand.js";
-import { nameOf, three } from "./objects.js";
+import { three } from "./host.js";
+import { nameOf } from "./objects.js";
 import { Body, Hand, type HandSpace, Rigid, threes, type Touches, type Toucher } from "./touchers.js";
 
 export type WorldOptions = SceneWorldOptions<Object3D>;

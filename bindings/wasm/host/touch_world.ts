@@ -5,7 +5,8 @@
 import { ForetouchError, type Point } from "../machine.js";
 import type { SolidContact, SolidOptions } from "../solid.js";
 import type { SolidTarget, SolidWorldOptions } from "../solid_world.js";
-import { type BodyOptions, type ContactSide, stillScene, type WorldEvent } from "../world.js";
+import type { ContactSide } from "../ask.js";
+import { type BodyOptions, stillScene, type WorldEvent } from "../world.js";
 import type { BodyOrder, EngineLike, Hold, Move, Told } from "./engine.js";
 import { framesOf, intoFrame, localPose, poseRoom, RigidPart, worldFrames } from "./frames.js";
 import { gathered, type HostMesh, type Note } from "./geometry.js";
