@@ -251,9 +251,10 @@ AskTally judgeFlights(std::uint64_t seed, int count,
     const FlightQuestion flight = randomFlight(world, random);
     FlightQuestion asked = flight;
     if (tamper) tamper(asked);
+    const std::string whose = "seed " + std::to_string(seed) + ", flight " + std::to_string(i);
     const auto done = askFlight(world.both().world, asked, scratch, answer);
     if (!done.ok()) {
-      tally.problems.push_back(describe(done.error()));
+      tally.problems.push_back(whose + ": " + describe(done.error()));
       continue;
     }
     const std::size_t before = tally.problems.size();
@@ -262,10 +263,7 @@ AskTally judgeFlights(std::uint64_t seed, int count,
                      [](const UnknownBody& body) { return body.why == AskUnknown::Unresolved; });
     if (isResolved) FlightJudge(world, world, flight).judge(answer, tally);
     tally.filtered += !isResolved;
-    for (std::size_t p = before; p < tally.problems.size(); ++p) {
-      tally.problems[p] = "seed " + std::to_string(seed) + ", flight " + std::to_string(i) + ": " +
-                          tally.problems[p];
-    }
+    tally.name(before, whose);
     ++tally.questions["flight"];
     if (!answer.first) continue;
     ++tally.hits["flight"];
