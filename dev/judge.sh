@@ -11,7 +11,6 @@ declare -rA programs=(
   [solid-oracle]=solid_oracle
   [solid-world-oracle]=solid_world_oracle
   [world-oracle]=world_oracle
-  [ask-oracle]=ask_oracle
   [world-fuzz]=world_fuzz
   [leaf-oracle]=leaf_campaign
   [simulate]=stream_simulator
@@ -52,6 +51,11 @@ case "$task" in
   moments)
     build_tests >&2
     moments "$@"
+    ;;
+  ask-oracle)
+    if [ "${1:-}" = --sum ]; then exec python3 tests/oracle/asked.py "${@:2}"; fi
+    build_tests >&2
+    exec build/release/bin/ask_oracle "$@"
     ;;
   gltf-oracle)
     build_tests >&2

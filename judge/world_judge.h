@@ -53,7 +53,7 @@ class OracleWorld {
   /// How often two links were looked at at an instant, to know until when they cannot touch.
   mutable std::uint64_t pairInstants = 0;
 
-  /// Of two links at `us` after `fromUs`; from the left, where a body changes its carrier there.
+  /// Of two links at `us` after `fromUs`; where a body changes its carrier there: after it.
   [[nodiscard]] Real separationAt(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
                                   Real us) const;
   /// Of all links of a and of b, row after row, likewise; of those that are proven farther apart

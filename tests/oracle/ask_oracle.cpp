@@ -25,16 +25,20 @@ int main(int count, char** arguments) {
       .add_option("--first-kind", firstKind, "Only kinds from this one on; 5: hulls and insides")
       ->check(CLI::Range(0, foretouch::test::kAskedKinds - 1));
   CLI11_PARSE(program, count, arguments);
+  std::printf("worlds %d to %d, each: %d questions, %d flights, %d clearances\n", first,
+              first + seeds - 1, questions, flights, clearances);
   foretouch::test::AskTally all;
   foretouch::test::ClearanceTally near;
+  std::size_t said = 0, saidOfNear = 0;  // problems
   for (int i = 0; i < seeds; ++i) {
     const auto seed = static_cast<std::uint64_t>(first) + static_cast<std::uint64_t>(i);
     if (questions > 0) all.add(foretouch::test::judgeQuestions(seed, questions, {}, firstKind));
     if (flights > 0) all.add(foretouch::test::judgeFlights(seed, flights));
     if (clearances > 0) near.add(foretouch::test::judgeClearances(seed, clearances));
+    while (said < all.problems.size()) std::puts(all.problems[said++].c_str());
+    while (saidOfNear < near.problems.size()) std::puts(near.problems[saidOfNear++].c_str());
+    std::fflush(stdout);
   }
-  for (const std::string& problem : all.problems) std::puts(problem.c_str());
-  for (const std::string& problem : near.problems) std::puts(problem.c_str());
   if (all.parts > 0) std::fputs(summaryOf(all).c_str(), stdout);
   if (near.asked > 0) std::fputs(summaryOf(near).c_str(), stdout);
   return all.problems.empty() && near.problems.empty() ? 0 : 1;

@@ -154,23 +154,22 @@ AskTally judgeQuestions(std::uint64_t seed, int numQuestions, const AskTamper& t
     choosePlace(parts, kind, random, question);
     WorldQuestion asked = question;
     if (tamper.question) tamper.question(asked);
+    const std::string whose = "seed " + std::to_string(seed) + ", question " + std::to_string(i) +
+                              " (" + kKinds[kind] + ")";
+    const std::size_t before = tally.problems.size();
     const auto done = askWorld(world.both().world, asked, scratch, answer);
     if (!done.ok()) {
-      tally.problems.push_back(describe(done.error()));
+      tally.problems.push_back(whose + ": " + describe(done.error()));
       continue;
     }
     if (i % kAnewEvery == 0 && !isSameAnew(world.both().world, asked, answer)) {
       tally.problems.emplace_back("another answer by a memory that has asked nothing yet");
     }
     if (tamper.answer) tamper.answer(answer);
-    const std::size_t before = tally.problems.size();
     const AskJudge judge(question, parts);
     judge.judge(answer, tally);
     judge.judgeUnknown(answer, world.unknownAt(question), tally);
-    for (std::size_t p = before; p < tally.problems.size(); ++p) {
-      tally.problems[p] = "seed " + std::to_string(seed) + ", question " + std::to_string(i) +
-                          " (" + kKinds[kind] + "): " + tally.problems[p];
-    }
+    tally.name(before, whose);
     count(world, question, answer, kKinds[kind], tally);
   }
   return tally;
@@ -191,6 +190,10 @@ void AskTally::add(const AskTally& more) {
   parts += more.parts;
   widest = std::max(widest, more.widest);
   problems.insert(problems.end(), more.problems.begin(), more.problems.end());
+}
+
+void AskTally::name(std::size_t from, const std::string& whose) {
+  for (; from < problems.size(); ++from) problems[from] = whose + ": " + problems[from];
 }
 
 std::string summaryOf(const AskTally& tally) {

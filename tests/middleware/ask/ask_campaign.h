@@ -2,6 +2,7 @@
 // kind, each answer held against the judge's own world, part by part.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -24,6 +25,8 @@ struct AskTally {
   std::vector<std::string> problems;
 
   void add(const AskTally& more);
+  /// Says of the problems from that one on whose they are.
+  void name(std::size_t from, const std::string& whose);
 };
 
 /// One part of a body in W, and whose it is.

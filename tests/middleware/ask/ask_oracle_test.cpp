@@ -141,6 +141,19 @@ TEST(AskOracle, FlightsHitWhatTheJudgeSeesThemHitFirst) {
   EXPECT_LT(tally.filtered, 5);  // not resolved
 }
 
+// A body's first pose puts it into the midst of a hull that flies: it is hit then, and the judge
+// says so where the answer does not.
+TEST(AskOracle, AHullHitsWhatComesToBeInsideOfIt) {
+  constexpr std::uint64_t kSeed = 7'001'371;
+  const AskTally tally = test::judgeFlights(kSeed, 14);
+  for (const std::string& problem : tally.problems) ADD_FAILURE() << problem;
+  const AskTally lied =
+      test::judgeFlights(kSeed, 14, [](FlightQuestion& flight) { flight.groups = 0; });
+  const std::string named = "seed 7001371, flight 13: body 0 link 0 touches at 3000 us";
+  EXPECT_TRUE(std::any_of(lied.problems.begin(), lied.problems.end(),
+                          [&](const std::string& said) { return said.find(named) == 0; }));
+}
+
 TEST(AskOracle, NamesFlightsAtAnotherTime) {
   AskTally tally;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {

@@ -2,6 +2,7 @@
 // more body of it.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -118,6 +119,16 @@ class FlightJudge {
     const Real offset = static_cast<Real>(fromUs - question_.fromUs);
     if (offset > until || !hasParts(body, link)) return;
     ++tally.parts;
+    const auto tell = [&](Real us) {
+      std::ostringstream out;
+      out.precision(12);
+      out << "body " << body << " link " << link << " touches at " << static_cast<double>(us)
+          << " us, reported free until " << static_cast<double>(until);
+      tally.problems.push_back(out.str());
+    };
+    const bool isBefore = offset < until - kTimeGuard;
+    // What comes to be in the midst of a hull touches it, and not its surface.
+    if (isBefore && gapAt(body, link, offset, 0, false) < -kTouchGuard) return tell(offset);
     const auto touch = judge_.firstTouch(flown_, 0, body, link, fromUs, toUs);
     if (touch.outcome != OracleOutcome::Touch) return;
     if (offset + touch.time >= until - kTimeGuard) return;
@@ -125,14 +136,8 @@ class FlightJudge {
     const Real last = std::min(until - offset, static_cast<Real>(toUs - fromUs));
     for (int i = 0; i <= kSamples; ++i) {
       const Real us = touch.time + (last - touch.time) * i / kSamples;
-      if (judge_.separationAt(flown_, 0, body, link, fromUs, us) > -kTouchGuard) continue;
-      std::ostringstream out;
-      out.precision(12);
-      out << "body " << body << " link " << link << " touches at "
-          << static_cast<double>(offset + touch.time) << " us, reported free until "
-          << static_cast<double>(until);
-      tally.problems.push_back(out.str());
-      return;
+      if (gapAt(body, link, offset + us, 0, false) <= -kTouchGuard)
+        return tell(offset + touch.time);
     }
   }
 
@@ -142,17 +147,34 @@ class FlightJudge {
                        [&](const OraclePart& part) { return part.link == link; });
   }
 
+  /// Of the shape and a link, so long after the flight's begin; below 0 also inside of a hull.
+  /// Farther than `beyond`: at least that.
+  [[nodiscard]] Real gapAt(BodyId body, LinkId link, Real us, Real beyond, bool isFromLeft) const {
+    const auto frame = judge_.frameAt(body, link, question_.fromUs, us, isFromLeft);
+    const oracle::Vec3r flown = shareAt(us) * shape_.direction.as<Real>();
+    oracle::CastShape shape = shape_;
+    shape.direction = {};
+    for (oracle::Vec3d* p : {&shape.a, &shape.b}) *p = (p->as<Real>() + flown).as<double>();
+    Real least = beyond;
+    for (OraclePart part : judge_.bodies[slotOf(body)].parts) {
+      if (part.link != link) continue;
+      for (oracle::Vec3d& p : part.corners) p = frame.at(p.as<Real>()).as<double>();
+      least = std::min(least, oracle::leastGap(shape, 0, part, least));
+    }
+    return least;
+  }
+  [[nodiscard]] Real shareAt(Real us) const {
+    return us / static_cast<Real>(question_.toUs - question_.fromUs);
+  }
+
   void judgeHit(const FlightHit& first, Real us, AskTally& tally) {
     const ContactSide& what = first.hit.what;
     if (what.body == kStillScene) return;
-    // A surface that begins around a part is not near it.
-    if (!question_.hull.empty() && us == 0) return;
     if (!isAsked(what.body, what.link)) tally.problems.emplace_back("not asked about");
     // Where it changes who carries it, it has two places.
-    const Real before = judge_.separationAt(flown_, 0, what.body, what.link, question_.fromUs, us);
-    const Real after = judge_.separationsAt(flown_, what.body, question_.fromUs, us, false,
-                                            1.0L)[slotOf(what.link)];
-    const Real gap = std::min(before, after);
+    constexpr Real kFar = 0.1L;
+    const Real gap = std::min(gapAt(what.body, what.link, us, kFar, true),
+                              gapAt(what.body, what.link, us, kFar, false));
     tally.widest = std::max(tally.widest, gap);
     // The instant is rounded down by a part of a nanosecond.
     if (gap > kAskTolerance + 1e-9L) {
@@ -169,7 +191,7 @@ class FlightJudge {
     if (std::any_of(question_.without.begin(), question_.without.end(), isOut)) return;
     const oracle::CastShape& shape = shape_;
     const Real length = question_.way.norm();
-    const Real share = until / static_cast<Real>(question_.toUs - question_.fromUs);
+    const Real share = shareAt(until);
     for (std::size_t i = 0; i < world_.still()->numTriangles(); ++i) {
       const oracle::OraclePart part{
           0, 3, plain(world_.still()->triangle(static_cast<TriangleId>(i))), 0.0};
@@ -229,9 +251,10 @@ AskTally judgeFlights(std::uint64_t seed, int count,
     const FlightQuestion flight = randomFlight(world, random);
     FlightQuestion asked = flight;
     if (tamper) tamper(asked);
+    const std::string whose = "seed " + std::to_string(seed) + ", flight " + std::to_string(i);
     const auto done = askFlight(world.both().world, asked, scratch, answer);
     if (!done.ok()) {
-      tally.problems.push_back(describe(done.error()));
+      tally.problems.push_back(whose + ": " + describe(done.error()));
       continue;
     }
     const std::size_t before = tally.problems.size();
@@ -240,10 +263,7 @@ AskTally judgeFlights(std::uint64_t seed, int count,
                      [](const UnknownBody& body) { return body.why == AskUnknown::Unresolved; });
     if (isResolved) FlightJudge(world, world, flight).judge(answer, tally);
     tally.filtered += !isResolved;
-    for (std::size_t p = before; p < tally.problems.size(); ++p) {
-      tally.problems[p] = "seed " + std::to_string(seed) + ", flight " + std::to_string(i) + ": " +
-                          tally.problems[p];
-    }
+    tally.name(before, whose);
     ++tally.questions["flight"];
     if (!answer.first) continue;
     ++tally.hits["flight"];
