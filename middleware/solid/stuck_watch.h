@@ -23,7 +23,7 @@ class StuckWatch {
   void reset() { *this = StuckWatch(most_); }
   /// A tick that did not reach the target.
   void look(const Deviation& deviation, double dtS);
-  /// It has been stuck for so long that a way around is worth a search.
+  /// It has been stuck, or far away, for so long that a way around is worth a search.
   [[nodiscard]] bool wantsAround() const;
   [[nodiscard]] bool wantsSnap() const { return wantsSnapIn(0.0); }
   /// It may want to, if it stays away for so long.
@@ -47,6 +47,7 @@ class StuckWatch {
   double stuckS_ = 0.0, awayS_ = 0.0;
   Eigen::Vector3d stuckAt_ = Eigen::Vector3d::Zero();  // where that point's target was at first
   int stuckTicks_ = 0, lookAt_ = 0;
+  bool isCaught_ = false;  // far away for longer than the patience, and no nearer
 };
 
 }  // namespace foretouch::internal

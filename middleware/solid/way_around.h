@@ -16,7 +16,7 @@
 namespace foretouch::internal {
 
 /// Of a tick, in evaluations in lanes: a search is spread over ticks.
-inline constexpr std::uint64_t kSearchWork = 8'000;
+inline constexpr std::uint64_t kSearchWork = 12'000;
 
 /// For one thread; keeps its memory.
 class WayAround {
