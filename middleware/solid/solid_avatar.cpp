@@ -349,7 +349,7 @@ class SolidAvatar::Parts {
     if (looks) {
       const internal::VisualBody& body = controller_.body();
       around_.search(body, shown_, target_.pose(), wanted_, body.points()[farthest].link,
-                     static_cast<std::uint32_t>(options_.aroundPerTick), certifier_);
+                     stuck_.isCaught(), certifier_);
     }
     tick.counters.aroundQueries += certifier_.queries() - before;
     if (!wantsSnap || around_.hasWay()) return;

@@ -25,6 +25,8 @@ class StuckWatch {
   void look(const Deviation& deviation, double dtS);
   /// It has been stuck, or far away, for so long that a way around is worth a search.
   [[nodiscard]] bool wantsAround() const;
+  /// Far away, so that a search is worth it though the target goes on.
+  [[nodiscard]] bool isCaught() const { return isCaught_; }
   [[nodiscard]] bool wantsSnap() const { return wantsSnapIn(0.0); }
   /// It may want to, if it stays away for so long.
   [[nodiscard]] bool wantsSnapIn(double dtS) const {

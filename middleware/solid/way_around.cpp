@@ -9,8 +9,8 @@
 namespace foretouch::internal {
 namespace {
 
-/// A target that has moved farther than this (m), or than this share of its distance, is another
-/// one; so is a begin that has moved farther than this (m).
+/// A target that has moved farther than this (m) is another one; of one that goes on, than this
+/// share of its distance, and so is a begin that has moved farther than this (m).
 constexpr double kSameTarget = 0.05, kSameShare = 0.25, kSameStart = 0.01;
 /// Poses of the trail are so far apart at first (m), and twice as far where they become too many.
 constexpr double kSpacing = 1e-3;
@@ -48,7 +48,9 @@ Quaternion turned(const Quaternion& q, const Eigen::Vector3d& by) {
 }  // namespace
 
 WayAround::WayAround(const Avatar& avatar, const SolidOptions& options)
-    : skeleton_(avatar.skeleton()), most_(static_cast<std::uint32_t>(options.aroundInAll)) {}
+    : skeleton_(avatar.skeleton()),
+      perTick_(static_cast<std::uint32_t>(options.aroundPerTick)),
+      most_(static_cast<std::uint32_t>(options.aroundInAll)) {}
 
 void WayAround::reset() {
   isBegun_ = hasFailed_ = false;
@@ -60,8 +62,9 @@ bool WayAround::isStale(const std::vector<Eigen::Vector3d>& places,
                         const std::vector<Eigen::Vector3d>& wanted) const {
   if (!isBegun_) return false;
   const double moved = VisualBody::farthest(wanted, wanted_);
-  if (moved > std::max(kSameTarget, kSameShare * far_)) return true;
-  return way_.empty() && VisualBody::farthest(places, trees_[0].nodes[0].places) > kSameStart;
+  if (moved > (goesOn_ ? std::max(kSameTarget, kSameShare * far_) : kSameTarget)) return true;
+  const double same = goesOn_ ? kSameStart : 0.0;
+  return way_.empty() && VisualBody::farthest(places, trees_[0].nodes[0].places) > same;
 }
 
 void WayAround::rememberFree(const VisualBody& body, const Pose& shown, double dtS) {
@@ -116,7 +119,7 @@ double WayAround::uniform(double low, double high) {
 void WayAround::begin(const VisualBody& body, const Pose& shown, const Pose& target,
                       const std::vector<Eigen::Vector3d>& wanted, LinkId farthest) {
   isBegun_ = true;
-  hasFailed_ = false;
+  hasFailed_ = goesOn_ = false;
   spent_ = 0;
   random_ = 0;
   turn_ = 0;
@@ -205,13 +208,14 @@ double WayAround::distanceOf(const Node& node) const {
 }
 
 void WayAround::search(const VisualBody& body, const Pose& shown, const Pose& target,
-                       const std::vector<Eigen::Vector3d>& wanted, LinkId farthest,
-                       std::uint32_t motions, Certifier& certifier) {
+                       const std::vector<Eigen::Vector3d>& wanted, LinkId farthest, bool goesOn,
+                       Certifier& certifier) {
   if (hasFailed_ || hasWay()) return;
   if (!isBegun_) begin(body, shown, target, wanted, farthest);
+  goesOn_ = goesOn_ || goesOn;
   const std::uint32_t before = certifier.queries();
   const std::uint64_t workBefore = certifier.workDone();
-  while (certifier.queries() - before < motions && certifier.workLeft() > 0 &&
+  while (certifier.queries() - before < perTick_ && certifier.workLeft() > 0 &&
          certifier.workDone() - workBefore < kSearchWork) {
     const Tree& from = trees_[turn_];
     if (from.count >= kMostNodes || spent_ >= most_) {

@@ -44,10 +44,11 @@ class WayAround {
   [[nodiscard]] bool isStale(const std::vector<Eigen::Vector3d>& places,
                              const std::vector<Eigen::Vector3d>& wanted) const;
 
-  /// Goes on looking for a way, by at most `motions` queries. `farthest`: the link that is farthest
-  /// from its place. Preconditions: `target` touches nothing.
+  /// Goes on looking for a way, by at most aroundPerTick queries. `farthest`: the link that is
+  /// farthest from its place. `goesOn`: the search, and the way, are good for a target that does
+  /// not stay, and from a place nearby. Preconditions: `target` touches nothing.
   void search(const VisualBody& body, const Pose& shown, const Pose& target,
-              const std::vector<Eigen::Vector3d>& wanted, LinkId farthest, std::uint32_t motions,
+              const std::vector<Eigen::Vector3d>& wanted, LinkId farthest, bool goesOn,
               Certifier& certifier);
   /// Makes what is left of the way shorter, from `shown` on, by a few queries, and lets it go on to
   /// where the target is now. Precondition: hasWay().
@@ -86,7 +87,7 @@ class WayAround {
   [[nodiscard]] double length(const VisualBody& body, const Pose& from, const Pose& to);
 
   Skeleton skeleton_;
-  std::uint32_t most_;                 // motions for one target
+  std::uint32_t perTick_, most_;       // motions in a tick, and for one target
   std::vector<std::uint8_t> isMoved_;  // per joint: of the limb that looks for a way
   Tree trees_[2];                      // from the shown pose; from the target
   std::size_t turn_ = 0;
@@ -108,7 +109,7 @@ class WayAround {
   std::size_t trailLeft_ = 0, tip_ = 0, stride_ = 1;
   std::uint32_t spent_ = 0;
   std::uint64_t random_ = 0;
-  bool isBegun_ = false, hasFailed_ = false;
+  bool isBegun_ = false, hasFailed_ = false, goesOn_ = false;
 };
 
 }  // namespace foretouch::internal
