@@ -18,6 +18,8 @@ export async function serveLive(port = 0) {
   const template = readFileSync(new URL("../dist/viewer.html", import.meta.url), "utf8");
   const streams = new Set();
   const events = Array.from({ length: 40 }, (_, i) => stepEvent(i * stepSeconds, (i + 1) * stepSeconds, i));
+  // Between poses that are not numbered nothing is decided.
+  const guests = [{ link: 3, verdict: "undecided", reason: "gap", free_until: 0 }];
   let sequence = 0, hasGuest = false;
   const timer = setInterval(() => {
     const shift = 4 * Math.floor(sequence / 40), event = events[sequence % 40];
@@ -27,7 +29,7 @@ export async function serveLive(port = 0) {
     const status = { answered: sequence, rejected: 0, lost: 2, gaps: 1, waiting: 0, query_p50_us: 8.1, query_p99_us: 31, answer_p50_us: 64, answer_p99_us: 180, viewers: streams.size };
     for (const stream of streams) {
       stream.write(`event: step\ndata: ${JSON.stringify(step)}\n\n`);
-      if (hasGuest) stream.write(`event: step\ndata: ${JSON.stringify({ ...step, avatar: guestId, contacts: [] })}\n\n`);
+      if (hasGuest) stream.write(`event: step\ndata: ${JSON.stringify({ ...step, avatar: guestId, contacts: guests })}\n\n`);
       if (sequence % 10 === 0) stream.write(`event: status\ndata: ${JSON.stringify(status)}\n\n`);
     }
   }, 1000 * stepSeconds);

@@ -415,6 +415,16 @@ const tests = {
       }
     }, undefined, { timeout: 15000 });
     assert.equal(await page.getByText("Not shown:").count(), 0, "who joins is no complaint");
+    await page.getByText("not known to touch anything").waitFor();
+    const counted = async () => {
+      const figure = async (name) => Number((await page.locator("tr", { has: page.getByText(name, { exact: true }) }).locator("td").first().textContent()).replace(/\D/g, ""));
+      return { contacts: await figure("contacts"), steps: await figure("steps") };
+    };
+    const before = await counted();
+    await page.waitForTimeout(3000);
+    const after = await counted();
+    assert.ok(after.steps > before.steps + 20);
+    assert.ok(after.contacts - before.contacts < 0.4 * (after.steps - before.steps), "what is undecided is no contact");
     server.send("event: step\ndata: {nonsense\n\n");
     await page.getByText("Not shown:").waitFor();
     assert.deepEqual(complaints, []);

@@ -122,12 +122,13 @@ export class Feed {
   /** In words first: a drawing is never waited for. */
   private count(event: StepEvent, fresh: readonly Contact[]): void {
     const { steps, skipped, lost, contacts, latest } = this.state;
+    const met = fresh.filter(({ verdict }) => verdict !== "undecided");
     this.set({
       steps: steps + 1 + event.skipped,
       skipped: skipped + event.skipped,
       lost: lost + event.lost,
-      contacts: contacts + fresh.length,
-      latest: fresh[fresh.length - 1] ?? latest,
+      contacts: contacts + met.length,
+      latest: met[met.length - 1] ?? latest,
       lastQueryUs: event.queryUs,
       lastAddedUs: event.addedUs,
       shown: event.shown === null ? this.state.shown : new Map(this.state.shown).set(event.avatar, event.shown),

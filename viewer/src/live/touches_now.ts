@@ -56,11 +56,12 @@ export class TouchesNow {
     const { avatars, clips, touches } = this.model;
     this.bodies.replaceChildren(...avatars.map(({ id, name }, avatar) => {
       const end = clips[avatar].end;
-      const now = touches.filter((touch) => touch.avatar === avatar && !touch.isUndecided && touch.end >= end - nowS);
-      const links = [...new Set(now.map(wordsOf))];
-      const words = !clips[avatar].hasPose ? "no pose yet" : links.length === 0 ? "touches nothing" : links.slice(0, 3).join(", ") + (links.length > 3 ? ` and ${links.length - 3} more` : "");
+      const now = touches.filter((touch) => touch.avatar === avatar && touch.end >= end - nowS);
+      const links = [...new Set(now.filter(({ isUndecided }) => !isUndecided).map(wordsOf))];
+      const free = now.length === 0 ? "touches nothing" : "not known to touch anything";
+      const words = !clips[avatar].hasPose ? "no pose yet" : links.length === 0 ? free : links.slice(0, 3).join(", ") + (links.length > 3 ? ` and ${links.length - 3} more` : "");
       const item = element("li", {}, element("span", { class: "dot" }), element("strong", { text: avatars.length > 1 ? `${id}: ${name}` : name }), element("span", { class: "quiet", text: words }));
-      item.dataset["state"] = links.length === 0 ? "free" : "touches";
+      item.dataset["state"] = links.length > 0 ? "touches" : now.length > 0 ? "undecided" : "free";
       return item;
     }));
   }
