@@ -9,6 +9,7 @@
 #include "lss/assert.h"
 #include "lss/index.h"
 #include "lss/rounding.h"
+#include "middleware/scene/eight_boxes.h"
 
 namespace foretouch::internal {
 namespace {
@@ -105,8 +106,8 @@ class ClearanceSearch::Look {
                0.5 * curve.curve.accelerationB * half_ * half_},
         moves_(movesOf(curve, ends_, half_)) {
     for (int axis = 0; axis < 3; ++axis) {
-      low_[axis] = floatBelow(std::min(ends_.a[axis], ends_.b[axis]));
-      high_[axis] = floatAbove(std::max(ends_.a[axis], ends_.b[axis]));
+      box_.lower[axis] = floatBelow(std::min(ends_.a[axis], ends_.b[axis]));
+      box_.upper[axis] = floatAbove(std::max(ends_.a[axis], ends_.b[axis]));
     }
   }
 
@@ -126,29 +127,25 @@ class ClearanceSearch::Look {
   }
   void bounds(const BvhNode& node, double (&bounds)[kBvhWidth]) const {
     float squares[kBvhWidth];
-    squaredGaps(node.lower, node.upper, squares);
-    for (int i = 0; i < kBvhWidth; ++i) bounds[i] = static_cast<double>(squares[i]);
+    squaredGaps(node.lower, node.upper, box_, squares);
     for (int k = 0; k < numPlanes_; ++k) {
       const Plane& plane = planes_[k];
-      const float cut = cutOf(plane);
-      const float* const far[3] = {plane.isUp[0] ? node.upper[0] : node.lower[0],
-                                   plane.isUp[1] ? node.upper[1] : node.lower[1],
-                                   plane.isUp[2] ? node.upper[2] : node.lower[2]};
-      for (int i = 0; i < kBvhWidth; ++i) {
-        const float top =
-            plane.nhat[0] * far[0][i] + plane.nhat[1] * far[1][i] + plane.nhat[2] * far[2][i];
-        bounds[i] = top < cut ? kInfinity : bounds[i];
-      }
+      const auto far = [&](int axis) {
+        return plane.isUp[axis] ? node.upper[axis] : node.lower[axis];
+      };
+      const float* const corner[1][3] = {{far(0), far(1), far(2)}};
+      leaveOutBelow(corner, plane.nhat, cutOf(plane), squares);
     }
+    for (int i = 0; i < kBvhWidth; ++i) bounds[i] = static_cast<double>(squares[i]);
   }
   void leaf(const BvhLeaf& leaf) {
     float lower[3][kBvhWidth], upper[3][kBvhWidth], squares[kBvhWidth];
-    boxes(leaf, lower, upper);
-    squaredGaps(lower, upper, squares);
-    bool isLow[kBvhWidth] = {};
-    for (int k = 0; k < numPlanes_; ++k) leaveOut(leaf, planes_[k], isLow);
+    boxesOf(leaf, lower, upper);
+    squaredGaps(lower, upper, box_, squares);
+    for (int k = 0; k < numPlanes_; ++k) {
+      leaveOutBelow(leaf.vertex, planes_[k].nhat, cutOf(planes_[k]), squares);
+    }
     for (int i = 0; i < kBvhWidth && leaf.id[i] >= 0; ++i) {
-      if (isLow[i]) continue;
       // Vertices are rounded to nearest.
       const double gap = std::sqrt(static_cast<double>(squares[i])) - vertexRounding();
       const double most = limit();
@@ -162,51 +159,12 @@ class ClearanceSearch::Look {
  private:
   [[nodiscard]] double vertexRounding() const { return 2.0 * scene_.bvh.vertexRounding(); }
 
-  void boxes(const BvhLeaf& leaf, float (&lower)[3][kBvhWidth],
-             float (&upper)[3][kBvhWidth]) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      for (int i = 0; i < kBvhWidth; ++i) {
-        const float a = leaf.vertex[0][axis][i], b = leaf.vertex[1][axis][i],
-                    c = leaf.vertex[2][axis][i];
-        const float lessOfAb = a < b ? a : b, moreOfAb = a > b ? a : b;
-        lower[axis][i] = lessOfAb < c ? lessOfAb : c;
-        upper[axis][i] = moreOfAb > c ? moreOfAb : c;
-      }
-    }
-  }
-
-  void squaredGaps(const float (&lower)[3][kBvhWidth], const float (&upper)[3][kBvhWidth],
-                   float (&squares)[kBvhWidth]) const {
-    for (float& square : squares) square = 0.0F;
-    for (int axis = 0; axis < 3; ++axis) {
-      for (int i = 0; i < kBvhWidth; ++i) {
-        const float below = lower[axis][i] - high_[axis], above = low_[axis] - upper[axis][i];
-        float gap = below > above ? below : above;
-        gap = gap > 0.0F ? gap : 0.0F;
-        squares[i] += gap * gap;
-      }
-    }
-  }
-
   /// What has no point as high along the normal as its cut is far all through the span.
   struct Plane {
     float nhat[3];
     bool isUp[3];
     double top;  ///< Of the axis, where it is lowest.
   };
-
-  void leaveOut(const BvhLeaf& leaf, const Plane& plane, bool (&isLow)[kBvhWidth]) const {
-    const float cut = cutOf(plane);
-    bool isHigh[kBvhWidth] = {};
-    for (const auto& corner : leaf.vertex) {
-      for (int i = 0; i < kBvhWidth; ++i) {
-        const float height = plane.nhat[0] * corner[0][i] + plane.nhat[1] * corner[1][i] +
-                             plane.nhat[2] * corner[2][i];
-        isHigh[i] = isHigh[i] | (height >= cut);
-      }
-    }
-    for (int i = 0; i < kBvhWidth; ++i) isLow[i] = isLow[i] | !isHigh[i];
-  }
 
   /// The first one stays, of the others the last one.
   void usePlane(const Vector3d& nhat) {
@@ -240,7 +198,7 @@ class ClearanceSearch::Look {
   [[nodiscard]] bool keepsAway(TriangleId id) {
     const Separation apart = separation(Hull::segment(ends_.a, ends_.b),
                                         hullFrom(scene_.origin, scene_.triangles[slotOf(id)]));
-    search_.take(curve_, t_, half_, apart, id);
+    search_.take(curve_, t_, apart, id);
     const std::array<double, 2> losses = lossesAlong(apart.nhat);
     const double least = std::min(apart.clearance[0] - losses[0], apart.clearance[1] - losses[1]);
     if (!(least >= search_.floor() + sum_)) return false;
@@ -258,7 +216,7 @@ class ClearanceSearch::Look {
   const double sum_;
   const std::array<double, 2> bends_;
   const double moves_;
-  float low_[3], high_[3];
+  LocalBox box_;
   int numPlanes_ = 0;
   Plane planes_[2];
   std::optional<TriangleId> nearer_;
@@ -341,6 +299,7 @@ void ClearanceSearch::lookAt(const Span& span) {
   // Where cells will do for quarters of it, halves cost less than a look.
   const bool areCellsEnough = span.ofQuarter >= floor();
   const auto nearer = areCellsEnough ? span.near : Look(*this, curve, span).nearer(span.near);
+  if (!isSettled_ && best_.upper > 0.0) settle(curve, span);
   if (!nearer) return;
   if (span.end - span.begin < kShortest) {
     lowest_ = std::min(lowest_, span.bound);
@@ -351,8 +310,7 @@ void ClearanceSearch::lookAt(const Span& span) {
   push({span.bound, middle, span.end, span.curve, *nearer});
 }
 
-void ClearanceSearch::take(const Curve& curve, double t, double half, const Separation& apart,
-                           TriangleId id) {
+void ClearanceSearch::take(const Curve& curve, double t, const Separation& apart, TriangleId id) {
   const double upper = std::max(0.0, kInflation * (apart.upper + curve.more) - curve.radius);
   if (upper > best_.upper + tolerance_ || upper > within_) return;
   const ClearancePlan& plan = *motion_.plan;
@@ -372,26 +330,21 @@ void ClearanceSearch::take(const Curve& curve, double t, double half, const Sepa
   best_.p_WScene = apart.onOther + origin;
   best_.p_WLink = apart.onOne - std::min(curve.radius, apart.distance) * nhat + origin;
   best_.nhat_SL_W = nhat;
-  bestMotion_ = motion_;
-  bestCurve_ = curve;
-  bestT_ = t;
-  bestHalf_ = half;
+  prop_ = motion_.prop;
+  isSettled_ = false;
 }
 
-/// When the nearest pair is nearest, about: the middle of a span is not.
-void ClearanceSearch::settle() {
-  motion_ = bestMotion_;
-  const Curve curve = bestCurve_;
+/// When the nearest pair is nearest, about: the middle of its span is not. At once, as others then
+/// need not be looked at.
+void ClearanceSearch::settle(const Curve& curve, const Span& span) {
   const SceneParts& scene = motion_.plan->scene.parts();
   const Hull triangle = hullFrom(scene.origin, scene.triangles[slotOf(best_.triangle)]);
-  const double curveEnd = curve.curve.begin + 2.0 / curve.curve.toX;
-  double low = std::max(curve.curve.begin, bestT_ - bestHalf_),
-         high = std::min(curveEnd, bestT_ + bestHalf_);
-  double t = bestT_, lowRate = 0.0, highRate = 0.0;  // 0: not known
+  double low = span.begin, high = span.end;
+  double t = 0.5 * (low + high), lowRate = 0.0, highRate = 0.0;  // 0: not known
   for (int i = 0; i < kSettlings; ++i) {
     const AxisCurve::Ends ends = curve.curve.endsAt(t);
     const Separation apart = separation(Hull::segment(ends.a, ends.b), triangle);
-    take(curve, t, bestHalf_, apart, best_.triangle);
+    take(curve, t, apart, best_.triangle);
     const Vector3d axis = ends.b - ends.a;
     const double square = axis.squaredNorm();
     const double along =
@@ -405,11 +358,11 @@ void ClearanceSearch::settle() {
     const bool isKnown = lowRate < 0.0 && highRate > 0.0 && i % 3 != 2;
     t = isKnown ? low + (high - low) * (-lowRate / (highRate - lowRate)) : 0.5 * (low + high);
   }
+  isSettled_ = true;
 }
 
 Clearance ClearanceSearch::finish() {
   const double proven = std::min(floor(), lowest_);
-  if (best_.triangle >= 0 && best_.upper > 0.0) settle();
   Clearance clearance = best_;
   clearance.lower = std::max(0.0, proven);
   clearance.isAlone = clearance.upper > 0.0 && clearance.upper < kInfinity;

@@ -78,7 +78,7 @@ class ClearanceSearch {
   void look(const ClearanceMotion& motion);
   [[nodiscard]] Clearance finish();
   /// Of the scene of the nearest place.
-  [[nodiscard]] std::int32_t prop() const { return bestMotion_.prop; }
+  [[nodiscard]] std::int32_t prop() const { return prop_; }
 
  private:
   class Look;
@@ -87,10 +87,9 @@ class ClearanceSearch {
   void boundByCells(ClearanceMemory::Span& span) const;
   void lookAt(const ClearanceMemory::Span& span);
   /// Of the motion at hand, at its own t.
-  void take(const ClearanceMemory::Curve& curve, double t, double half, const Separation& apart,
-            TriangleId id);
+  void take(const ClearanceMemory::Curve& curve, double t, const Separation& apart, TriangleId id);
   void push(ClearanceMemory::Span span);
-  void settle();
+  void settle(const ClearanceMemory::Curve& curve, const ClearanceMemory::Span& span);
   /// What is farther all through a span is of no account.
   [[nodiscard]] double floor() const { return std::min(within_, best_.upper - tolerance_); }
 
@@ -98,11 +97,9 @@ class ClearanceSearch {
   ClearanceMemory& memory_;
   ClearanceMotion motion_{};
   Clearance best_;
-  double lowest_;  // of spans too short to be halved
-  // Of the best: whose it is, when in its own motion, and half of the span around it.
-  ClearanceMotion bestMotion_{};
-  ClearanceMemory::Curve bestCurve_{};
-  double bestT_ = 0.0, bestHalf_ = 0.0;
+  double lowest_;           // of spans too short to be halved
+  std::int32_t prop_ = -1;  // of the best
+  bool isSettled_ = true;
 };
 
 }  // namespace foretouch::internal

@@ -8,6 +8,7 @@
 #include "lss/index.h"
 #include "lss/rounding.h"
 #include "lss/separation.h"
+#include "middleware/scene/eight_boxes.h"
 #include "middleware/scene/nearest_walk.h"
 #include "middleware/scene/scene_parts.h"
 
@@ -27,9 +28,12 @@ class NearestToPoint {
   NearestToPoint(const SceneParts& scene, const Vector3d& p)
       : scene_(scene),
         p_(p),
-        point_{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())},
-        rounding_((p - Vector3d(point_[0], point_[1], point_[2])).norm() +
-                  4.0 * kUnitRoundoff * scene.origin.lpNorm<1>()) {}
+        rounding_((p - p.cast<float>().cast<double>()).norm() +
+                  4.0 * kUnitRoundoff * scene.origin.lpNorm<1>()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      point_.lower[axis] = point_.upper[axis] = static_cast<float>(p[axis]);
+    }
+  }
 
   [[nodiscard]] double nearest() const { return nearest_; }
   [[nodiscard]] TriangleId triangle() const { return triangle_; }
@@ -38,16 +42,8 @@ class NearestToPoint {
     return limit * limit * kSquare;
   }
   void bounds(const BvhNode& node, double (&bounds)[kBvhWidth]) const {
-    float squares[kBvhWidth] = {};
-    for (int axis = 0; axis < 3; ++axis) {
-      for (int i = 0; i < kBvhWidth; ++i) {
-        const float below = node.lower[axis][i] - point_[axis],
-                    above = point_[axis] - node.upper[axis][i];
-        float gap = below > above ? below : above;
-        gap = gap > 0.0F ? gap : 0.0F;
-        squares[i] += gap * gap;
-      }
-    }
+    float squares[kBvhWidth];
+    squaredGaps(node.lower, node.upper, point_, squares);
     for (int i = 0; i < kBvhWidth; ++i) bounds[i] = static_cast<double>(squares[i]);
   }
   void leaf(const BvhLeaf& leaf) {
@@ -66,7 +62,7 @@ class NearestToPoint {
 
   const SceneParts& scene_;
   const Vector3d p_;
-  const float point_[3];
+  LocalBox point_;
   const double rounding_;
   double nearest_ = std::numeric_limits<double>::infinity();
   TriangleId triangle_ = -1;

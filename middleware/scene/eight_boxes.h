@@ -1,8 +1,10 @@
 // middleware/scene/eight_boxes.h: a box of floats against eight boxes of the flat tree at once:
-// those of a node's children, or of a leaf's triangles. Not installed.
+// those of a node's children, or of a leaf's triangles; and which of them are below a plane. Not
+// installed.
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include <Eigen/Core>
 
@@ -11,6 +13,23 @@
 #include "tessellation/aabb.h"
 
 namespace foretouch::internal {
+
+/// Four floats are one vector on every machine: walks ask too little at a time to choose among
+/// widths, and compilers make no vectors of comparisons by themselves.
+using FourFloats = float __attribute__((vector_size(16)));
+inline constexpr int kFour = 4;
+
+inline FourFloats fourOf(const float* from) {
+  FourFloats four;
+  std::memcpy(&four, from, sizeof four);
+  return four;
+}
+inline FourFloats lessOf(FourFloats x, FourFloats y) {
+  return x < y ? x : y;
+}
+inline FourFloats moreOf(FourFloats x, FourFloats y) {
+  return x > y ? x : y;
+}
 
 /// Rounded outward, relative to a tree's origin.
 struct LocalBox {
@@ -46,20 +65,55 @@ struct Eight {
 }
 
 /// Of a leaf's triangles; unused places repeat the last one.
-[[nodiscard]] inline Eight trianglesOverlapping(const BvhLeaf& leaf, const LocalBox& box) {
-  float lower[3][kBvhWidth], upper[3][kBvhWidth];
+inline void boxesOf(const BvhLeaf& leaf, float (&lower)[3][kBvhWidth],
+                    float (&upper)[3][kBvhWidth]) {
   for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < kBvhWidth; ++i) {
-      const float a = leaf.vertex[0][axis][i];
-      const float b = leaf.vertex[1][axis][i];
-      const float c = leaf.vertex[2][axis][i];
-      const float lessOfAb = a < b ? a : b;
-      const float moreOfAb = a > b ? a : b;
-      lower[axis][i] = lessOfAb < c ? lessOfAb : c;
-      upper[axis][i] = moreOfAb > c ? moreOfAb : c;
+    for (int i = 0; i < kBvhWidth; i += kFour) {
+      const FourFloats a = fourOf(leaf.vertex[0][axis] + i), b = fourOf(leaf.vertex[1][axis] + i),
+                       c = fourOf(leaf.vertex[2][axis] + i);
+      const FourFloats least = lessOf(lessOf(a, b), c), most = moreOf(moreOf(a, b), c);
+      std::memcpy(lower[axis] + i, &least, sizeof least);
+      std::memcpy(upper[axis] + i, &most, sizeof most);
     }
   }
+}
+
+[[nodiscard]] inline Eight trianglesOverlapping(const BvhLeaf& leaf, const LocalBox& box) {
+  float lower[3][kBvhWidth], upper[3][kBvhWidth];
+  boxesOf(leaf, lower, upper);
   return eightOverlapping(lower, upper, box);
+}
+
+/// How far each of eight boxes is from another one, squared.
+inline void squaredGaps(const float (&lower)[3][kBvhWidth], const float (&upper)[3][kBvhWidth],
+                        const LocalBox& box, float (&squares)[kBvhWidth]) {
+  for (int i = 0; i < kBvhWidth; i += kFour) {
+    FourFloats sum{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const FourFloats below = fourOf(lower[axis] + i) - box.upper[axis];
+      const FourFloats above = box.lower[axis] - fourOf(upper[axis] + i);
+      const FourFloats gap = moreOf(moreOf(below, above), FourFloats{});
+      sum += gap * gap;
+    }
+    std::memcpy(squares + i, &sum, sizeof sum);
+  }
+}
+
+/// Makes those squares infinite all of whose corners are less high along a normal than `cut`:
+/// corners[k][axis] are eight floats.
+template <std::size_t N, typename Axes>
+inline void leaveOutBelow(const Axes (&corners)[N], const float (&nhat)[3], float cut,
+                          float (&squares)[kBvhWidth]) {
+  for (int i = 0; i < kBvhWidth; i += kFour) {
+    FourFloats top = FourFloats{} - kFloatInfinity;
+    for (const Axes& at : corners) {
+      top = moreOf(
+          nhat[0] * fourOf(at[0] + i) + nhat[1] * fourOf(at[1] + i) + nhat[2] * fourOf(at[2] + i),
+          top);
+    }
+    const FourFloats left = top < cut ? FourFloats{} + kFloatInfinity : fourOf(squares + i);
+    std::memcpy(squares + i, &left, sizeof left);
+  }
 }
 
 }  // namespace foretouch::internal
