@@ -34,6 +34,7 @@ struct JudgedPart {
   ContactSide side;
   ObjectId object = kEveryObject;
   oracle::OraclePart part;
+  bool isOfSkin = false;  ///< Which has no inside, even if its triangles close.
 };
 
 /// Changes what is asked, or what was answered, before it is judged.

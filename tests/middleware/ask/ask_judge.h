@@ -38,7 +38,7 @@ class AskJudge {
     ObjectId object = kEveryObject;
     std::vector<oracle::Corners<Real>> surface;
     Real boxGap = 0;  ///< How far the place is outside of the surface's box; below 0: inside.
-    bool isClosed = false, isInside = false;
+    bool isOfSkin = false, isClosed = false, isInside = false;
   };
   void findSolids();
   /// The place is so near to it that either answer is right.

@@ -50,6 +50,11 @@ TEST(AskOracle, ALinkBesideASkinHasAnInsideOfItsOwn) {
   EXPECT_TRUE(test::judgeQuestions(5'001'044, 95).problems.empty());
 }
 
+// A skin has none, even where the triangles of a link close.
+TEST(AskOracle, ASkinWhoseTrianglesCloseIsOpen) {
+  EXPECT_TRUE(test::judgeQuestions(30'009'363, 74).problems.empty());
+}
+
 /// So many answers of few are found wrong.
 std::size_t problemsWith(const AskTamper& tamper) {
   return judgeSome(12, 40, tamper).problems.size();

@@ -108,6 +108,7 @@ void AskedWorld::appendSkin(BodyId body, Real us, std::vector<JudgedPart>& all) 
   }
   JudgedPart judged;
   judged.side.body = body;
+  judged.isOfSkin = true;
   std::size_t triangle = 0;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
     judged.side.link = link;

@@ -72,6 +72,7 @@ void AskJudge::findSolids() {
     solid.body = part.side.body;
     solid.link = link;
     solid.object = part.object;
+    solid.isOfSkin = part.isOfSkin;
     const auto& v = part.part.corners;
     solid.surface.push_back({v[0].as<Real>(), v[1].as<Real>(), v[2].as<Real>()});
   }
@@ -91,7 +92,7 @@ void AskJudge::findSolids() {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       solid.boxGap = std::max({solid.boxGap, low[axis] - place_[axis], place_[axis] - high[axis]});
     }
-    solid.isClosed = closes(solid.surface);
+    solid.isClosed = !solid.isOfSkin && closes(solid.surface);
     solid.isInside = solid.isClosed && solid.boxGap < 0 && oracle::isInside(place_, solid.surface);
     solids_.push_back(solid);
   }
