@@ -17,6 +17,22 @@ using Eigen::Vector3d;
 constexpr std::int32_t kAround = 1;
 /// A later fault within so many steps is the same one.
 constexpr std::int32_t kSame = 3;
+/// What did not settle by itself in so many rounds: a foot is held also where it lifts by a hair,
+/// which adds to the jerk. Before that it moved slower than this (m/s): it stood.
+constexpr int kFillAfter = 6;
+constexpr double kStandSpeed = 0.06;
+
+std::vector<RestLook> slidingMost(const std::vector<RestLook>& looks) {
+  std::vector<RestLook> most;
+  for (const RestLook& look : looks) {
+    if (most.empty() || most.back().step != look.step) {
+      most.push_back(look);
+    } else if (look.way_W.norm() > most.back().way_W.norm()) {
+      most.back() = look;
+    }
+  }
+  return most;
+}
 
 }  // namespace
 
@@ -126,7 +142,7 @@ void Demands::joinThroughs() {
 
 bool Demands::take(const Faults& faults) {
   bool isNew = false;
-  if (isFirst_) before_ = stage_.poses();
+  if (takes_ == 0) before_ = stage_.poses();
   for (const StepFault& fault : faults.all) {
     if (fault.kind == FaultKind::Limit) {
       isNew = limits_.insert({fault.link, fault.step}).second || isNew;
@@ -142,11 +158,11 @@ bool Demands::take(const Faults& faults) {
   for (const BearingStance& stance : faults.bearing) {
     if (stance.isFault(stage_.request().mostSlide)) isNew = takeSlide(stance) || isNew;
   }
-  if (isFirst_) {
+  if (takes_ == 0) {
     joinThroughs();
     findRests(faults.feet);
   }
-  isFirst_ = false;
+  ++takes_;
   return isNew;
 }
 
@@ -163,17 +179,13 @@ bool Demands::swings(const RestLook& look) const {
   return wayBefore(look).norm() > kSwingSpeed * stage_.feet().stepS();
 }
 
-/// One look of each step, the one in its middle. What counts may be another corner than in the
-/// round before.
+/// Of each step the look that slides most. What counts may be another corner than in the round
+/// before. A part that lifts by a hair between two steps at which it bears catches up there with
+/// all that it was held before, bears and slides: step by step, a round each, unless it is held
+/// there.
 bool Demands::takeSlide(const BearingStance& stance) {
   bool isNew = false;
-  for (std::size_t i = 0, looks = 1; i < stance.looks.size(); i += looks, looks = 1) {
-    while (i + looks < stance.looks.size() && stance.looks[i + looks].step == stance.looks[i].step)
-      ++looks;
-    const auto first = stance.looks.begin() + static_cast<std::ptrdiff_t>(i);
-    const RestLook& look = *std::max_element(
-        first, first + static_cast<std::ptrdiff_t>(looks),
-        [](const RestLook& x, const RestLook& y) { return x.way_W.norm() < y.way_W.norm(); });
+  for (const RestLook& look : slidingMost(stance.looks)) {
     const auto pose = static_cast<std::int32_t>(look.step);
     if (swings(look)) {
       isNew = clears_.insert({stance.part, pose}).second || isNew;
@@ -181,6 +193,11 @@ bool Demands::takeSlide(const BearingStance& stance) {
     } else {
       isNew = holds_.insert_or_assign({stance.part, look.step}, look).second || isNew;
     }
+  }
+  if (takes_ < kFillAfter) return isNew;
+  for (const RestLook& look : slidingMost(stance.lifted)) {
+    if (wayBefore(look).norm() < kStandSpeed * stage_.feet().stepS())
+      isNew = holds_.insert({{stance.part, look.step}, look}).second || isNew;
   }
   return isNew;
 }
