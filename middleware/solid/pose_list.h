@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "articulated/skeleton.h"
@@ -25,8 +26,21 @@ class PoseList {
   void push(const PoseList& from, std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) push(from[i]);
   }
+  /// Memory for as many poses of this size.
+  void reserve(std::size_t count, const Pose& pose) { poses_.assign(count, pose); }
   /// Only the first ones stay. Precondition: count <= size().
   void shorten(std::size_t count) { count_ = count; }
+  /// Every second one stays, from the first one on.
+  void thin() {
+    for (std::size_t i = 1; 2 * i < count_; ++i) std::swap(poses_[i], poses_[2 * i]);
+    count_ = (count_ + 1) / 2;
+  }
+  /// The first ones go. Precondition: count <= size().
+  void dropFirst(std::size_t count) {
+    std::rotate(poses_.begin(), poses_.begin() + static_cast<std::ptrdiff_t>(count),
+                poses_.begin() + static_cast<std::ptrdiff_t>(count_));
+    count_ -= count;
+  }
   void reverse() {
     std::reverse(poses_.begin(), poses_.begin() + static_cast<std::ptrdiff_t>(count_));
   }

@@ -50,7 +50,11 @@ Quaternion turned(const Quaternion& q, const Eigen::Vector3d& by) {
 WayAround::WayAround(const Avatar& avatar, const SolidOptions& options)
     : skeleton_(avatar.skeleton()),
       perTick_(static_cast<std::uint32_t>(options.aroundPerTick)),
-      most_(static_cast<std::uint32_t>(options.aroundInAll)) {}
+      most_(static_cast<std::uint32_t>(options.aroundInAll)) {
+  const Pose rest = restPose(skeleton_);
+  free_.reserve(kMostFree, rest);
+  trail_.reserve(kMostTrail, rest);
+}
 
 void WayAround::reset() {
   isBegun_ = hasFailed_ = false;
@@ -72,11 +76,7 @@ void WayAround::rememberFree(const VisualBody& body, const Pose& shown, double d
   if (sinceFreeS_ < kFreeEveryS && !free_.empty()) return;
   sinceFreeS_ = 0.0;
   if (!free_.empty() && !(length(body, free_.back(), shown) > kFreeSpacing)) return;
-  if (free_.size() == kMostFree) {
-    short_.clear();
-    short_.push(free_, kMostFree / 2, kMostFree);
-    free_.swap(short_);
-  }
+  if (free_.size() == kMostFree) free_.dropFirst(kMostFree / 2);
   free_.push(shown);
 }
 
@@ -91,9 +91,7 @@ void WayAround::remember(const VisualBody& body, const Pose& shown) {
   if (!trail_.empty() && !(length(body, trail_.back(), shown) > spacing_)) return;
   trail_.push(shown);
   if (trail_.size() < kMostTrail) return;
-  short_.clear();
-  for (std::size_t i = 0; i < trail_.size(); i += 2) short_.push(trail_[i]);
-  trail_.swap(short_);
+  trail_.thin();
   spacing_ *= 2.0;
 }
 

@@ -26,7 +26,7 @@ TEST(SolidWorldAllocation, NoTickAllocatesOnceMemoryHasGrown) {
   std::vector<SolidBodyTarget> targets = {{one, &pose}, {other, &otherPose}};
   std::vector<SolidBodyTick> ticks;
   std::uint64_t allocated = 0, pushed = 0;
-  for (int i = 0; i < 720; ++i) {
+  for (int i = 0; i < 1080; ++i) {
     const std::int64_t fromUs = world.utimeUs(), toUs = fromUs + 11'111;
     const double s = std::sin(M_PI / 45.0 * i);  // to and fro in 90 ticks, again and again
     const RigidPose at{Quaternion(Eigen::AngleAxisd(-0.8 - 0.8 * s, Vector3d::UnitY())),
@@ -40,9 +40,9 @@ TEST(SolidWorldAllocation, NoTickAllocatesOnceMemoryHasGrown) {
     world.world().forgetBefore(fromUs);
     const std::uint64_t before = numAllocations();
     const bool isDone = world.tick(toUs, targets, ticks).ok();
-    if (i >= 540) allocated += numAllocations() - before;
+    if (i >= 900) allocated += numAllocations() - before;
     ASSERT_TRUE(isDone);
-    if (i >= 540) pushed += ticks[0].contacts.size() + ticks[1].contacts.size();
+    if (i >= 900) pushed += ticks[0].contacts.size() + ticks[1].contacts.size();
   }
   EXPECT_EQ(allocated, 0u);
   EXPECT_GT(pushed, 50u);
