@@ -57,7 +57,8 @@ class ConvexSearch {
     result.numOne = 3;
     result.nhat = nhat_;
     result.clearance.fill(best_);
-    if (isEnclosed_) {
+    // Rounding takes what is nanometres apart for enclosed: a plane between the two knows better.
+    if (isEnclosed_ && !(best_ > 0.0)) {
       result.upper = result.distance = 0.0;
       result.difference = Vector3d::Zero();
     }

@@ -144,7 +144,11 @@ std::string AskJudge::problemOf(const WorldHit& hit, const JudgedPart& part) con
   if (!(hit.distance >= 0.0 && hit.distance <= question_.reach)) return "reach: " + said(hit);
   if (question_.what == AskWhat::Cast) {
     const Real gap = gapAfter(shape(), distance, part.part);
-    if (gap > kAskTolerance + kGuard) return "early, or none: " + said(hit);
+    if (gap > kAskTolerance + kGuard) {
+      std::ostringstream out;
+      out << "early, or none: " << said(hit) << ", " << static_cast<double>(gap) << " m from it";
+      return out.str();
+    }
     if (hit.distance > 0.0 && surelyTouches(part, distance)) {
       return "late: " + said(hit);
     }

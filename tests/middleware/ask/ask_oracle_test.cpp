@@ -50,6 +50,11 @@ TEST(AskOracle, ALinkBesideASkinHasAnInsideOfItsOwn) {
   EXPECT_TRUE(test::judgeQuestions(5'001'044, 95).problems.empty());
 }
 
+// Nanometres before a triangle a plane proves the two apart, whatever rounding makes of the faces.
+TEST(AskOracle, AHullIsNotSaidToEncloseWhatItIsApartFrom) {
+  EXPECT_TRUE(test::judgeQuestions(30'029'667, 29).problems.empty());
+}
+
 // A skin has none, even where the triangles of a link close.
 TEST(AskOracle, ASkinWhoseTrianglesCloseIsOpen) {
   EXPECT_TRUE(test::judgeQuestions(30'009'363, 74).problems.empty());
