@@ -17,22 +17,6 @@ using Eigen::Vector3d;
 constexpr std::int32_t kAround = 1;
 /// A later fault within so many steps is the same one.
 constexpr std::int32_t kSame = 3;
-/// What did not settle by itself in so many rounds: a foot is held also where it lifts by a hair,
-/// which adds to the jerk. Before that it moved slower than this (m/s): it stood.
-constexpr int kFillAfter = 6;
-constexpr double kStandSpeed = 0.06;
-
-std::vector<RestLook> slidingMost(const std::vector<RestLook>& looks) {
-  std::vector<RestLook> most;
-  for (const RestLook& look : looks) {
-    if (most.empty() || most.back().step != look.step) {
-      most.push_back(look);
-    } else if (look.way_W.norm() > most.back().way_W.norm()) {
-      most.back() = look;
-    }
-  }
-  return most;
-}
 
 }  // namespace
 
@@ -142,7 +126,7 @@ void Demands::joinThroughs() {
 
 bool Demands::take(const Faults& faults) {
   bool isNew = false;
-  if (takes_ == 0) before_ = stage_.poses();
+  if (isFirst_) before_ = stage_.poses();
   for (const StepFault& fault : faults.all) {
     if (fault.kind == FaultKind::Limit) {
       isNew = limits_.insert({fault.link, fault.step}).second || isNew;
@@ -158,11 +142,11 @@ bool Demands::take(const Faults& faults) {
   for (const BearingStance& stance : faults.bearing) {
     if (stance.isFault(stage_.request().mostSlide)) isNew = takeSlide(stance) || isNew;
   }
-  if (takes_ == 0) {
+  if (isFirst_) {
     joinThroughs();
     findRests(faults.feet);
   }
-  ++takes_;
+  isFirst_ = false;
   return isNew;
 }
 
@@ -179,13 +163,17 @@ bool Demands::swings(const RestLook& look) const {
   return wayBefore(look).norm() > kSwingSpeed * stage_.feet().stepS();
 }
 
-/// Of each step the look that slides most. What counts may be another corner than in the round
-/// before. A part that lifts by a hair between two steps at which it bears catches up there with
-/// all that it was held before, bears and slides: step by step, a round each, unless it is held
-/// there.
+/// One look of each step, the one in its middle. What counts may be another corner than in the
+/// round before.
 bool Demands::takeSlide(const BearingStance& stance) {
   bool isNew = false;
-  for (const RestLook& look : slidingMost(stance.looks)) {
+  for (std::size_t i = 0, looks = 1; i < stance.looks.size(); i += looks, looks = 1) {
+    while (i + looks < stance.looks.size() && stance.looks[i + looks].step == stance.looks[i].step)
+      ++looks;
+    const auto first = stance.looks.begin() + static_cast<std::ptrdiff_t>(i);
+    const RestLook& look = *std::max_element(
+        first, first + static_cast<std::ptrdiff_t>(looks),
+        [](const RestLook& x, const RestLook& y) { return x.way_W.norm() < y.way_W.norm(); });
     const auto pose = static_cast<std::int32_t>(look.step);
     if (swings(look)) {
       isNew = clears_.insert({stance.part, pose}).second || isNew;
@@ -193,11 +181,6 @@ bool Demands::takeSlide(const BearingStance& stance) {
     } else {
       isNew = holds_.insert_or_assign({stance.part, look.step}, look).second || isNew;
     }
-  }
-  if (takes_ < kFillAfter) return isNew;
-  for (const RestLook& look : slidingMost(stance.lifted)) {
-    if (wayBefore(look).norm() < kStandSpeed * stage_.feet().stepS())
-      isNew = holds_.insert({{stance.part, look.step}, look}).second || isNew;
   }
   return isNew;
 }

@@ -87,7 +87,7 @@ class Demands {
   std::map<std::pair<std::size_t, std::int32_t>, double> keeps_;
   std::set<std::pair<std::int32_t, std::int32_t>> limits_;
   std::map<std::int32_t, std::set<double>> instants_;
-  int takes_ = 0;
+  bool isFirst_ = true;
 };
 
 }  // namespace foretouch::tools

@@ -100,15 +100,8 @@ void addSlides(const RepairStage& stage, Faults& faults) {
     bearing.fromFrame = stance.fromFrame;
     bearing.toFrame = stance.toFrame;
     SlidePath path(kSlideRuler);
-    std::vector<RestLook> lifted;  // since it bore
     for (const RestLook& look : stance.looks) {
-      if (!bears(stage, faults.feet, stance.part, look.step)) {
-        lifted.push_back(look);
-        continue;
-      }
-      if (!bearing.looks.empty())
-        bearing.lifted.insert(bearing.lifted.end(), lifted.begin(), lifted.end());
-      lifted.clear();
+      if (!bears(stage, faults.feet, stance.part, look.step)) continue;
       bearing.looks.push_back(look);
       path.add(look.way_W);
     }

@@ -51,7 +51,6 @@ struct BearingStance {
   std::size_t part = 0;
   std::vector<RestLook> looks;
   double slide = 0.0, moved = 0.0;  ///< As FootStance, of these looks.
-  std::vector<RestLook> lifted;     ///< The others that are between them.
   std::int64_t fromFrame = 0, toFrame = 0;
 
   [[nodiscard]] bool isFault(double mostSlide) const {
