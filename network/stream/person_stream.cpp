@@ -356,7 +356,7 @@ void PersonStream::lookAhead(PersonMessage& message) {
   const Kept& to = *back(0);
   message.aheadUs = aheadUs_;
   const PosedStep posed = between(*from, to);
-  const auto& bounds = claimed(rateOf(from->utimeUs, to.utimeUs, 1), unknownIn({&to}));
+  const auto& bounds = claimed(rateOf(from->utimeUs, to.utimeUs, 1), to.isUnknown);
   const double horizonS = static_cast<double>(aheadUs_) / kPersonUsPerS;
   nowNotBeforeUs_.assign(message.verdicts.size(), kNotClaimed);
   if (query_.lookAhead(posed, horizonS, bounds, scratch_, brackets_).ok()) {
@@ -406,7 +406,7 @@ void PersonStream::checkAhead(const StreamStep& step) {
   placer_.place(aheadPoses_.back(), one_);
   placer_.place(*step.to, other_);
   placer_.differences(one_, other_, apart_);
-  const auto& bounds = claimed(rateOf(from->utimeUs, to.utimeUs, 1), unknownIn({&to}));
+  const auto& bounds = claimed(rateOf(from->utimeUs, to.utimeUs, 1), to.isUnknown);
   for (LinkId link = 0; link < query_.avatar().numLinks(); ++link) {
     const LinkBound& bound = bounds[slotOf(link)];
     const bool isKnown = (*step.unknown)[slotOf(link)] == UndecidedReason::None;
