@@ -7,6 +7,7 @@
 
 #include "articulated/try.h"
 #include "lss/index.h"
+#include "middleware/bracket/brackets_of.h"
 #include "network/wire/hashed_bytes.h"
 
 namespace foretouch {
@@ -37,16 +38,6 @@ double rateOf(std::int64_t fromUs, std::int64_t toUs, std::int64_t steps) {
 
 bool isTold(const LinkBracket& bracket) {
   return bracket.verdict == BracketVerdict::Possible || bracket.verdict == BracketVerdict::Certain;
-}
-
-void keepOf(const std::vector<std::uint8_t>& isOf, StepBrackets& brackets) {
-  const auto isOther = [&](const LinkBracket& one) {
-    const bool isOfOther = one.other != kNoParent && isOf[slotOf(one.other)] != 0;
-    return isOf[slotOf(one.link)] == 0 && !isOfOther;
-  };
-  for (std::vector<LinkBracket>* const list : {&brackets.links, &brackets.pairs}) {
-    list->erase(std::remove_if(list->begin(), list->end(), isOther), list->end());
-  }
 }
 
 /// As kMostCountedLost: a sender may lie about its numbers.
@@ -265,7 +256,9 @@ void PersonStream::sayAcross(const StreamStep& step, const Kept& from, const Kep
   checkGap(posed, bounds, isOf);
   PersonMessage& message = begin(step, StepKind::AcrossGap, from, to);
   if (query_.answerGap(posed, bounds, scratch_, brackets_).ok()) {
-    if (isOf != nullptr) keepOf(*isOf, brackets_);
+    if (isOf != nullptr) {
+      keepBracketsOf([&](LinkId link) { return (*isOf)[slotOf(link)] != 0; }, brackets_);
+    }
     take(brackets_, message);
   }
   message.personUs = std::chrono::duration<double, std::micro>(PersonClock::now() - start).count();

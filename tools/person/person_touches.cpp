@@ -11,6 +11,7 @@
 #include "assets/bounds/bound_presets.h"
 #include "assets/json_writer.h"
 #include "lss/index.h"
+#include "middleware/bracket/brackets_of.h"
 #include "tools/inputs/lost_frames.h"
 #include "tools/json_line.h"
 #include "tools/person/bound_check.h"
@@ -108,14 +109,7 @@ class PersonTracker {
   Result<Done> askAcross(const std::vector<PoseGap>& gaps) {
     for (const PoseGap& gap : gaps) {
       FORETOUCH_CHECK(askAcross(gap));
-      const auto isOfGap = [&](const LinkBracket& bracket) {
-        return gap.has(bracket.link) || (bracket.other != kNoParent && gap.has(bracket.other));
-      };
-      for (std::vector<LinkBracket>* const list : {&brackets_.links, &brackets_.pairs}) {
-        list->erase(std::remove_if(list->begin(), list->end(),
-                                   [&](const LinkBracket& bracket) { return !isOfGap(bracket); }),
-                    list->end());
-      }
+      keepBracketsOf([&](LinkId link) { return gap.has(link); }, brackets_);
       const std::int64_t before = answer_.counts.intervals;
       for (const LinkBracket& bracket : brackets_.links) count(bracket, gap.to - gap.from);
       answer_.counts.inGaps += answer_.counts.intervals - before;
