@@ -131,7 +131,7 @@ struct OpenFiles {
 };
 
 struct SoakMemory {
-  double firstMb = 0.0, lastMb = 0.0, slopeMbPerHour = 0.0;
+  double firstMb = 0.0, middleMb = 0.0, lastMb = 0.0, slopeMbPerHour = 0.0;
   OpenFiles filesFirst, filesLast;  // of each half
 };
 
@@ -251,6 +251,7 @@ SoakMemory memoryOf(const std::vector<Sample>& samples, double warmUpS, double e
   memory.slopeMbPerHour = slopeOf(hours, megabytes);
   if (megabytes.empty()) return memory;
   memory.firstMb = megabytes.front();
+  memory.middleMb = megabytes[megabytes.size() / 2];
   memory.lastMb = megabytes.back();
   return memory;
 }
@@ -333,7 +334,7 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
       memoryOf(watch.samples(), request.warmUpShare * load.durationS, load.durationS);
   soak.lost = outcome.unanswered;
   soak.slopeMbPerHour = memory.slopeMbPerHour;
-  soak.grownMb = memory.lastMb - memory.firstMb;
+  soak.grownMb = memory.lastMb - memory.middleMb;
   // What is opened and closed again may be open at any look; what leaks is open at every later one.
   soak.filesGrown = memory.filesLast.least > memory.filesFirst.least;
   soak.exitCode = service.value().stop();
@@ -358,6 +359,7 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   const std::int64_t overrun = countNamed(outcome.status, toString(Reject::Overrun));
   if (overrun > 0) row("service: overrun", static_cast<double>(overrun));
   row("resident memory, first MB", memory.firstMb);
+  row("resident memory, half-way MB", memory.middleMb);
   row("resident memory, last MB", memory.lastMb);
   row("slope after warm-up, MB/h", soak.slopeMbPerHour);
   row("open files, least in the first half", static_cast<double>(memory.filesFirst.least));

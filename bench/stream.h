@@ -47,7 +47,7 @@ struct SoakOutcome {
   BenchReport report;
   std::int64_t lost = 0;        ///< Poses that were not answered, or are not in the world.
   double slopeMbPerHour = 0.0;  ///< Of resident memory after warm-up, by least squares.
-  double grownMb = 0.0;         ///< From the first to the last sample after warm-up.
+  double grownMb = 0.0;         ///< Resident memory, in the last half after warm-up.
   bool filesGrown = false;  ///< Never so few open in the last half after warm-up as in the first.
   int exitCode = -1;        ///< Of the service.
 };
