@@ -32,7 +32,7 @@ class DistanceCells {
   [[nodiscard]] double diagonal() const { return size_.norm(); }
 
  private:
-  struct Cell {
+  struct alignas(8) Cell {  // or clang calls a library for each load
     float distance = -1.0F;
     TriangleId triangle = -1;  ///< Not known yet.
   };
