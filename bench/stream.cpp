@@ -359,7 +359,6 @@ Result<SoakOutcome> soakStream(const SoakRequest& request) {
   const std::int64_t overrun = countNamed(outcome.status, toString(Reject::Overrun));
   if (overrun > 0) row("service: overrun", static_cast<double>(overrun));
   row("resident memory, first MB", memory.firstMb);
-  row("resident memory, half-way MB", memory.middleMb);
   row("resident memory, last MB", memory.lastMb);
   row("slope after warm-up, MB/h", soak.slopeMbPerHour);
   row("open files, least in the first half", static_cast<double>(memory.filesFirst.least));

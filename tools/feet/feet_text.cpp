@@ -199,19 +199,6 @@ void writeShort(const char* name, double value, JsonWriter& out) {
   out.field(name, std::round(value * kDigits) / kDigits);
 }
 
-void writeFit(const FeetInputs& inputs, JsonWriter& out) {
-  const FloorFit& fit = *inputs.fit;
-  out.key("ground_fit");
-  out.beginObject();
-  writeShort("raised_by", inputs.fitShift, out);
-  writeShort("tilt_deg", kDegrees * fit.tilt, out);
-  writeShort("uncertainty", fit.uncertainty, out);
-  writeShort("spread", fit.spread, out);
-  out.field("rests", fit.rests);
-  out.field("rests_on_floor", fit.onFloor);
-  out.endObject();
-}
-
 void writeLimb(const FeetInputs& inputs, std::size_t limb, const LimbTotals& of, JsonWriter& out) {
   out.beginObject();
   out.field("name", inputs.body.limbs[limb].name);
@@ -312,6 +299,22 @@ std::string feetCsv(const FeetInputs& inputs, const FeetAnswer& answer) {
   return text;
 }
 
+void writeFit(const FeetInputs& inputs, JsonWriter& out) {
+  if (!inputs.fit) return;
+  const FloorFit& fit = *inputs.fit;
+  out.key("ground_fit");
+  out.beginObject();
+  writeShort("raised_by", inputs.fitShift, out);
+  writeShort("tilt_deg", kDegrees * fit.tilt, out);
+  writeShort("uncertainty", fit.uncertainty, out);
+  writeShort("spread", fit.spread, out);
+  out.field("point", fit.center_W);
+  out.field("normal", fit.normal_W);
+  out.field("rests", fit.rests);
+  out.field("rests_on_floor", fit.onFloor);
+  out.endObject();
+}
+
 std::string feetJson(const FeetInputs& inputs, const FeetAnswer& answer) {
   std::string text;
   JsonWriter out(text);
@@ -320,7 +323,7 @@ std::string feetJson(const FeetInputs& inputs, const FeetAnswer& answer) {
   out.field("scene", inputs.request.scenePath);
   out.field("poses", inputs.steps() + 1);
   out.field("tolerance", inputs.request.tolerance);
-  if (inputs.fit) writeFit(inputs, out);
+  writeFit(inputs, out);
   const std::vector<LimbTotals> totals = totalsOf(inputs, answer);
   writeFeet(inputs, totals, out);
   out.key("limbs");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/json_writer.h"
 #include "tools/feet/feet_answer.h"
 #include "tools/feet/feet_inputs.h"
 
@@ -22,6 +23,9 @@ namespace foretouch::tools {
 
 /// --json.
 [[nodiscard]] std::string feetJson(const FeetInputs& inputs, const FeetAnswer& answer);
+
+/// `ground_fit` of --json; nothing without one.
+void writeFit(const FeetInputs& inputs, JsonWriter& out);
 
 /// What the fit found, in one sentence; empty without one.
 [[nodiscard]] std::string fitText(const FeetInputs& inputs);

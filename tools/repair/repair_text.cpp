@@ -8,6 +8,7 @@
 
 #include "assets/json_writer.h"
 #include "lss/index.h"
+#include "tools/feet/feet_text.h"
 #include "tools/repair/reasons.h"
 
 namespace foretouch::tools {
@@ -186,6 +187,7 @@ std::string repairJson(const RepairStage& stage, const Repair& repair) {
   out.field("scene", stage.request().scenePath);
   out.field("gap", stage.request().gap);
   out.field("rounds", repair.rounds);
+  writeFit(stage.feet(), out);
   out.key("before");
   writeFaults(stage, repair.before, out);
   out.key("after");

@@ -101,6 +101,14 @@ OracleClip::OracleClip(const std::string& bvh) {
   }
 }
 
+OracleClip OracleClip::cut(std::size_t first, std::size_t last) const {
+  OracleClip part = *this;
+  const auto begin = rows_.begin();
+  part.rows_.assign(begin + static_cast<std::ptrdiff_t>(first),
+                    begin + static_cast<std::ptrdiff_t>(last + 1));
+  return part;
+}
+
 OracleClip::Turn OracleClip::turnAt(const Joint& joint, std::size_t frame) const {
   Turn turn;
   for (std::size_t i = 0; i < joint.channels.size(); ++i) {
@@ -146,11 +154,12 @@ double OracleClip::turnFrom(const OracleClip& other, const std::string& joint,
   return 2.0 * std::atan2(sine, std::abs(way.w)) / kRadians;
 }
 
-double leastHeight(const OracleClip& clip, const OracleCapsule& capsule) {
+double leastHeight(const OracleClip& clip, const OracleCapsule& capsule, const OracleFloor& floor) {
   double least = 1e9;
   overLooks(clip, [&](double at) {
     for (const Vec3d& end : {capsule.a, capsule.b}) {
-      least = std::min(least, clip.pointAt(capsule.joint, end, at).y - capsule.radius);
+      const Vec3d p = clip.pointAt(capsule.joint, end, at) - floor.point;
+      least = std::min(least, oracle::dot(p, floor.normal) - capsule.radius);
     }
   });
   return least;

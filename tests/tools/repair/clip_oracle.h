@@ -19,6 +19,8 @@ class OracleClip {
  public:
   explicit OracleClip(const std::string& bvh);
 
+  /// Frames `first` to `last` alone.
+  [[nodiscard]] OracleClip cut(std::size_t first, std::size_t last) const;
   [[nodiscard]] std::size_t frames() const { return rows_.size(); }
   [[nodiscard]] double frameTimeS() const { return frameTimeS_; }
   /// Per joint, the place of `p_L` of it; `at`: frames, with a fraction.
@@ -61,8 +63,13 @@ struct OracleCapsule {
 /// Looks between two poses.
 inline constexpr int kOracleLooks = 16;
 
-/// The least height of the capsule's surface above y = 0, over all looks.
-[[nodiscard]] double leastHeight(const OracleClip& clip, const OracleCapsule& capsule);
+struct OracleFloor {
+  Vec3d point, normal{0, 1, 0};
+};
+
+/// The least height of the capsule's surface above the floor, over all looks.
+[[nodiscard]] double leastHeight(const OracleClip& clip, const OracleCapsule& capsule,
+                                 const OracleFloor& floor = {});
 /// The least distance of two capsules' surfaces; below zero: their axes are nearer than the radii.
 [[nodiscard]] double leastDistance(const OracleClip& clip, const OracleCapsule& one,
                                    const OracleCapsule& other);
