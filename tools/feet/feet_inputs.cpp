@@ -141,6 +141,7 @@ Result<Done> fitGround(FeetInputs& inputs) {
     error.file = "--ground fit";
     error.message = clip + ": " + error.message;
     if (isInPlace(inputs)) error.message += "; it walks in place, so each foot slides";
+    if (const auto doubt = doubtOfStature(inputs)) error.message += "; " + *doubt;
     return error;
   };
   FORETOUCH_TRY_OR(named, const FloorFit fit, fitFloor(rests));

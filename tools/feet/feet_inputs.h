@@ -88,6 +88,8 @@ struct FeetInputs {
 /// Errors name the file or the option; of GroundFrom::Fit also as fitFloor().
 [[nodiscard]] Result<FeetInputs> loadFeetInputs(const FeetRequest& request);
 
+/// That the body is no person's size, and in which unit it were one.
+[[nodiscard]] std::optional<std::string> doubtOfStature(const FeetInputs& inputs);
 /// As remarksOnClip(), and what the body is.
 [[nodiscard]] std::vector<std::string> remarksOn(const FeetInputs& inputs);
 

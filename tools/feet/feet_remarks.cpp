@@ -23,21 +23,6 @@ using Eigen::Vector3d;
 /// People of this height (m) are believed.
 constexpr double kShortest = 0.5, kTallest = 3.0;
 
-std::optional<std::string> remarkOnStature(const FeetInputs& inputs) {
-  const auto stature = statureOf(inputs.played.avatar.skeleton());
-  if (!stature || (*stature >= kShortest && *stature <= kTallest)) return std::nullopt;
-  const FeetRequest& request = inputs.request;
-  std::string unit = "is the unit (--clip-scale) right?";
-  const double read = request.motionScale.value_or(1.0);
-  const Offer<double> offer = unitOf(inputs.played.clip, false, read);
-  if (request.isMadeOfBones() && offer.isSure) {
-    unit = fmt::format("{} (--clip-scale {})", offer.reason, plainFigures(read * offer.value));
-  }
-  return fmt::format(
-      "{}: the body is {} m tall, by the length of its legs, and all thresholds are for people: {}",
-      request.motionPath, plainFigures(*stature), unit);
-}
-
 /// Nobody moves by more than this (m) and faster than this (m/s).
 constexpr double kFarJump = 1.0, kFastJump = 100.0;
 
@@ -114,6 +99,21 @@ std::optional<std::string> remarkOnHeels(const FeetInputs& inputs) {
 
 }  // namespace
 
+std::optional<std::string> doubtOfStature(const FeetInputs& inputs) {
+  const auto stature = statureOf(inputs.played.avatar.skeleton());
+  if (!stature || (*stature >= kShortest && *stature <= kTallest)) return std::nullopt;
+  const FeetRequest& request = inputs.request;
+  std::string unit = "is the unit (--clip-scale) right?";
+  const double read = request.motionScale.value_or(1.0);
+  const Offer<double> offer = unitOf(inputs.played.clip, false, read);
+  if (request.isMadeOfBones() && offer.isSure) {
+    unit = fmt::format("{} (--clip-scale {})", offer.reason, plainFigures(read * offer.value));
+  }
+  return fmt::format(
+      "the body is {} m tall, by the length of its legs, and all thresholds are for people: {}",
+      plainFigures(*stature), unit);
+}
+
 std::vector<std::string> remarksOn(const FeetInputs& inputs) {
   const FeetRequest& request = inputs.request;
   const PlayedClip& played = inputs.played;
@@ -122,7 +122,7 @@ std::vector<std::string> remarksOn(const FeetInputs& inputs) {
   const auto add = [&](const std::optional<std::string>& remark) {
     if (remark) remarks.push_back(*remark);
   };
-  add(remarkOnStature(inputs));
+  if (const auto doubt = doubtOfStature(inputs)) add(request.motionPath + ": " + *doubt);
   add(remarkOnScene(inputs));
   add(remarkOnTPose(inputs));
   add(remarkOnJumps(inputs));

@@ -225,10 +225,13 @@ TEST(FeetProgram, FitsAWalkAndRefusesASprint) {
   const Ended sprints = runForetouch({"feet", *dash, "--clip-scale", "0.01", "--ground", "fit"});
   EXPECT_EQ(sprints.exitCode, 2);
   EXPECT_NE(sprints.err.find("no foot rests"), std::string::npos) << sprints.err;
-  const Ended giant = runForetouch({"feet", *dash});
-  EXPECT_NE(giant.err.find("thresholds are for people: centimetres make it 1."), std::string::npos)
-      << giant.err;
-  EXPECT_NE(giant.err.find("(--clip-scale 0.01)"), std::string::npos) << giant.err;
+  for (const char* const ground : {"given", "fit"}) {
+    const Ended giant = runForetouch({"feet", *dash, "--ground", ground});
+    EXPECT_EQ(giant.exitCode, std::string(ground) == "fit" ? 2 : 0);
+    EXPECT_NE(giant.err.find("are for people: centimetres make it 1."), std::string::npos)
+        << giant.err;
+    EXPECT_NE(giant.err.find("(--clip-scale 0.01)"), std::string::npos) << giant.err;
+  }
 }
 
 TEST(FeetProgram, NamesWhatIsWrong) {
