@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "articulated/link_places.h"
 #include "articulated/quoted.h"
 #include "articulated/try.h"
 #include "assets/import/model_import.h"
@@ -61,14 +62,10 @@ struct FileCollider {
   Lss lss;  ///< In the node's frame.
 };
 
-std::vector<Affine> framesOf(const Skeleton& skeleton) {
-  std::vector<Affine> frames;
-  for (LinkId link = 0; link < skeleton.numJoints(); ++link) {
-    const LinkId parent = skeleton.parent(link);
-    const Affine own{skeleton.restRotation(link).toRotationMatrix(), skeleton.restOffset(link)};
-    frames.push_back(parent == kNoParent ? own : frames[slotOf(parent)] * own);
-  }
-  return frames;
+std::vector<LinkState> restPlacesOf(const Skeleton& skeleton) {
+  std::vector<LinkState> places;
+  placesAt(skeleton, restPose(skeleton), places);
+  return places;
 }
 
 /// The file's colliders, from an avatar of the same file.
@@ -81,22 +78,22 @@ class ColliderFinder {
     FORETOUCH_TRY(const Model model, importModel(path_));
     FORETOUCH_TRY(const ModelAvatar made, avatarFromModel(model));
     const std::vector<Affine> nodes = internal::worldFrames(model, internal::restFrames(model));
-    const std::vector<Affine> theirs = framesOf(made.avatar.skeleton());
-    const std::vector<Affine> ours = framesOf(avatar_.skeleton());
+    const std::vector<LinkState> theirs = restPlacesOf(made.avatar.skeleton());
+    const std::vector<LinkState> ours = restPlacesOf(avatar_.skeleton());
     for (LinkId link = 0; link < avatar_.numLinks(); ++link) {
       if (avatar_.lss(link).empty()) continue;
       const auto same = made.avatar.skeleton().find(avatar_.skeleton().name(link));
       if (!same) return stranger(link, "is no node of it");
-      const Affine& there = theirs[slotOf(*same)];
-      const double off = (there.translation - ours[slotOf(link)].translation).norm();
-      const double turned = (there.linear - ours[slotOf(link)].linear).cwiseAbs().maxCoeff();
+      const LinkState& there = theirs[slotOf(*same)];
+      const double off = (there.p_WL - ours[slotOf(link)].p_WL).norm();
+      const double turned = (there.R_WL - ours[slotOf(link)].R_WL).cwiseAbs().maxCoeff();
       if (off > kSamePlace || turned > kSameTurn) {
         return stranger(
             link, fmt::format("rests {:.2g} m from its node, turned by {:.2g} rad", off, turned));
       }
       const ModelNode& node = model.nodes[slotOf(made.nodeOfLink[slotOf(*same)])];
       const Matrix3d shape =
-          there.linear.transpose() * nodes[slotOf(made.nodeOfLink[slotOf(*same)])].linear;
+          there.R_WL.transpose() * nodes[slotOf(made.nodeOfLink[slotOf(*same)])].linear;
       FORETOUCH_CHECK(add(link, node, made.avatar.lss(*same), shape));
     }
     tell();

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "articulated/link_places.h"
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "middleware/events/world_follower.h"
@@ -80,7 +81,7 @@ Result<bool> Collector::isOverhead(const WorldEvent& event) const {
   FORETOUCH_TRY(const auto pose,
                 inputs_.poseAt(std::min(inputs_.steps(), static_cast<std::int64_t>(steps))));
   std::vector<LinkState> states;
-  placeLinks(inputs_.body.avatar.skeleton(), pose, states);
+  placesAt(inputs_.body.avatar.skeleton(), pose, states);
   const PartCorner& lowest = part.corners[lowestOf(part, states, Vector3d::UnitY()).corner];
   const Vector3d p_W =
       states[slotOf(lowest.link)].pointAt(lowest.center_L) - Vector3d(0, lowest.radius, 0);

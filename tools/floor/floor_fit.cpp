@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "articulated/link_places.h"
 #include "articulated/try.h"
 #include "lss/index.h"
 #include "lss/turn_between.h"
@@ -263,7 +264,7 @@ Result<std::vector<FootRest>> footRestsOf(const RestingBody& body, std::int64_t 
   for (std::int64_t step = 0; step <= steps; ++step) {
     FORETOUCH_TRY(const auto pose, poses(step));
     before.swap(now);
-    placeLinks(body.avatar.skeleton(), pose, now);
+    placesAt(body.avatar.skeleton(), pose, now);
     if (step > 0) finder.add(step, before, now);
   }
   finder.finish();

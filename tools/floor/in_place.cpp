@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "articulated/link_places.h"
 #include "lss/index.h"
 
 namespace foretouch::tools {
@@ -65,8 +66,8 @@ std::optional<double> walksInPlace(const RestingBody& body, std::int64_t steps, 
     const std::int64_t step = i * steps / looks;
     const auto one = poses(step), next = poses(step + 1);
     if (!one.ok() || !next.ok()) return std::nullopt;
-    placeLinks(body.avatar.skeleton(), one.value(), from);
-    placeLinks(body.avatar.skeleton(), next.value(), to);
+    placesAt(body.avatar.skeleton(), one.value(), from);
+    placesAt(body.avatar.skeleton(), next.value(), to);
     const PartCorner* const low = bearing(body, from);
     if (low == nullptr) return std::nullopt;
     const Vector3d moved = levelled(to[slotOf(low->link)].pointAt(low->center_L) -

@@ -247,18 +247,6 @@ Result<RestingBody> restingBodyOf(const Avatar& avatar, const std::vector<std::s
   return builder.build();
 }
 
-void placeLinks(const Skeleton& skeleton, const Pose& pose, std::vector<LinkState>& states) {
-  const auto joints = countOf(skeleton.numJoints());
-  states.resize(joints);
-  const LinkState world;
-  for (std::size_t j = 0; j < joints; ++j) {
-    const JointId above = skeleton.parent(static_cast<JointId>(j));
-    const LinkState& parent = above == kNoParent ? world : states[slotOf(above)];
-    states[j].R_WL = parent.R_WL * Eigen::Quaterniond(pose.rotations[j]).toRotationMatrix();
-    states[j].p_WL = parent.pointAt(pose.translations[j]);
-  }
-}
-
 LowestCorner lowestOf(const RestingPart& part, const std::vector<LinkState>& states,
                       const Vector3d& up) {
   LowestCorner lowest{std::numeric_limits<double>::infinity(), 0};

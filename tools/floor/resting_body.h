@@ -66,10 +66,6 @@ struct RestingBody {
 [[nodiscard]] Result<RestingBody> restingBodyOf(const Avatar& avatar,
                                                 const std::vector<std::string>& feet = {});
 
-/// Where links are in a pose, by plain forward kinematics, which is quicker than a motion; their
-/// velocities are 0.
-void placeLinks(const Skeleton& skeleton, const Pose& pose, std::vector<LinkState>& states);
-
 /// The lowest of a part along `up` (unit).
 struct LowestCorner {
   double height = 0.0;     ///< Of its sphere's lowest point along `up`.

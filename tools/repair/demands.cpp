@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "articulated/link_places.h"
 #include "lss/index.h"
 #include "middleware/depth/depth.h"
 #include "tools/floor/resting_body.h"
@@ -44,7 +45,7 @@ Side Demands::begun(const StepFault& fault) const {
     return side;
   }
   std::vector<LinkState> states;
-  placeLinks(stage_.body().skeleton(), stage_.poses()[slotOf(fault.step)], states);
+  placesAt(stage_.body().skeleton(), stage_.poses()[slotOf(fault.step)], states);
   std::vector<Lss> placed;
   for (const Lss& lss : stage_.body().lss(fault.link)) {
     const LinkState& state = states[slotOf(fault.link)];
@@ -90,7 +91,7 @@ bool Demands::takeContact(const StepFault& fault) {
 bool Demands::endsBehind(const Side& side) const {
   if (side.normal_W.isZero(0.0)) return false;
   std::vector<LinkState> states;
-  placeLinks(stage_.body().skeleton(), stage_.poses()[slotOf(side.last + 1)], states);
+  placesAt(stage_.body().skeleton(), stage_.poses()[slotOf(side.last + 1)], states);
   const LinkState& state = states[slotOf(side.link)];
   double nearest = 0.0;
   for (const Lss& lss : stage_.body().lss(side.link)) {
@@ -153,8 +154,8 @@ bool Demands::take(const Faults& faults) {
 Vector3d Demands::wayBefore(const RestLook& look) const {
   const LinkId link = stage_.linkOf(look.link);
   std::vector<LinkState> from, to;
-  placeLinks(stage_.body().skeleton(), before_[slotOf(look.step)], from);
-  placeLinks(stage_.body().skeleton(), before_[slotOf(look.step + 1)], to);
+  placesAt(stage_.body().skeleton(), before_[slotOf(look.step)], from);
+  placesAt(stage_.body().skeleton(), before_[slotOf(look.step + 1)], to);
   const Vector3d way = to[slotOf(link)].pointAt(look.p_L) - from[slotOf(link)].pointAt(look.p_L);
   return way - look.normal_W.dot(way) * look.normal_W;
 }

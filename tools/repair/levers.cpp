@@ -4,8 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "articulated/link_places.h"
 #include "lss/index.h"
-#include "tools/floor/resting_body.h"
 
 namespace foretouch::tools {
 namespace {
@@ -117,7 +117,7 @@ Eigen::MatrixXd Levers::metric() const {
   for (std::int32_t look = 0; look < looks; ++look) {
     const std::int32_t pose =
         static_cast<std::int32_t>(static_cast<std::int64_t>(look) * stage_.numPoses() / looks);
-    placeLinks(skeleton, stage_.poses()[slotOf(pose)], states);
+    placesAt(skeleton, stage_.poses()[slotOf(pose)], states);
     for (LinkId link = 0; link < skeleton.numJoints(); ++link) {
       for (int axis = 0; axis < 3; ++axis) {
         std::vector<RowTerm> terms;

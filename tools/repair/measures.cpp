@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "articulated/link_places.h"
 #include "lss/index.h"
 #include "tools/floor/resting_body.h"
 #include "tools/percentile.h"
@@ -30,7 +31,7 @@ std::vector<std::vector<Vector3d>> placesOf(const Skeleton& skeleton,
   std::vector<std::vector<Vector3d>> places;
   std::vector<LinkState> states;
   for (const Pose& pose : poses) {
-    placeLinks(skeleton, pose, states);
+    placesAt(skeleton, pose, states);
     auto& at = places.emplace_back();
     for (const LinkState& state : states) at.push_back(state.p_WL);
   }
