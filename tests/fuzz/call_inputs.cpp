@@ -87,7 +87,8 @@ class Calls {
     std::array<double, 3 * kMostVertices> positions{};
     for (double& value : positions) value = supply_.number();
     std::array<std::uint32_t, 3 * kMostTriangles> corners{};
-    for (std::uint32_t& corner : corners) corner = supply_.byte() % (kMostVertices + 1);
+    constexpr std::uint32_t kCorners = kMostVertices + 1;  // the last one is none
+    for (std::uint32_t& corner : corners) corner = supply_.byte() % kCorners;
     std::array<std::int32_t, kMostTriangles> objects{};
     for (std::int32_t& object : objects) object = supply_.byte() % 3;
     const std::array<const char*, 2> names{"floor", "table"};
