@@ -16,8 +16,8 @@ namespace {
 
 /// Allowed growth of a service. Below the second one in the last half, growth is single pages and a
 /// few steps of the heap, of 128 KiB each (a world's heap takes its pages in the first half
-/// minute), which give a steep slope over minutes; a sanitizer's own books take more.
-constexpr double kMostMbPerHour = 1.0, kNoGrowthMb = internal::kUnderSanitizer ? 4.0 : 0.5;
+/// minute), which give a steep slope over minutes; a sanitizer keeps what is freed apart by size.
+constexpr double kMostMbPerHour = 1.0, kNoGrowthMb = internal::kUnderSanitizer ? 16.0 : 0.5;
 
 template <typename Request>
 struct Asked {
