@@ -72,7 +72,9 @@ struct ReleaseBvh {
 
 class EmbreeTree final : public BvhTree {
  public:
-  EmbreeTree(EmbreeDevice device, RTCBVH nodes) : device_(std::move(device)), nodes_(nodes) {}
+  explicit EmbreeTree(EmbreeDevice device)
+      : device_(std::move(device)), nodes_(rtcNewBVH(device_.get())) {}
+  [[nodiscard]] RTCBVH nodes() const { return nodes_.get(); }
 
  private:
   EmbreeDevice device_;
@@ -116,8 +118,8 @@ Result<std::unique_ptr<BvhTree>> buildEmbreeTree(const std::vector<Triangle>& tr
   FORETOUCH_ASSERT(!ids.empty());
   FORETOUCH_TRY(auto device, newEmbreeDevice());
   const RTCDevice handle = device.get();
-  const RTCBVH nodes = rtcNewBVH(handle);
-  auto tree = std::make_unique<EmbreeTree>(std::move(device), nodes);
+  auto tree = std::make_unique<EmbreeTree>(std::move(device));
+  const RTCBVH nodes = tree->nodes();
   FORETOUCH_CHECK(embreeStatus(handle, "making room for the scene's tree"));
   if (nodes == nullptr) return Error::of(ErrorCode::DeviceFailed, "Embree made no tree");
   auto primitives = primitivesOf<RTCBuildPrimitive>(triangles, ids, origin);

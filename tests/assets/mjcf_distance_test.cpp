@@ -76,7 +76,7 @@ std::map<std::pair<std::string, std::string>, double> mujocosDistances(MujocoIts
     const auto nameOf = [&](int geom) {
       return mujoco.nameOf(mjOBJ_BODY, mujoco.model().geom_bodyid[geom]);
     };
-    const auto pair = std::minmax(nameOf(contact.geom1), nameOf(contact.geom2));
+    const auto pair = std::minmax({nameOf(contact.geom1), nameOf(contact.geom2)});
     const auto known = least.emplace(pair, contact.dist).first;
     known->second = std::min(known->second, contact.dist);
   }

@@ -236,7 +236,8 @@ TEST_F(PersonStreams, AskTheClockOfUncountedPosesWithItsError) {
   // 100 us at 3 m/s are nothing, and with 4 ms of a clock that is off 12 mm.
   constexpr double kFar = 0.015, kNear = 0.011;
   const auto at = [](double x, std::int64_t sequence, std::int64_t us) {
-    PoseMessage message = hipsAt(x, sequence);
+    PoseMessage message = hipsAt(x, 0);
+    message.sequence = sequence;
     message.utimeUs = us;
     return message;
   };
