@@ -1,6 +1,7 @@
 #include "tools/log/answer_difference.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string_view>
 #include <tuple>
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "articulated/quoted.h"
-#include "assets/json_writer.h"
 #include "network/wire/world_message_fields.h"
 
 namespace foretouch::tools {
@@ -57,17 +57,18 @@ std::string wordsOf(std::string_view name) {
   return words;
 }
 
+/// Not in JSON's words: a depth may be NaN, which stands for unknown.
 std::string textOf(double value) {
-  return numberText(value);
+  return std::isnan(value) ? "unknown" : fmt::format("{}", value);
 }
 std::string textOf(const std::string& text) {
   return inQuotes(text);
 }
 std::string textOf(const Eigen::Vector3d& v) {
-  return fmt::format("[{}, {}, {}]", numberText(v.x()), numberText(v.y()), numberText(v.z()));
+  return fmt::format("[{}, {}, {}]", textOf(v.x()), textOf(v.y()), textOf(v.z()));
 }
 std::string textOf(const WorldTime& time) {
-  return fmt::format("{} us and {}", time.us, numberText(time.fraction));
+  return fmt::format("{} us and {}", time.us, textOf(time.fraction));
 }
 template <typename Value>
 std::enable_if_t<std::is_integral_v<Value>, std::string> textOf(Value value) {
@@ -149,12 +150,12 @@ SaidFields fieldsOf(const ContactsMessage& message, const LinkNames& names) {
 }
 
 void addPose(std::size_t place, double time, const Pose& pose, SaidFields& said) {
-  said.add(fmt::format("time of pose {} on the way", place), numberText(time));
+  said.add(fmt::format("time of pose {} on the way", place), textOf(time));
   for (std::size_t joint = 0; joint < pose.rotations.size(); ++joint) {
     const std::string of = fmt::format(" of joint {} in pose {} on the way", joint, place);
     const Quaternion& q = pose.rotations[joint];
-    said.add("rotation" + of, fmt::format("[{}, {}, {}, {}]", numberText(q.w()), numberText(q.x()),
-                                          numberText(q.y()), numberText(q.z())));
+    said.add("rotation" + of, fmt::format("[{}, {}, {}, {}]", textOf(q.w()), textOf(q.x()),
+                                          textOf(q.y()), textOf(q.z())));
     said.add("translation" + of, textOf(pose.translations[joint]));
   }
 }
@@ -173,7 +174,7 @@ SaidFields fieldsOf(const SolidMessage& message) {
   said.addAll(message, "", wire::kSolidLengths);
   for (std::size_t i = 0; i < message.joints.size(); ++i) {
     said.add(fmt::format("state of joint {}", i), toString(message.joints[i]));
-    said.add(fmt::format("deviation of link {}", i), numberText(message.linkDeviation[i]));
+    said.add(fmt::format("deviation of link {}", i), textOf(message.linkDeviation[i]));
   }
   said.addNumber("contacts", message.contacts.size());
   for (std::size_t i = 0; i < message.contacts.size(); ++i) {
@@ -208,7 +209,7 @@ SaidFields fieldsOf(const PersonMessage& message) {
   said.addNumber("broken bounds", message.broken.size());
   for (const BrokenBound& broken : message.broken) {
     said.add(fmt::format("broken bound of link {}", broken.link),
-             fmt::format("{}, {}", toString(broken.claim), numberText(broken.beyond)));
+             fmt::format("{}, {}", toString(broken.claim), textOf(broken.beyond)));
   }
   return said;
 }
