@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# measure.sh bench|peers|soak|instructions [ARGS...]: speed, and what costs it.
+# measure.sh bench|peers|soak|instructions|roofline [ARGS...]: speed, and what costs it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . dev/common.sh
@@ -52,13 +52,13 @@ bench_all() {
   measure world "${world[@]}"
 }
 
-# Callgrind counts what answerStep() costs, and nothing else: the same on a busy machine as on an idle one. Valgrind
-# knows no AVX-512.
+# Callgrind counts what the benchmark's answerStep() costs, and nothing else: the same on a busy machine as on an idle
+# one. Its whole name: the kernel has one within it, which would end the count. Valgrind knows no AVX-512.
 count_instructions() {
   local folder=build/release/instructions
   mkdir -p "$folder" "$measurements"
   # Valgrind does not let a program lower the limit of open files that it inherits; the importer's is 64.
-  (ulimit -n 64; valgrind --tool=callgrind --collect-atstart=no '--toggle-collect=*answerStep*' \
+  (ulimit -n 64; valgrind --tool=callgrind --collect-atstart=no '--toggle-collect=foretouch::tools::answerStep*' \
     --callgrind-out-file="$folder/callgrind.out" build/release/bin/foretouch-bench latency --place 0,0,0 --rate 15 \
     --tolerance 0.001 --simd avx2 --repeat 1 --cold-mb 0 --json "$folder/latency.json" \
     >"$folder/log" 2>&1) || { cat "$folder/log" >&2; exit 1; }
@@ -85,5 +85,11 @@ case "$task" in
     install_group instructions
     build release -DFORETOUCH_BENCH=ON >&2
     count_instructions "$@"
+    ;;
+  roofline)
+    install_group instructions
+    build release -DFORETOUCH_BENCH=ON >&2
+    exec env PYTHONDONTWRITEBYTECODE=1 python3 dev/roofline.py build/release/bin/foretouch-bench \
+      build/release/roofline "$measurements/roofline.json" "$@"
     ;;
 esac

@@ -1,15 +1,27 @@
 // certificate_trials [EDGES] [LIES] [SEED]: until so many clear edges are verified (100,000) and so
 // many lies told (10,000). Exit code 1 where a proof was refused or a lie believed.
+#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
+#include <string>
+
+#include <CLI/CLI.hpp>
 
 #include "tests/verify/certificate_trial.h"
 
 int main(int argc, char** argv) {
   using namespace foretouch::test;
-  const long long edges = argc > 1 ? std::atoll(argv[1]) : 100'000;
-  const long long lies = argc > 2 ? std::atoll(argv[2]) : 10'000;
-  std::uint64_t seed = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 0;
+  long long edges = 100'000, lies = 10'000;
+  std::uint64_t seed = 0;
+  CLI::App app{
+      "Certifies random edges of an arm, verifies them, and tells lies that must be refused"};
+  app.add_option("edges", edges, "Clear ones")->check(CLI::Range(1, 1'000'000'000));
+  app.add_option("lies", lies, "About these")->check(CLI::Range(0, 1'000'000'000));
+  app.add_option("seed", seed, "The first");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   CertificateTally tally;
   int broken = 0;
   for (; tally.clear < edges && broken < 20; ++seed) {
