@@ -2,7 +2,7 @@
     moving_world.py SCENE AVATAR CLIP world|solid|solid-world|edges
 To standard output: a world with two dancers, a door, a ball in a hand and triggers, window by
 window and from enter to leave; a solid avatar; two in a world where a door swings; a robot's
-edges."""
+edges, and how near they come."""
 import enum
 import math
 import sys
@@ -34,7 +34,7 @@ def tell(name, value):
         for i, part in enumerate(value):
             tell(f"{name}[{i}]", part)
     else:
-        for part in sorted(dir(type(value))):
+        for part in sorted(dir(value)):
             held = getattr(value, part) if part[0] != "_" and part not in OWNERS else tell
             if not callable(held):
                 tell(f"{name}.{part}", held)
@@ -134,6 +134,7 @@ def edges(scene, *_):
         asked.place(0, place)
         tell(f"{name} edges", asked.answer(draws[:-1], draws[1:]))
         tell(f"{name} path", asked.answer_path(0.2 * draws[:8]))
+        tell(f"{name} clearances", asked.clearance(draws[:-1], draws[1:], slopes=True))
 
 
 def main(scene_path, avatar_path, clip_path, what):
