@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -91,6 +92,15 @@ class WalkableFloor {
     [[nodiscard]] double score() const;
   };
 
+  /// A floor that is higher than this above the level's lowest point is high (share of the body's
+  /// height).
+  static constexpr double kOnTop = 0.85;
+
+  /// The first one straight above and below a point, and the one behind the last.
+  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> spansAlong(
+      const Eigen::Vector3d& p_W) const;
+  [[nodiscard]] const Area& mainArea() const { return areas_[static_cast<std::size_t>(main_)]; }
+  [[nodiscard]] bool isHigh() const;
   [[nodiscard]] const Span* spanAt(const Eigen::Vector3d& p_W, double up, double down) const;
   [[nodiscard]] Eigen::Vector3d pointOf(std::size_t column, const Span& span) const;
 

@@ -1,5 +1,5 @@
 #@ -Eprecision=128
-# middleware/pair/pair_query.cpp: past the rounding of a sum or two in double or float and the
+# middleware/pair/open_pairs.cpp: past the rounding of a sum or two in double or float and the
 # product with it (three of float), and what the kernel's sum of bend h^2/8 and reach rounds by, a
 # product and a sum (node_planes.md 2): (1 + d)^5.
 kBendInflation = 1 + 0x1p-21;
