@@ -21,7 +21,16 @@ namespace foretouch::tools {
 /// What the program has allocated and not freed (glibc's count; else 0).
 [[nodiscard]] double heapMiB();
 
-/// Processor time of this thread (us): other work on the machine does not count.
-[[nodiscard]] double threadTimeUs();
+/// Processor time of this thread since it was made, less what reading that clock takes: a system
+/// call, of which some machines make more than a microsecond. Other work on the machine does not
+/// count.
+class ThreadStopwatch {
+ public:
+  ThreadStopwatch();
+  [[nodiscard]] double us() const;
+
+ private:
+  double overheadUs_, beginUs_;  ///< In this order: the first is found before the second.
+};
 
 }  // namespace foretouch::tools

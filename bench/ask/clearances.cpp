@@ -179,9 +179,9 @@ Result<JudgedTable> clearancesTable(const std::string& dataFolder, int triangles
         return query.clearanceAll(drawnEdges.q0.data(), drawnEdges.q1.data(), count, pool, answers);
       };
       FORETOUCH_CHECK(ask());
-      const double begin = threadTimeUs();
+      const ThreadStopwatch watch;
       FORETOUCH_CHECK(ask());
-      const double tookUs = threadTimeUs() - begin;
+      const double tookUs = watch.us();
       const std::uint64_t wrong = violationsOf(judge, drawnEdges, n, answers);
       judged.violations += wrong;
       std::uint64_t touching = 0;

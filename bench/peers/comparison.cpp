@@ -2,25 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <time.h>
 
 #include "bench/machine.h"
 #include "lss/assert.h"
 
 namespace foretouch::tools {
 namespace {
-
-/// Between two readings with nothing in between, the least of many.
-double threadClockOverheadUs() {
-  constexpr int kReadings = 10'000;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kReadings; ++i) {
-    const double from = threadTimeUs();
-    least = std::min(least, threadTimeUs() - from);
-  }
-  return least;
-}
 
 /// By nearest rank; zero if there are none.
 double atShare(std::vector<double> values, double share) {
@@ -30,12 +17,12 @@ double atShare(std::vector<double> values, double share) {
   return values[std::max<std::size_t>(rank, 1) - 1];
 }
 
-void runRound(const MotionSet& set, SweepSolver& solver, double overheadUs, SolverRun& run,
+void runRound(const MotionSet& set, SweepSolver& solver, SolverRun& run,
               std::vector<std::vector<double>>& usOf) {
   for (std::size_t i = 0; i < set.sweeps.size(); ++i) {
-    const double from = threadTimeUs();
+    const ThreadStopwatch watch;
     run.answers[i] = solver.solve(set.sweeps[i]);
-    usOf[i].push_back(std::max(0.0, threadTimeUs() - from - overheadUs));
+    usOf[i].push_back(watch.us());
   }
 }
 
@@ -45,7 +32,6 @@ std::vector<SolverRun> runSolvers(const MotionSet& set, const SweepSolvers& solv
                                   const RoundCounts& rounds, const std::function<void()>& tick) {
   FORETOUCH_ASSERT(rounds.own >= 1 && rounds.peers >= 1);
   const std::size_t count = set.sweeps.size();
-  const double overheadUs = threadClockOverheadUs();
   std::vector<SolverRun> runs;
   for (const auto& solver : solvers) {
     runs.push_back({solver->name(), solver->isPeer(), std::vector<SweepAnswer>(count), {}});
@@ -55,7 +41,7 @@ std::vector<SolverRun> runSolvers(const MotionSet& set, const SweepSolvers& solv
   for (int round = 0; round < std::max(rounds.own, rounds.peers); ++round) {
     for (std::size_t s = 0; s < solvers.size(); ++s) {
       if (round >= (solvers[s]->isPeer() ? rounds.peers : rounds.own)) continue;
-      runRound(set, *solvers[s], overheadUs, runs[s], us[s]);
+      runRound(set, *solvers[s], runs[s], us[s]);
       tick();
     }
   }

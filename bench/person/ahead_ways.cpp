@@ -164,9 +164,9 @@ AheadPerson::Instants AheadPerson::byChain(const HeldBackStep& step, const Ahead
   posed.from = &frames_[step.from];
   posed.to = &frames_[step.to];
   posed.seconds = stepS_;
-  const double begin = threadTimeUs();
+  const ThreadStopwatch watch;
   (void)query_.lookAhead(posed, horizon_.seconds(), claims, scratch_, brackets_);
-  us += threadTimeUs() - begin;
+  us += watch.us();
   Instants told(claims.size());
   for (const LinkBracket& bracket : brackets_.links) {
     if (bracket.verdict == BracketVerdict::Unclaimed) told[slotOf(bracket.link)] = 0.0;

@@ -36,9 +36,9 @@ class PairTrial {
   PersonTally run() {
     const std::vector<Overlap> overlaps = overlapping();
     for (const bool counts : {false, true}) {
-      const double begin = threadTimeUs();
+      const ThreadStopwatch watch;
       for (const Overlap& overlap : overlaps) ask(overlap);
-      if (counts) tally_.bracketUs += threadTimeUs() - begin;
+      if (counts) tally_.bracketUs += watch.us();
     }
     tally_.steps += overlaps.size();
     for (const Overlap& overlap : overlaps) judgeOverlap(overlap);

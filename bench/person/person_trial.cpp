@@ -54,12 +54,12 @@ class Trial {
   void time() {
     const std::vector<HeldBackStep> steps = person_.steps();
     for (const bool counts : {false, true}) {
-      double begin = threadTimeUs();
+      const ThreadStopwatch brackets;
       for (const HeldBackStep& step : steps) ask(step);
-      if (counts) tally_.bracketUs += threadTimeUs() - begin;
-      begin = threadTimeUs();
+      if (counts) tally_.bracketUs += brackets.us();
+      const ThreadStopwatch plain;
       for (const HeldBackStep& step : steps) askPlainly(step);
-      if (counts) tally_.plainUs += threadTimeUs() - begin;
+      if (counts) tally_.plainUs += plain.us();
     }
     tally_.steps += steps.size();
   }

@@ -83,9 +83,9 @@ BoardTally tryBoard(HandFollower& hand, const BoardCell& cell, std::uint64_t tri
       RigidPose tracked = track.start;
       tracked.pivot += std::min(i / kTrialRateHz, track.seconds) * track.velocity;
       const Eigen::Vector3d before = shown.pivot;
-      const double startUs = threadTimeUs();
+      const ThreadStopwatch watch;
       shown = hand.follow(tracked, 1.0 / kTrialRateHz);
-      tally.us += threadTimeUs() - startUs;
+      tally.us += watch.us();
       hand.look();
       if (i > last - kTicksAtRest) trembles = std::max(trembles, (shown.pivot - before).norm());
     }

@@ -68,9 +68,9 @@ Result<ClutterTally> tryClutter(Follower& follower, int goals, std::uint64_t see
     for (int i = 1; i <= kTicksPerGoal; ++i) {
       const double t = std::min(1.0, static_cast<double>(i) / kTicksOnTheWay);
       const Pose tracked = t < 1.0 ? towards(from, goal, t) : goal;
-      const double before = threadTimeUs();
+      const ThreadStopwatch watch;
       FORETOUCH_CHECK(follower.follow(tracked, 1.0 / kTrialRateHz, tick));
-      tally.us.push_back(threadTimeUs() - before);
+      tally.us.push_back(watch.us());
       audit.look(tick);
     }
     const bool isThere = plainPose(tick.shown) == plainPose(goal);

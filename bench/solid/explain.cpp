@@ -152,9 +152,9 @@ Result<ExplainTally> explain(const SolidStage& stage, const SolidActor& actor,
   ExplainTally tally;
   SolidTick tick;
   for (std::size_t i = 0; i < tracked.size(); ++i) {
-    const double start = threadTimeUs();
+    const ThreadStopwatch watch;
     FORETOUCH_CHECK(solid.follow({tracked[i], 1.0 / rateHz, nullptr}, tick));
-    const double us = threadTimeUs() - start;
+    const double us = watch.us();
     if (i > 0) tally.ticks.push_back(explained(phases, tick, us));
     explainer.look(tracked[i], tick, tally);
   }

@@ -177,10 +177,10 @@ class BareQuery {
   double timeUs(const Pose& from, const Pose& to) {
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i) {
-      const double before = threadTimeUs();
+      const ThreadStopwatch watch;
       motion_.assign(query_.avatar().skeleton(), from, to);
       query_.answer(motion_, scratch_, step_);
-      least = std::min(least, threadTimeUs() - before);
+      least = std::min(least, watch.us());
     }
     return least;
   }
@@ -234,9 +234,9 @@ Result<FeelTally> feel(const SolidStage& stage, const SolidActor& actor,
   SolidTick tick;
   Pose before;
   for (std::size_t i = 0; i < tracked.size(); ++i) {
-    const double start = threadTimeUs();
+    const ThreadStopwatch watch;
     FORETOUCH_CHECK(follower.follow(tracked[i], 1.0 / run.rateHz, tick));
-    const double us = threadTimeUs() - start;
+    const double us = watch.us();
     if (i > 0) {
       const bool isFree = isFreeTick(tick);
       tally.us.push_back(us);

@@ -212,9 +212,9 @@ Result<FingerTally> tryTask(Task task, const SolidOptions& options) {
   const int ticks = static_cast<int>(std::lround(task.seconds * kTrialRateHz));
   for (int i = 0; i < ticks; ++i) {
     const Pose tracked = posed(avatar.skeleton(), approaching(task, i / kTrialRateHz));
-    const double before = threadTimeUs();
+    const ThreadStopwatch watch;
     FORETOUCH_CHECK(solid.follow({tracked, 1.0 / kTrialRateHz, nullptr}, tick));
-    look(tick, threadTimeUs() - before, tally);
+    look(tick, watch.us(), tally);
     audit.look(tick);
   }
   tally.way = audit.tally();

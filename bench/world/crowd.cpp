@@ -59,9 +59,9 @@ double broadPhaseUs(const std::vector<Person>& people) {
   double sum = 0.0;
   for (std::int64_t k = 0; k < kSweeps; ++k) {
     for (std::size_t i = 0; i < people.size(); ++i) boxes[i] = boxOf(people[i], k);
-    const double before = threadTimeUs();
+    const ThreadStopwatch watch;
     sweep.collect(boxes, meeting);
-    if (k >= kFirst) sum += threadTimeUs() - before;
+    if (k >= kFirst) sum += watch.us();
   }
   return sum / static_cast<double>(kSweeps - kFirst);
 }

@@ -263,9 +263,9 @@ CrowdCost followedCrowd(const std::vector<Person>& people, int windows) {
       }
     }
     asked.ask(begin, end, true);
-    const double before = threadTimeUs();
+    const ThreadStopwatch watch;
     static_cast<void>(follower.follow(followed, end, answer).value());
-    cost.followUs += threadTimeUs() - before;
+    cost.followUs += watch.us();
     followed.forgetBefore(end);
     cost.counters.add(answer.counters);
     cost.events += answer.events.size();

@@ -71,7 +71,7 @@ struct PairTally {
 };
 
 /// The least of a few rounds counts.
-PairTally judgedPairs(const std::vector<MovingPair>& pairs, PairSolver& solver, double overheadUs) {
+PairTally judgedPairs(const std::vector<MovingPair>& pairs, PairSolver& solver) {
   constexpr int kRounds = 3;
   /// A touch of the judge is within a nanometre, at so many metres per unit of t at least.
   constexpr double kLate = 1e-6;
@@ -80,10 +80,9 @@ PairTally judgedPairs(const std::vector<MovingPair>& pairs, PairSolver& solver, 
   std::vector<SweepAnswer> answers(pairs.size());
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const double before = threadTimeUs();
+      const ThreadStopwatch watch;
       answers[i] = solver.solve(pairs[i]);
-      const double us = std::max(0.0, threadTimeUs() - before - overheadUs);
-      tally.us[i] = std::min(tally.us[i], us);
+      tally.us[i] = std::min(tally.us[i], watch.us());
     }
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -94,15 +93,6 @@ PairTally judgedPairs(const std::vector<MovingPair>& pairs, PairSolver& solver, 
     tally.off.push_back(std::abs(answers[i].toi - pairs[i].toi));
   }
   return tally;
-}
-
-double threadClockUs() {
-  double least = 1e300;
-  for (int i = 0; i < 10'000; ++i) {
-    const double before = threadTimeUs();
-    least = std::min(least, threadTimeUs() - before);
-  }
-  return least;
 }
 
 }  // namespace
@@ -132,9 +122,8 @@ JudgedTable pairsTable(PairKind kind, int pairs, std::uint64_t seed) {
 #ifdef FORETOUCH_HAS_PEERS
   for (auto& peer : peerPairSolvers(kind)) solvers.push_back(std::move(peer));
 #endif
-  const double overheadUs = threadClockUs();
   for (const auto& solver : solvers) {
-    const PairTally tally = judgedPairs(drawn, *solver, overheadUs);
+    const PairTally tally = judgedPairs(drawn, *solver);
     const Percentiles us = percentilesOf(tally.us), off = percentilesOf(tally.off);
     if (solver == solvers.front()) result.violations = tally.missed + tally.late;
     result.table.rows.push_back({solver->name(), static_cast<std::int64_t>(drawn.size()),

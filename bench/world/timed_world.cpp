@@ -39,15 +39,15 @@ BodyId TimedWorld::add(const Person& person, const BodyOptions& options) {
 }
 
 void TimedWorld::push(BodyId body, std::int64_t utimeUs, const Pose& pose) {
-  const double before = threadTimeUs();
+  const ThreadStopwatch watch;
   mustBeOk(world_.push(body, utimeUs, pose));
-  pushedUs_ += threadTimeUs() - before;
+  pushedUs_ += watch.us();
 }
 
 void TimedWorld::ask(std::int64_t fromUs, std::int64_t toUs, bool isCounted) {
-  const double before = threadTimeUs();
+  const ThreadStopwatch watch;
   mustBeOk(world_.contacts(fromUs, toUs, scratch_, answer_));
-  const double us = threadTimeUs() - before;
+  const double us = watch.us();
   world_.forgetBefore(toUs);
   const double pushed = std::exchange(pushedUs_, 0.0);
   if (!isCounted) return;
