@@ -161,7 +161,8 @@ void bindScene(py::module_& module) {
           "OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X or IQM, in a caged child process (the\n"
           "program foretouch-import; docs/python.md says where it is looked for). scale: metres "
           "per\n"
-          "unit of the file; up: 'y' or 'z'; both in place of what the file says itself.")
+          "unit of the file; up: 'y' or 'z'; both in place of what the file says itself. Or a\n"
+          "scene that `foretouch scene bake` wrote: in milliseconds, without that process.")
       .def_property_readonly("num_triangles", &Scene::numTriangles)
       .def_property_readonly("triangles", &triangleArray,
                              "A copy, (m, 3, 3): each triangle's vertices, in ascending order.")

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "articulated/try.h"
+#include "assets/import/baked_scene.h"
 #include "assets/import/model_import.h"
 #include "assets/text_file.h"
 
@@ -44,6 +45,7 @@ std::string beginningOf(const std::string& path) {
 FileRole roleByContent(const std::string& path) {
   const std::string text = beginningOf(path);
   if (text.rfind(kLogMagic, 0) == 0) return FileRole::Clip;
+  if (internal::isBaked(path)) return FileRole::Scene;
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == std::string::npos) return FileRole::Unknown;
   if (text.compare(first, 9, "HIERARCHY") == 0) return FileRole::Clip;
@@ -160,7 +162,8 @@ bool isEventLog(const std::string& path) {
 }
 
 Result<FileRole> roleOfFile(const std::string& path) {
-  constexpr std::array kScenes{".obj"sv, ".ply"sv, ".stl"sv, ".off"sv, ".3ds"sv, ".iqm"sv};
+  constexpr std::array kScenes{".obj"sv, ".ply"sv, ".stl"sv,    ".off"sv,
+                               ".3ds"sv, ".iqm"sv, ".ftscene"sv};
   constexpr std::array kModels{".glb"sv, ".gltf"sv, ".vrm"sv, ".fbx"sv, ".dae"sv, ".x"sv};
   constexpr std::array kMotions{".bvh"sv, ".amc"sv, ".mvnx"sv, ".csv"sv, ".npz"sv, ".lcmlog"sv};
   const std::string extension = lowerExtensionOf(path);

@@ -108,7 +108,7 @@ void addSelfSettings(Settings& settings, WorldRequest& request) {
 void addSceneSettings(Settings& settings, WorldRequest& request) {
   settings
       .path("--scene", "FILE", request.scenePath,
-            "Scene: OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X or IQM")
+            "Scene: OBJ, PLY, STL, glTF, FBX, Collada, 3DS, OFF, X, IQM or baked")
       .files(kModelEndings)
       .notEmpty()
       .in(kInputGroup)

@@ -144,6 +144,31 @@ TEST(ReplayProgram, TakesFilesWithoutTheirOptionsInAnyOrder) {
   refused({folder / "none.dat", body, dance}, "none.dat: cannot be opened");
 }
 
+/// By name, and by content where the name says nothing; a damaged one is refused as a scene.
+TEST(ReplayProgram, TakesABakedSceneWithoutItsOption) {
+  const SmallWorld world;
+  const TempFolder& folder = world.folder;
+  const std::string out = folder / "out.jsonl", baked = folder / "wall.ftscene";
+  const auto stepsIn = [&](const std::string& scene) {
+    const Ended ended =
+        runForetouch({"replay", folder / "clip.bvh", scene, folder / "man.json", "-o", out});
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    const std::string all = resultsWithoutLatency(out);
+    return all.substr(all.find('\n'));  // the first line names the file
+  };
+  const std::string steps = stepsIn(folder / "wall.obj");
+  ASSERT_EQ(runForetouch({"scene", "bake", folder / "wall.obj", "-o", baked}).exitCode, 0);
+  EXPECT_EQ(stepsIn(baked), steps);
+  const std::string bytes = contentOf(baked);
+  EXPECT_EQ(stepsIn(folder.write("wall.dat", bytes)), steps);
+  const std::string broken = folder.write("broken.ftscene", bytes.substr(0, 40));
+  const Ended ended =
+      runForetouch({"replay", folder / "clip.bvh", broken, folder / "man.json", "-o", out});
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_TRUE(holds(ended.err, "broken.ftscene: ")) << ended.err;
+  EXPECT_FALSE(holds(ended.err, "does not say what it is")) << ended.err;
+}
+
 /// The same step as of the whole clip, at the same time.
 TEST(ReplayProgram, PlaysAPartOfAClipAtTheClipsOwnTime) {
   const SmallWorld world;
