@@ -13,6 +13,7 @@ from moving import View
 
 AROUND = (-12, -4, -2, -1, 0, 1, 2, 4, 12)  # ticks from the moment
 WIDTH, HEIGHT, TOP, REACH = 220, 300, 60, 1.1  # pixels of a frame, and metres from its middle that it shows
+LEAST = 1.5  # pixels: what is smaller is left out
 SIDES = ((-0.35, -0.3, -1.0), (-1.0, -0.3, 0.35))
 
 
@@ -31,14 +32,34 @@ def draw_body(picture, view, axes, color, worst=None, opacity=1.0):
         picture.line(p, q, RED if link == worst else color, 2 * radius * view.scale, opacity=opacity)
 
 
-def draw_frame(picture, moment, frame, middle, side, left, top):
-    view = View(side, middle, 0.5 * HEIGHT / REACH, (left + 0.5 * WIDTH, top + 0.5 * HEIGHT))
+def view_of(middle, side, left, top):
+    return View(side, middle, 0.5 * HEIGHT / REACH, (left + 0.5 * WIDTH, top + 0.5 * HEIGHT))
+
+
+def is_seen(corners, top):
+    """Within the frame, and no dot."""
+    (left, right), (above, below) = ((min(c), max(c)) for c in zip(*corners))
+    return (right > 0 and left < WIDTH and below > top and above < top + HEIGHT
+            and max(right - left, below - above) > LEAST)
+
+
+def draw_surroundings(picture, moment, middle, side, row, top):
+    """Once for all frames of a row, which use it."""
+    view = view_of(middle, side, 0, top)
     near = view.depth(middle)
-    picture.parts.append(f'<svg x="{left}" y="{top}" width="{WIDTH}" height="{HEIGHT}" '
-                         f'viewBox="{left} {top} {WIDTH} {HEIGHT}">')
+    picture.parts.append(f'<defs><g id="row{row}">')
     for triangle in sorted(moment["triangles"], key=lambda corners: -sum(map(view.depth, corners))):
-        is_before = sum(map(view.depth, triangle)) < 3 * near
-        picture.path([view.at(corner) for corner in triangle], FAINT, 0.5, WOOD, 0.03 if is_before else 0.12, True)
+        corners = [view.at(corner) for corner in triangle]
+        if is_seen(corners, top):
+            is_before = sum(map(view.depth, triangle)) < 3 * near
+            picture.path(corners, FAINT, 0.5, WOOD, 0.03 if is_before else 0.12, True)
+    picture.parts.append("</g></defs>")
+
+
+def draw_frame(picture, moment, frame, middle, row, left, top):
+    view = view_of(middle, SIDES[row], left, top)
+    picture.parts.append(f'<svg x="{left}" y="{top}" width="{WIDTH}" height="{HEIGHT}" '
+                         f'viewBox="{left} {top} {WIDTH} {HEIGHT}"><use href="#row{row}" x="{left}"/>')
     draw_body(picture, view, frame["tracked"], ORANGE, opacity=0.35)
     draw_body(picture, view, frame["shown"], BLUE, moment["link"])
     picture.parts.append("</svg>")
@@ -52,11 +73,13 @@ def strip_of(moment):
     picture = Picture(WIDTH * len(frames), TOP + len(SIDES) * HEIGHT, words)
     picture.text(10, 24, words, size=18, weight="bold")
     middle = middle_of(moment["frames"][at]["shown"])
+    for row, side in enumerate(SIDES):
+        draw_surroundings(picture, moment, middle, side, row, TOP + row * HEIGHT)
     for i, frame in enumerate(frames):
         is_it = frame["tick"] == moment["tick"]
         picture.text(i * WIDTH + 10, TOP - 10, f'{frame["tick"] - moment["tick"]:+d}', RED if is_it else INK)
-        for row, side in enumerate(SIDES):
-            draw_frame(picture, moment, frame, middle, side, i * WIDTH, TOP + row * HEIGHT)
+        for row in range(len(SIDES)):
+            draw_frame(picture, moment, frame, middle, row, i * WIDTH, TOP + row * HEIGHT)
     return picture, (WIDTH * len(frames), TOP + len(SIDES) * HEIGHT)
 
 
