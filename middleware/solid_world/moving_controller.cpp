@@ -117,7 +117,7 @@ void MovingController::gather(Run& run) {
   run.request.ranges.append(here_.states, trust_ / kTwistLever, rows_);
   numStill_ = rows_.size();
   around_.append(run.prover, run.around, run.atUs, run.untilUs, here_.states, reach_, rows_);
-  if (isApproached()) letGoOfRanges();
+  if (isApproached()) letGoOfWishes();
   ++run.tick.counters.iterations;
   run.tick.counters.features += static_cast<std::uint32_t>(rows_.size());
   certifier.spend(kIterationWork + kRowWork * rows_.size() + WorkMeter::workOf(features_.counters));
@@ -133,11 +133,11 @@ void MovingController::setBounds(bool mayPushBack) {
   }
 }
 
-/// Who has to get out of the way bends as he must.
-void MovingController::letGoOfRanges() {
-  const auto isTurn = [](const ContactRow& row) { return row.isTurn; };
+/// Who has to get out of the way bends as he must, and puts a thigh into the other.
+void MovingController::letGoOfWishes() {
+  const auto isWish = [](const ContactRow& row) { return row.isSoft; };
   const auto still = rows_.begin() + static_cast<std::ptrdiff_t>(numStill_);
-  const auto kept = std::remove_if(rows_.begin(), still, isTurn);
+  const auto kept = std::remove_if(rows_.begin(), still, isWish);
   numStill_ = static_cast<std::size_t>(kept - rows_.begin());
   rows_.erase(kept, still);
 }

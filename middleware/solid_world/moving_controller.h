@@ -73,7 +73,7 @@ class MovingController {
   void step(Run& run);
   void gather(Run& run);
   void setBounds(bool mayPushBack);
-  void letGoOfRanges();
+  void letGoOfWishes();
   [[nodiscard]] bool propose(Run& run);
   void solveAndCorrect(Run& run);
   [[nodiscard]] bool findNearer(Run& run);

@@ -25,7 +25,8 @@ TEST(TogetherCampaign, NothingIsInsideThatIsNotSaid) {
   EXPECT_EQ(total.violations(), 0u) << summaryOf(total);
   EXPECT_GT(total.ticks, 2000u);
   EXPECT_GT(total.pushed, 300u);
-  EXPECT_LT(total.crushed, total.ticks / 2);
+  // Fewer than while who has to get out of the way kept own links apart: of these, 56.
+  EXPECT_LT(total.crushed, total.ticks / 70);
 }
 
 // Worlds in which somebody once claimed more: who stayed, while another one passed by who had
@@ -33,6 +34,7 @@ TEST(TogetherCampaign, NothingIsInsideThatIsNotSaid) {
 TEST(TogetherCampaign, TheClearanceOfWhoStaysIsNotBeyondTheTruth) {
   const std::pair<std::uint64_t, double> worlds[] = {
       {1090, 10.0}, {2024, 10.0}, {2221, 30.0}, {10054, 30.0}};
+  std::uint64_t crushed = 0;
   for (const auto& [seed, rateHz] : worlds) {
     TogetherCampaign campaign;
     campaign.seed = seed;
@@ -42,8 +44,9 @@ TEST(TogetherCampaign, TheClearanceOfWhoStaysIsNotBeyondTheTruth) {
     const TogetherTally tally = judgeTogether(campaign);
     for (const std::string& finding : tally.findings) ADD_FAILURE() << finding;
     EXPECT_EQ(tally.violations(), 0u);
-    EXPECT_GT(tally.crushed, 20u) << seed;
+    crushed += tally.crushed;
   }
+  EXPECT_GT(crushed, 400u);
 }
 
 TEST(TogetherCampaign, TheSameSeedShowsTheSameBits) {
