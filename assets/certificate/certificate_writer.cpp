@@ -28,6 +28,25 @@ constexpr int kDeepestSpan = 24;
 /// More planes than this: two shorter spans need fewer in all.
 constexpr std::size_t kMostPlanes = 8;
 
+/// How far the verifier's readings of the number go from it: where single precision does not hold
+/// it, two such numbers to each side of the nearest.
+double blurOf(double number) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const auto nearest = static_cast<float>(number);
+  if (nearest == number) return 0.0;
+  const double least = std::nextafter(std::nextafter(nearest, -kInfinity), -kInfinity);
+  const double most = std::nextafter(std::nextafter(nearest, kInfinity), kInfinity);
+  return std::max(number - least, most - number);
+}
+
+double blurOf(const Triangle& triangle) {
+  double blur = 0.0;
+  for (const Eigen::Vector3d& vertex : triangle.vertices) {
+    for (const double part : vertex) blur = std::max(blur, blurOf(part));
+  }
+  return blur;
+}
+
 /// Short, and the very number that is written.
 double inFewDigits(double number) {
   char text[32];
@@ -64,9 +83,14 @@ struct CertificateWriter::Plane {
   Eigen::Vector3d normal;
   double offset = 0.0;
 
-  [[nodiscard]] bool holds(const Triangle& triangle) const {
-    return std::all_of(triangle.vertices.begin(), triangle.vertices.end(),
-                       [&](const auto& v) { return normal.dot(v) <= offset - kSlackM; });
+  /// Of a triangle whose coordinates may be read as others, this far away.
+  [[nodiscard]] double mostAlong(const Triangle& triangle, double blur) const {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector3d& v : triangle.vertices) most = std::max(most, normal.dot(v));
+    return most + blur * normal.lpNorm<1>();
+  }
+  [[nodiscard]] bool holds(const Triangle& triangle, double blur) const {
+    return mostAlong(triangle, blur) <= offset - kSlackM;
   }
   [[nodiscard]] bool isBetween(const Hull& one, const Hull& other) const {
     return one.leastAlong(normal) >= offset + kSlackM &&
@@ -95,9 +119,13 @@ CertificateWriter::CertificateWriter(const Avatar& avatar, const Scene& scene,
     : avatar_(avatar), scene_(scene), asked_(std::move(asked)) {
   const auto count = static_cast<TriangleId>(scene.numTriangles());
   for (TriangleId id = 0; id < count; ++id) {
+    const double blur = blurOf(scene.triangle(id));
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& vertex : scene.triangle(id).vertices) box.extend(vertex);
+    box.min().array() -= blur;
+    box.max().array() += blur;
     boxes_.push_back(box);
+    blurs_.push_back(blur);
     if (isFinite(scene.triangle(id))) all_.push_back(id);
   }
 }
@@ -144,6 +172,10 @@ CertificateWriter::Triangles CertificateWriter::nearOf(const Hull& hull, double 
   return near;
 }
 
+bool CertificateWriter::isHeld(const Plane& plane, TriangleId id) const {
+  return plane.holds(scene_.triangle(id), blurs_[slotOf(id)]);
+}
+
 /// One plane after the other, each for the nearest triangle that none holds yet. False: some
 /// triangle has none, or there would be too many.
 bool CertificateWriter::planesFor(const Hull& hull, const Triangles& near,
@@ -164,22 +196,19 @@ bool CertificateWriter::planesFor(const Hull& hull, const Triangles& near,
     }
     Plane plane;
     if (!Plane::towards(nearest, plane)) return false;
-    double most = -std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector3d& v : scene_.triangle(of).vertices) {
-      most = std::max(most, plane.normal.dot(v));
-    }
+    const double most = plane.mostAlong(scene_.triangle(of), blurs_[slotOf(of)]);
     // Near to the LSS, so that it holds as many others as it can.
     if (!plane.place(hull.leastAlong(plane.normal), most, 0.05)) return false;
-    open.erase(std::remove_if(open.begin(), open.end(),
-                              [&](TriangleId id) { return plane.holds(scene_.triangle(id)); }),
-               open.end());
+    open.erase(
+        std::remove_if(open.begin(), open.end(), [&](TriangleId id) { return isHeld(plane, id); }),
+        open.end());
     planes.push_back(plane);
   }
   // A later plane may hold all that an earlier one was made for: each that stays is needed.
   for (std::size_t i = 0; i < planes.size();) {
     const bool isNeeded = std::any_of(near.begin(), near.end(), [&](TriangleId id) {
       for (std::size_t k = 0; k < planes.size(); ++k) {
-        if (k != i && planes[k].holds(scene_.triangle(id))) return false;
+        if (k != i && isHeld(planes[k], id)) return false;
       }
       return true;
     });

@@ -74,6 +74,7 @@ class CertificateWriter {
   [[nodiscard]] Hull hullOf(LinkId carrier, LinkId link, const Bound& bound, int level,
                             std::int64_t index, double more);
   [[nodiscard]] Triangles nearOf(const Hull& hull, double more, const Triangles& among) const;
+  [[nodiscard]] bool isHeld(const Plane& plane, TriangleId id) const;
   [[nodiscard]] bool planesFor(const Hull& hull, const Triangles& near,
                                std::vector<Plane>& planes) const;
   [[nodiscard]] static bool planesBetween(const std::vector<Hull>& ones,
@@ -85,7 +86,8 @@ class CertificateWriter {
 
   const Avatar& avatar_;
   const Scene& scene_;
-  std::vector<Eigen::AlignedBox3d> boxes_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  // of all that the verifier may read
+  std::vector<double> blurs_;               // how far that is from what is here
   Triangles all_;
   CertificateAsked asked_;
   std::vector<MotionEvaluator> parts_;  // of the step or the edge
