@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
+#include "bench/machine.h"
 #include "lss/assert.h"
 
 namespace foretouch::tools {
@@ -60,13 +60,8 @@ TimeFigures figuresOf(std::vector<double> us) {
 }
 
 double clockOverheadUs() {
-  constexpr int kReadings = 10'000;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kReadings; ++i) {
-    const auto from = Clock::now();
-    least = std::min(least, usBetween(from, Clock::now()));
-  }
-  return least;
+  const auto origin = Clock::now();
+  return overheadOf([&] { return usBetween(origin, Clock::now()); });
 }
 
 std::vector<TimedLeaf> timeLeaves(std::size_t count, int repeat,

@@ -5,7 +5,6 @@
 #include <ctime>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <sched.h>
 #include <thread>
 #include <utility>
@@ -95,17 +94,9 @@ double threadTimeUs() {
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-/// Between two readings with nothing in between, the least of many; found once.
+/// Found once.
 double clockOverheadOfThreadUs() {
-  static const double overheadUs = [] {
-    constexpr int kReadings = 10'000;
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kReadings; ++i) {
-      const double from = threadTimeUs();
-      least = std::min(least, threadTimeUs() - from);
-    }
-    return least;
-  }();
+  static const double overheadUs = overheadOf(threadTimeUs);
   return overheadUs;
 }
 

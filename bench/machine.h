@@ -1,6 +1,8 @@
 // bench/machine.h: the machine of a measurement.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,18 @@ namespace foretouch::tools {
 
 /// What the program has allocated and not freed (glibc's count; else 0).
 [[nodiscard]] double heapMiB();
+
+/// What reading a clock takes: between two readings with nothing in between, the least of many.
+template <typename NowUs>
+[[nodiscard]] double overheadOf(const NowUs& nowUs) {
+  constexpr int kReadings = 10'000;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kReadings; ++i) {
+    const double from = nowUs();
+    least = std::min(least, nowUs() - from);
+  }
+  return least;
+}
 
 /// Processor time of this thread since it was made, less what reading that clock takes: a system
 /// call, of which some machines make more than a microsecond. Other work on the machine does not

@@ -13,7 +13,6 @@ import subprocess
 import sys
 from collections import defaultdict
 
-# A step that asks nothing of time itself: without cold passes each is answered once.
 STEPS = {
     "link": ["--triangles", "300000", "--links", "16", "--choice", "mix"],
     "exact": ["--fidelity", "exact", "--links", "15"],
@@ -22,7 +21,8 @@ COMMON = ["latency", "--rate", "10", "--tolerance", "0.001", "--simd", "avx2", "
 
 # The first pattern that a function's name holds says whose it is.
 PHASES = [
-    ("the motion between two poses", r"ChainMotion::assign|arcsInLanes|jointMotion|rotationVector|JointArc|sin|cos|atan2"),
+    ("the motion between two poses",
+     r"ChainMotion::assign|arcsInLanes|jointMotion|rotationVector|JointArc|sin|cos|atan2"),
     ("frames, curves and boxes of links",
      r"weighJoints|evaluateLinks|boxesOf|[sS]weptBoxes|NodeEnds|ChainNodes|fitPoint|polynomialsOf|pointError|"
      r"RelativeNodes|FittedCurve|[fF]rameLanes|LaneFrames|fitRotation|fitEnd"),
@@ -38,6 +38,8 @@ PHASES = [
      r"axisDistance|featurePlaceAt|edgesOf|nextafter|_heap"),
 ]
 REST = "answers and the rest"
+COUNTS = {"instructions": "instructions", "code": "lines of code", "read": "lines read", "written": "lines written",
+          "far": "of them beyond 1 MiB"}
 
 
 def phase_of(function):
@@ -69,15 +71,15 @@ def costs_by_function(path):
     return costs
 
 
-def ask(program, words, output):
-    run = subprocess.run([program, *COMMON, *words, "--json", output], capture_output=True, text=True)
+def latency(program, words, output):
+    """The report of a run, which `program` begins, and its steps' times by the state of the caches."""
+    run = subprocess.run([*program, *COMMON, *words, "--json", output], capture_output=True, text=True)
     if run.returncode != 0:
         sys.exit(run.stderr)
-
-
-def table_of(path, name):
-    with open(path) as file:
-        return next(table for table in json.load(file)["tables"] if table["name"] == name)["rows"]
+    with open(output) as file:
+        report = json.load(file)
+    rows = next(table for table in report["tables"] if table["name"] == "latency")["rows"]
+    return report, {row["caches"]: row for row in rows}
 
 
 def count(program, words, folder):
@@ -86,12 +88,8 @@ def count(program, words, folder):
     limited = ["prlimit", "--nofile=64:64", "valgrind", "--tool=callgrind", "--cache-sim=yes",
                "--I1=32768,8,64", "--D1=32768,8,64", "--LL=1048576,8,64", "--collect-atstart=no",
                "--toggle-collect=foretouch::tools::answerStep*", f"--callgrind-out-file={profile}"]
-    run = subprocess.run([*limited, program, *COMMON, *words, "--repeat", "1", "--cold-mb", "0", "--json", output],
-                         capture_output=True, text=True)
-    if run.returncode != 0:
-        sys.exit(run.stderr)
-    # Where a way with own links is timed as well, its steps are steps like the others.
-    steps = sum(row["steps"] for row in table_of(output, "latency") if row["caches"] == "warm")
+    # Without cold passes each step is answered once.
+    steps = latency([*limited, program], [*words, "--repeat", "1", "--cold-mb", "0"], output)[1]["warm"]["steps"]
     phases = defaultdict(lambda: defaultdict(float))
     for function, costs in costs_by_function(profile).items():
         lines = {"instructions": costs["Ir"], "code": costs["I1mr"], "read": costs["D1mr"],
@@ -108,33 +106,26 @@ def main():
     for name, words in STEPS.items():
         print(f"run: roofline: {name}", file=sys.stderr)
         counted = count(program, words, folder)
-        timed = os.path.join(folder, "timed.json")
-        ask(program, words, timed)
-        rows = {row["caches"]: row for row in table_of(timed, "latency")}
+        report, rows = latency([program], words, os.path.join(folder, "timed.json"))
         for phase in [phase for phase, _ in PHASES] + [REST]:
-            phases.append({"step": name, "phase": phase, **{key: counted[phase][key] for key in
-                           ("instructions", "code", "read", "written", "far")}})
-        total = {key: sum(part[key] for part in counted.values())
-                 for key in ("instructions", "code", "read", "written", "far")}
+            phases.append({"step": name, "phase": phase, **{key: counted[phase][key] for key in COUNTS}})
+        total = {key: sum(part[key] for part in counted.values()) for key in COUNTS}
         warm, once = rows["warm"]["mean_us"], rows["asked once"]["mean_us"]
         lines = total["code"] + total["read"] + total["written"]
         steps.append({"step": name, **total, "warm_us": warm, "once_us": once,
                       "instruction_ns": 1e3 * warm / total["instructions"], "line_ns": 1e3 * (once - warm) / lines})
-    with open(timed) as file:
-        report = json.load(file)
-    counts = [("instructions", "instructions", 0), ("code", "lines of code", 0), ("read", "lines read", 0),
-              ("written", "lines written", 0), ("far", "of them beyond 1 MiB", 0)]
+    counts = [(key, title, 0) for key, title in COUNTS.items()]
     times = [("warm_us", "warm, us", 1), ("once_us", "asked once, us", 1),
              ("instruction_ns", "ns an instruction", 3), ("line_ns", "ns a line", 2)]
-    named = lambda columns: [{"key": key, "title": title, "decimals": decimals} for key, title, decimals in columns]
+    named = lambda columns: [dict(zip(("key", "title", "decimals"), column)) for column in columns]
     report.update(kind="roofline", title="What bounds a step that is asked once", command="./run roofline --record",
                   workload={name: " ".join(COMMON[:-1] + words) for name, words in STEPS.items()},
-                  tables=[{"name": "steps", "title": "A step in the mean", "columns": named([("step", "step", 0)] + counts + times),
-                           "rows": steps},
+                  tables=[{"name": "steps", "title": "A step in the mean",
+                           "columns": named([("step", "step", 0)] + counts + times), "rows": steps},
                           {"name": "phases", "title": "Its phases",
                            "columns": named([("step", "step", 0), ("phase", "phase", 0)] + counts), "rows": phases}],
-                  notes=["Counted by valgrind's callgrind with caches of 32 KiB (code), 32 KiB (data) and 1 MiB, each of "
-                         "eight ways; timed with the same vectors."])
+                  notes=["Counted by valgrind's callgrind with caches of 32 KiB (code), 32 KiB (data) and 1 MiB, each "
+                         "of eight ways; timed with the same vectors."])
     output = record if "--record" in sys.argv[4:] else os.path.join(folder, "roofline.json")
     with open(output, "w") as file:
         json.dump(report, file, indent=1)
