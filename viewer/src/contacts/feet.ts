@@ -41,7 +41,7 @@ export function stancesOf(feet: readonly RecordedFoot[], avatars: readonly Avata
 /** Shorter, seconds, a foot kicks or brushes past: it does not stand. */
 const shortestStand = 0.1;
 
-function stands({ begin, end }: FootStance): boolean {
+export function stands({ begin, end }: FootStance): boolean {
   return end - begin >= shortestStand;
 }
 

@@ -1,6 +1,6 @@
 // Which foot slides, how deep it is in, and when: a sentence a foot, and the worst first.
 
-import { byBadness, isDeep, isSlide, told } from "../contacts/feet.js";
+import { byBadness, isDeep, isSlide, stands, told } from "../contacts/feet.js";
 import type { Touch } from "../contacts/touch.js";
 import type { FootStance } from "../data/document.js";
 import type { Model } from "../model.js";
@@ -11,6 +11,7 @@ import { count, framesOf, millimetres, plural } from "./words.js";
 
 /** In the list; the timeline has all. */
 const maxRows = 12;
+const least = millimetres(told);
 const columns = ["frames", "foot", "slides", "deep"];
 
 export class FeetCard {
@@ -50,17 +51,20 @@ export class FeetCard {
     });
   }
 
+  /** As the headline has it: what only passes does not stand. */
   private sentence(stances: readonly Touch[]): string {
-    const touches = stances.filter(({ stance }) => stance !== null && stance.kind !== "hovers");
-    const slides = touches.filter(({ stance }) => stance !== null && isSlide(stance)).length;
-    const sinks = touches.filter(({ stance }) => stance !== null && isDeep(stance)).length;
+    const touches = stances.flatMap(({ stance }) => (stance === null || stance.kind === "hovers" ? [] : [stance]));
     if (touches.length === 0) return "touches nothing";
-    const most = (of: (stance: FootStance) => number): string => millimetres(touches.reduce((a, { stance }) => (stance === null ? a : Math.max(a, of(stance))), 0));
-    const least = millimetres(told);
-    const parts = [plural(touches.length, "touch", "touches")];
-    parts.push(slides === 0 ? `none slides ${least}` : `${slides} ${slides === 1 ? "slides" : "slide"}, at most ${most(({ slide }) => slide)}`);
-    parts.push(sinks === 0 ? `none sinks in ${least}` : `${sinks} ${sinks === 1 ? "sinks" : "sink"} in, at most ${most(({ depth }) => depth)}`);
-    return parts.join("; ");
+    const standing = touches.filter(stands), passing = touches.filter((stance) => !stands(stance) && isDeep(stance));
+    const worst = (of: readonly FootStance[], one: string, many: string, size: (stance: FootStance) => number): string =>
+      `${of.length} ${of.length === 1 ? one : many}, at most ${millimetres(Math.max(...of.map(size)))}`;
+    const slides = standing.filter(isSlide), sinks = standing.filter(isDeep), depth = (stance: FootStance): number => stance.depth;
+    return [
+      plural(touches.length, "touch", "touches"),
+      slides.length === 0 ? `none slides ${least}` : worst(slides, "slides", "slide", ({ slide }) => slide),
+      sinks.length === 0 ? `none stands ${least} deep` : worst(sinks, "stands too deep", "stand too deep", depth),
+      ...(passing.length === 0 ? [] : [worst(passing, "passes too deep", "pass too deep", depth)]),
+    ].join("; ");
   }
 
   private row(touch: Touch, stance: FootStance): HTMLTableRowElement {
