@@ -33,9 +33,9 @@ const std::vector<std::string> kProduct = {"lss",    "articulated", "tessellatio
 const std::vector<std::string> kBeside = {"bench", "examples", "judge"};
 
 /// What a program begins with that asks something of the kernel.
-const std::set<std::string> kDoors = {"Query",       "NearQuery", "ClearanceQuery", "BracketQuery",
-                                      "EdgeQuery",   "World",     "WorldFollower",  "Triggers",
-                                      "SolidAvatar", "SolidWorld"};
+const std::set<std::string> kDoors = {
+    "Query",     "NearQuery", "ClearanceQuery", "BracketQuery", "PairBracketQuery", "LinkDepths",
+    "EdgeQuery", "World",     "WorldFollower",  "Triggers",     "SolidAvatar",      "SolidWorld"};
 
 /// Lines of code that stand in so many one after the other that stand elsewhere as well are
 /// repeated.
