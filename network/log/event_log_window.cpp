@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <string_view>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -18,6 +19,10 @@ constexpr std::size_t kReadBytes = 256u << 10;
 /// The buffer keeps up to this many bytes already passed, so that a block's events are still there
 /// when its check sum comes.
 constexpr std::uint64_t kKeptBytes = 1u << 20;
+
+std::string_view asText(const std::uint8_t* bytes, std::size_t count) {
+  return {reinterpret_cast<const char*>(bytes), count};
+}
 
 class FileBytes : public LogBytes {
  public:
@@ -122,10 +127,8 @@ std::uint64_t LogWindow::findMagic(std::uint64_t from, std::uint64_t to) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(end - from, kReadBytes));
     const std::uint8_t* const bytes = view(from, count);
     if (bytes == nullptr) return to;
-    const void* const found = ::memmem(bytes, count, kEventMagic, kMagicBytes);
-    if (found != nullptr) {
-      return from + static_cast<std::uint64_t>(static_cast<const std::uint8_t*>(found) - bytes);
-    }
+    const std::size_t found = asText(bytes, count).find(asText(kEventMagic, kMagicBytes));
+    if (found != std::string_view::npos) return from + found;
     from += count - (kMagicBytes - 1);
   }
   return to;
@@ -150,8 +153,8 @@ FrameState LogWindow::frameAt(std::uint64_t offset, Frame& frame, std::uint64_t 
       std::min<std::uint64_t>(frame.header.channelBytes, left - kEventHeaderBytes));
   bytes = view(offset, kEventHeaderBytes + channelBytes, keepFrom);
   if (bytes == nullptr) return FrameState::NoEvent;
-  const char* const channel = reinterpret_cast<const char*>(bytes) + kEventHeaderBytes;
-  if (channelBytes > 0 && !isLogChannel({channel, channelBytes})) return FrameState::Impossible;
+  const std::string_view channel = asText(bytes + kEventHeaderBytes, channelBytes);
+  if (!channel.empty() && !isLogChannel(channel)) return FrameState::Impossible;
   return frame.header.eventBytes() <= left ? FrameState::Whole : FrameState::Torn;
 }
 
@@ -188,7 +191,7 @@ bool LogWindow::eventOf(const Frame& frame, LogEvent& event) {
   const std::uint8_t* const payload = channel + frame.header.channelBytes;
   event.number = frame.header.number;
   event.utimeUs = frame.header.utimeUs;
-  event.channel.assign(reinterpret_cast<const char*>(channel), frame.header.channelBytes);
+  event.channel = asText(channel, frame.header.channelBytes);
   event.payload.assign(payload, payload + frame.header.payloadBytes);
   return true;
 }
