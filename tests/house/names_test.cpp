@@ -36,7 +36,9 @@ const std::set<std::string>& standIns() {
 
 Files sourcesIn(const fs::path& folder) {
   Files files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+  for (auto at = fs::recursive_directory_iterator(folder); at != fs::end(at); ++at) {
+    const fs::directory_entry& entry = *at;
+    if (entry.path().filename() == "node_modules") at.disable_recursion_pending();
     const fs::path extension = entry.path().extension();
     if (extension != ".h" && extension != ".cpp") continue;
     if (standIns().count(entry.path().filename().string()) != 0) continue;
