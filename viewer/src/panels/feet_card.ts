@@ -58,7 +58,7 @@ export class FeetCard {
     const standing = touches.filter(stands), passing = touches.filter((stance) => !stands(stance) && isDeep(stance));
     const worst = (of: readonly FootStance[], one: string, many: string, size: (stance: FootStance) => number): string =>
       `${of.length} ${of.length === 1 ? one : many}, at most ${millimetres(Math.max(...of.map(size)))}`;
-    const slides = standing.filter(isSlide), sinks = standing.filter(isDeep), depth = (stance: FootStance): number => stance.depth;
+    const slides = touches.filter(isSlide), sinks = standing.filter(isDeep), depth = (stance: FootStance): number => stance.depth;
     return [
       plural(touches.length, "touch", "touches"),
       slides.length === 0 ? `none slides ${least}` : worst(slides, "slides", "slide", ({ slide }) => slide),
