@@ -18,6 +18,7 @@ import re
 import subprocess
 import sys
 from collections import Counter
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 from findings import KERNEL, ROOT, judged, record, show, test_environment
@@ -140,6 +141,7 @@ def reach_of(program):
         tests.append((int(milliseconds), name))
         for k in numbers:
             reached.setdefault(k, []).append((int(milliseconds), name))
+    print(f"{program}: {len(reached)} mutants reached", file=sys.stderr, flush=True)
     for k in always:  # constants
         reached[k] = tests
     return {k: sorted(found) for k, found in reached.items()}
@@ -229,6 +231,7 @@ def main():
     arguments.add_argument("--seed", type=int, default=1)
     arguments.add_argument("--folders", default="lss,articulated,tessellation,verify")
     arguments.add_argument("--programs", default="", help="these test programs alone")
+    arguments.add_argument("--jobs", type=int, default=os.cpu_count(), help="tests that run at a time")
     arguments.add_argument("--patience", type=float, default=120, help="seconds of tests per mutant, at most")
     arguments.add_argument("--out", type=Path, default=PLACE / "mutants.jsonl")
     arguments.add_argument("--again", action="store_true", help="tries those of FILE that survived")
@@ -250,13 +253,12 @@ def main():
                        for mutant in chosen}
         programs = sorted({p for some in programs_of.values() for p in some})
         mutants = build(dict(enumerate(chosen)), programs)
-        reach = {}
-        for program in programs:
-            reach[program] = reach_of(program)
-            print(f"{program}: {len(reach[program])} mutants reached", file=sys.stderr, flush=True)
-        with given.out.open("a") as out:
-            for done, (k, mutant) in enumerate(mutants.items(), 1):
-                fate = fate_of(k, {p: reach[p] for p in programs_of[mutant.path]}, given.patience)
+        with ThreadPoolExecutor(given.jobs) as pool, given.out.open("a") as out:
+            reach = dict(zip(programs, pool.map(reach_of, programs)))
+            fates = {pool.submit(fate_of, k, {p: reach[p] for p in programs_of[mutant.path]}, given.patience): mutant
+                     for k, mutant in mutants.items()}
+            for done, found in enumerate(as_completed(fates), 1):
+                mutant, fate = fates[found], found.result()
                 out.write(json.dumps({"seed": given.seed, "path": mutant.path, "line": mutant.line,
                                       "operator": mutant.operator, "key": mutant.key, "fate": fate}) + "\n")
                 out.flush()
