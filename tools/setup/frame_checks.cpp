@@ -17,7 +17,9 @@ constexpr double kSmallest = 0.01;
 PlacementCheck unitCheck(const char* name, const char* option, const Offer<double>& offer,
                          const FileFrame& frame, double size) {
   const bool isTiny = size > 0.0 && size < kSmallest;
-  std::string text = unitInWords(frame.metresPerUnit) + ": " + offer.reason;
+  const std::string unit = unitInWords(frame.metresPerUnit);
+  const bool beginsWithIt = offer.reason.rfind(unit, 0) == 0;
+  std::string text = beginsWithIt ? offer.reason : unit + ": " + offer.reason;
   if (isTiny) {
     text += fmt::format("; that is {} mm at most, and contacts are told within 1 mm",
                         plainFigures(1e3 * size));

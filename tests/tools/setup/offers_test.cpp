@@ -3,6 +3,7 @@
 
 #include "tests/tools/setup/hand_made_level.h"
 #include "tools/setup/body_offer.h"
+#include "tools/setup/frame_checks.h"
 #include "tools/setup/scene_offer.h"
 
 namespace foretouch::tools {
@@ -25,6 +26,15 @@ TEST(Offers, AClipThatWasReadInItsUnitIsNamedByIt) {
   const Offer<double> offer = unitOf(clipOf(1.0), false, 0.01);
   EXPECT_EQ(offer.value, 1.0);
   EXPECT_EQ(offer.reason.rfind("centimetres make it ", 0), 0u) << offer.reason;
+}
+
+TEST(Offers, TheUnitOfAClipIsSaidOnce) {
+  FileFrame frame;
+  frame.metresPerUnit = 0.0564;
+  const std::string alike = clipFrameChecks(clipOf(1.0), frame, false).front().text;
+  EXPECT_EQ(alike.rfind("CMU's unit, 1/0.45 inch make it ", 0), 0u) << alike;
+  const std::string apart = clipFrameChecks(clipOf(0.01), frame, false).front().text;
+  EXPECT_EQ(apart.rfind("CMU's unit, 1/0.45 inch: ", 0), 0u) << apart;
 }
 
 TEST(Offers, AUnitThatNoExporterUsesIsNotSure) {
