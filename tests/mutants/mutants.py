@@ -7,7 +7,7 @@ these, quickest first: what none notices is listed, to be judged.
   mutants.py --again | --table [--out FILE] [--record]
 
 The tree is a copy of HEAD in build/mutants; nothing of the working tree changes. FILE gets a line of
-JSON per mutant; one that it has already is passed over. --again tries those that survived anew, by
+JSON per mutant; one that it has already is passed over, also one that cannot be compiled in. --again tries those that survived anew, by
 the tests as they are now; --record keeps the table in docs/measurements. judged.txt lists survivors
 that a person has looked at, with the reason why no test can notice them."""
 import argparse
@@ -50,6 +50,9 @@ def programs_for(path, asked):
     first = ROOMS.get(parts[1]) if parts[0] == "middleware" and len(parts) > 2 else None
     programs = [first] + [p for p in programs if p != first] if first else programs
     return [p for p in programs if not asked or p in asked]
+
+
+ALIVE = ("survived", "unreached")
 
 
 def run(command, seconds=None, **more):
@@ -110,8 +113,8 @@ def build(mutants, programs):
         wrong = set()
         for line in built.stdout.splitlines():
             for found in ERROR.finditer(line):
-                path = os.path.relpath(found[1], SOURCE) if found[1].startswith("/") else found[1]
-                wrong.add((path, int(found[2])))
+                # The compiler names them from where it runs.
+                wrong.add((os.path.relpath(BUILD / found[1], SOURCE), int(found[2])))
         # A statement over several lines is written on its first one.
         for ahead in (0, 12):  # what a statement breaks is further down, where nothing is wrong itself
             left = {k: mutant for k, mutant in mutants.items()
@@ -196,7 +199,7 @@ def drawn(folders, seed):
 
 def survivors(results):
     """Those of `results` that survived, in the sources as they are now."""
-    keys = {result["key"] for result in results.values() if not result["fate"].startswith("killed")}
+    keys = {result["key"] for result in results.values() if result["fate"] in ALIVE}
     for folder in sorted({result["path"].split("/")[0] for result in results.values()}):
         yield from (mutant for mutant in mutants_in(folder) if mutant.key in keys)
 
@@ -217,7 +220,7 @@ def rows_of(results, equivalent):
     for result in results:
         folder = result["path"].split("/")[0]
         fate = result["fate"].split(" by ")[0]
-        if fate != "killed":
+        if result["fate"] in ALIVE:
             fate = "equivalent" if result["key"] in equivalent else "survived"
         folders[folder, fate] += 1
     for folder in sorted({folder for folder, _ in folders}):
@@ -254,14 +257,20 @@ def main():
         programs = sorted({p for some in programs_of.values() for p in some})
         mutants = build(dict(enumerate(chosen)), programs)
         with ThreadPoolExecutor(given.jobs) as pool, given.out.open("a") as out:
+            def tell(mutant, fate):
+                out.write(json.dumps({"seed": given.seed, "path": mutant.path, "line": mutant.line,
+                                      "operator": mutant.operator, "key": mutant.key, "fate": fate}) + "\n")
+                out.flush()
+
+            for k, mutant in enumerate(chosen):
+                if k not in mutants:
+                    tell(mutant, "left out")
             reach = dict(zip(programs, pool.map(reach_of, programs)))
             fates = {pool.submit(fate_of, k, {p: reach[p] for p in programs_of[mutant.path]}, given.patience): mutant
                      for k, mutant in mutants.items()}
             for done, found in enumerate(as_completed(fates), 1):
                 mutant, fate = fates[found], found.result()
-                out.write(json.dumps({"seed": given.seed, "path": mutant.path, "line": mutant.line,
-                                      "operator": mutant.operator, "key": mutant.key, "fate": fate}) + "\n")
-                out.flush()
+                tell(mutant, fate)
                 print(f"{done}/{len(mutants)} {fate}: {mutant.name}", file=sys.stderr, flush=True)
     results = read_results(given.out)
     equivalent = judged("tests/mutants/judged.txt")
@@ -270,7 +279,7 @@ def main():
     if given.record:
         record("mutants", "Mutants", ("kernel", "What tests notice"), COLUMNS, rows)
     for result in results.values():
-        if not result["fate"].startswith("killed") and result["key"] not in equivalent:
+        if result["fate"] in ALIVE and result["key"] not in equivalent:
             print(f"{result['fate']}: {result['key']} (line {result['line']}, {result['operator']})")
 
 
