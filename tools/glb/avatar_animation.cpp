@@ -114,7 +114,7 @@ RotationKeys rotationKeys(const std::vector<Pose>& poses, JointId joint) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Quaternion& next = poses[i].rotations[index];
     if (i > 0) {
-      // Of the original poses: negated ones would turn a zero into the other arc.
+      // By the original poses: negated ones would turn a zero into the other arc.
       const double dot = dotOf(poses[i - 1].rotations[index], next);
       keys.haveMiddles = keys.haveMiddles || std::abs(dot) < kLeastDot;
       isNegative = isNegative != (dot < 0.0);
