@@ -12,7 +12,7 @@
 
 namespace foretouch::tools {
 
-/// Around all LSS, in the world; empty if the avatar has none. `pose`: a validated one.
+/// The box around all LSS, in the world; empty if the avatar has none. `pose`: a validated one.
 [[nodiscard]] Eigen::AlignedBox3d boxInPose(const Avatar& avatar, const Pose& pose);
 
 /// How a person's head is above the feet, by the joints' names.
