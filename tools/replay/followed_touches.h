@@ -1,5 +1,5 @@
 // tools/replay/followed_touches.h: the touches of a replay that is followed: from enter to leave,
-// both proven, each with what the steps' answers say of it.
+// both proven, each with what the steps' answers say about it.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ class FollowedTouches {
 
     [[nodiscard]] double at() const { return static_cast<double>(step) + contact.toi; }
   };
-  /// Until it is ended, and what the steps say of it is counted.
+  /// A touch that has not ended, or about which not all is counted that the steps say.
   struct Live {
     Touch touch;
     LinkContact first;
