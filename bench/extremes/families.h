@@ -32,7 +32,7 @@ struct Family {
 
 /// In the order of docs/extremes.md.
 [[nodiscard]] const std::vector<Family>& families();
-/// Its `seed % members`-th member, drawn from `seed`.
+/// The family's `seed % members`-th member, drawn from `seed`.
 [[nodiscard]] ExtremeCase makeCase(const Family& family, std::uint64_t seed,
                                    const ExtremeSizes& sizes);
 
