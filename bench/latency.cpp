@@ -92,7 +92,7 @@ BenchTable rawTable() {
   return table;
 }
 
-/// Per step.
+/// What a case adds, per step.
 std::vector<double> whatIsAdded(const CaseTimes& times, const CaseTimes& base) {
   std::vector<double> added;
   for (std::size_t i = 0; i < times.steps.size(); ++i) {
