@@ -29,7 +29,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kEvery = 8;
 constexpr double kHorizonS = 0.2;
 constexpr std::array<double, 3> kLeadsS = {0.05, 0.1, 0.15};
-/// Before and after the hand moves (s).
+/// How long the hand rests before and after it moves (s).
 constexpr double kRestS = 0.1;
 
 constexpr double kTopM = 0.75, kTableThickM = 0.04;
