@@ -122,7 +122,7 @@ PropFigures figuresOf(const std::vector<ClipPoses>& clips, double rateHz, const 
   return figures;
 }
 
-/// From one side through the chest to the other, turning.
+/// Throws the prop from one side through the chest to the other, turning.
 void throwIt(int number, Stretch& stretch) {
   PortableRandom random(static_cast<std::uint64_t>(number));
   const double turn = random.uniform(0.0, 6.28), high = random.uniform(0.8, 1.4);
