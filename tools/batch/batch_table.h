@@ -40,9 +40,9 @@ struct BatchTable {
 [[nodiscard]] BatchTable gatherBatch(const BatchManifest& manifest, const std::string& version,
                                      const ResultFolder& folder);
 
-/// As RFC 4180 has it, with a first line of names.
+/// The table as RFC 4180 has it, with a first line of names.
 [[nodiscard]] std::string csvOf(const BatchTable& table);
-/// A line of JSON per job.
+/// The table as a line of JSON per job.
 [[nodiscard]] std::string jsonLinesOf(const BatchTable& table);
 
 }  // namespace foretouch::tools
