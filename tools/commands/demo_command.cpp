@@ -63,7 +63,7 @@ std::string details(const ReplayJob& job, const ReplaySummary& summary) {
          summary.text(job.threads) + missedOnes(summary);
 }
 
-/// Beside the results, if they go to a file.
+/// The report's path beside the results, if they go to a file.
 std::string defaultReport(const std::string& output) {
   namespace fs = std::filesystem;
   std::error_code absent;
