@@ -236,7 +236,7 @@ void SlideMap::add(const FootStance& slide) {
       inHtml(titleOf(inputs_, slide)), points, at.x(), at.y());
 }
 
-/// Beside its begin, below those that stand there.
+/// Adds the number beside the slide's begin, below those that stand there.
 void SlideMap::addNumber(std::size_t rank) {
   const FootStance& slide = *slides_[rank];
   constexpr double kWide = 24.0, kHigh = 16.0;

@@ -27,7 +27,7 @@ struct FootTouch {
   [[nodiscard]] double badness() const { return slide > depth ? slide : depth; }
 };
 
-/// By limb, then by time. `answer` outlives them.
+/// The touches by limb, then by time. `answer` outlives them.
 [[nodiscard]] std::vector<FootTouch> footTouchesOf(const FeetInputs& inputs,
                                                    const FeetAnswer& answer);
 
