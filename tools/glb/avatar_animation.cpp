@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::json;
 
-/// As the motion's definition computes it: in the order w, x, y, z.
+/// The dot product as the motion's definition computes it: in the order w, x, y, z.
 double dotOf(const Quaternion& p, const Quaternion& q) {
   return p.w() * q.w() + p.x() * q.x() + p.y() * q.y() + p.z() * q.z();
 }

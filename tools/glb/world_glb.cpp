@@ -74,7 +74,7 @@ class BodyNodes {
     return Done{};
   }
 
-  /// On the animation's clock, which begins where the world does.
+  /// Seconds on the animation's clock, which begins where the world does.
   [[nodiscard]] double seconds(std::int64_t utimeUs) const {
     return static_cast<double>(utimeUs - world_.beginUs) / kUsPerS;
   }
