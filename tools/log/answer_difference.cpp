@@ -57,7 +57,7 @@ std::string wordsOf(std::string_view name) {
   return words;
 }
 
-/// Not in JSON's words: a depth may be NaN, which stands for unknown.
+/// The text of a number; not in JSON's words: a depth may be NaN, which stands for unknown.
 std::string textOf(double value) {
   return std::isnan(value) ? "unknown" : fmt::format("{}", value);
 }
