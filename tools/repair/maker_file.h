@@ -21,7 +21,7 @@ class MakerFile {
   [[nodiscard]] static Result<std::unique_ptr<MakerFile>> open(const ClipRequest& request,
                                                                const Clip& clip);
 
-  /// By joint, the root's first.
+  /// The knobs by joint, the root's first.
   [[nodiscard]] const std::vector<Knob>& knobs() const { return knobs_; }
   /// The file with the changes: a column per frame of the clip. Errors: those of its format.
   [[nodiscard]] virtual Result<std::string> with(const Changes& changes) const = 0;
