@@ -21,7 +21,7 @@ class FollowedTouches {
   /// Steps in order. Appends the contacts that begin touches, and the touches that ended.
   [[nodiscard]] Result<Done> add(const StepAnswer& answer, std::vector<ReportedContact>& begun,
                                  std::vector<Touch>& ended);
-  /// After the last step: nothing is known of what follows it.
+  /// Call after the last step: nothing is known of what follows it.
   [[nodiscard]] Result<Done> finish(std::vector<ReportedContact>& begun, std::vector<Touch>& ended);
 
  private:

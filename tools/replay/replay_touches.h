@@ -31,8 +31,8 @@ class ReplayTouches {
   [[nodiscard]] const std::vector<ReportedContact>& begun() const { return begun_; }
   /// True if begin and end of each touch are proven, and no object hides another.
   [[nodiscard]] bool areFollowed() const { return followed_.has_value(); }
-  /// After finish(), in the order of isListedBefore(); without those of the ground if they are
-  /// ignored.
+  /// The touches after finish(), in the order of isListedBefore(); without those of the ground if
+  /// they are ignored.
   [[nodiscard]] const std::vector<Touch>& listed() const { return listed_; }
   [[nodiscard]] const TouchCounts& counts() const { return counts_; }
   /// The last lines of the results: one per touch, and the counts.
