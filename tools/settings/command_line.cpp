@@ -33,7 +33,7 @@ struct Subcommand {
   bool isQuiet = false;
 };
 
-/// With the former ones behind it, which help leaves out.
+/// The option's names, with the former ones behind it, which help leaves out.
 std::string namesOf(const Setting& setting) {
   std::string names = setting.option;
   for (const std::string& former : setting.formerNames) names += "," + former;

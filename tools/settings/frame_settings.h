@@ -20,7 +20,7 @@ inline constexpr NumberRange kMetresPerUnit{0.0, std::numeric_limits<double>::ma
 /// In help, the word for a value that is not given.
 inline constexpr char kAsFileSays[] = "as the file says";
 
-/// As options and configurations spell it.
+/// The word for an axis as options and configurations spell it.
 [[nodiscard]] inline const char* wordOf(UpAxis up) {
   return up == UpAxis::Z ? "z" : "y";
 }
