@@ -40,7 +40,7 @@ constexpr double kSmallestBody = 0.15, kLargestBody = 10.0;
 /// tails and what hands hold stay below.
 constexpr double kWidestReach = 2.5;
 
-/// Among how many frames of a clip to look.
+/// The number of frames of a clip among which to look.
 constexpr std::size_t kFramesLookedAt = 32;
 
 const Unit& nearestUnit(double size, double wanted) {

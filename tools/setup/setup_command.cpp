@@ -81,7 +81,7 @@ std::string avatarPathOf(const AskedSetup& asked, const SetupRequest& request) {
   return (fs::path(asked.output).parent_path() / (body + ".avatar.json")).string();
 }
 
-/// As the project's folder sees it. An absolute path stays one.
+/// The path as the project's folder sees it. An absolute path stays one.
 std::string besideProject(const std::string& path, const std::string& project) {
   if (path.empty() || fs::path(path).is_absolute()) return path;
   const fs::path folder = fs::path(project).parent_path();

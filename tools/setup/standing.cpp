@@ -37,7 +37,7 @@ Eigen::AlignedBox3d boxAt(const Walker& walker, std::size_t index, const Placeme
   return boxInPose(walker.body().avatar, walker.poseAt(index, place));
 }
 
-/// As far as any surface of the level can be.
+/// A length as far as any surface of the level can be.
 double farAway(const Walker& walker) {
   const SceneAudit& audit = walker.level().scene().audit();
   return (audit.boxMax - audit.boxMin).norm() + 10.0;
@@ -155,7 +155,7 @@ class Search {
   }
 
  private:
-  /// Free on the main floor, or on what was asked and nowhere else.
+  /// True if it is free on the main floor, or on what was asked and nowhere else.
   [[nodiscard]] bool isWhereWanted(const Standing& standing) const {
     return standing.standsFree() &&
            (walker_.on().empty() ? standing.floor == FloorKind::Main : standing.isOnAsked);

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Among how many poses of a clip to look for room.
+/// The number of poses of a clip among which to look for room.
 constexpr std::size_t kPosesLookedAt = 64;
 /// The share of all poses that may dip lower than the one that stands: a T-pose at the clip's
 /// begin, a toe that the capture puts into the floor.
