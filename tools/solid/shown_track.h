@@ -40,7 +40,7 @@ class ShownTrack {
 
   /// Ticks in order.
   void add(const PlayedTick& tick);
-  /// After the last one: ends the touches that are still open.
+  /// Call after the last one: ends the touches that are still open.
   void finish();
 
   /// Ascending; a tick's way leads to the tick's own time. Two poses without a step between them:
