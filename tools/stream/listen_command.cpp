@@ -93,7 +93,7 @@ class Listener {
           fmt::format("{}: a message that cannot be read ({})", message.channel, toString(reject)));
     }
   }
-  /// Nothing more is heard.
+  /// Call when nothing more is heard.
   void end() {
     if (events_ && job_.json) print(events_->summary());
   }

@@ -32,7 +32,7 @@ class StreamTouches {
   /// Answers as they come: where one is missing, lost poses are between two, or a timeline begins,
   /// what was open ends as open. `onGround`: for each contact of the message; empty: for none.
   void take(const ContactsMessage& message, const std::vector<bool>& onGround, TouchEvents& events);
-  /// Nothing follows.
+  /// Call when nothing follows.
   void breakOff(TouchEvents& events);
 
  private:
