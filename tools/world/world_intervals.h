@@ -51,7 +51,7 @@ class WorldIntervals {
   /// Call after the last one, which ended there.
   void finish(std::int64_t untilUs);
 
-  /// After finish(): by begin, then by pair.
+  /// The contacts after finish(), by begin, then by pair.
   [[nodiscard]] const std::vector<ContactInterval>& contacts() const { return contacts_; }
   [[nodiscard]] const std::vector<TriggerStay>& stays() const { return stays_; }
   [[nodiscard]] const EventCounts& counts() const { return counts_; }

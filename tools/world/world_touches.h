@@ -66,7 +66,7 @@ class WorldTouches {
   /// Call after the last one.
   void finish();
 
-  /// After finish(), by begin.
+  /// The touches after finish(), by begin.
   [[nodiscard]] const std::vector<WorldTouch>& listed() const { return listed_; }
   [[nodiscard]] const WorldTouchCounts& counts() const { return counts_; }
   [[nodiscard]] TouchSides sidesOf(const TouchPair& touch) const;
