@@ -10,9 +10,9 @@
 
 namespace foretouch::tools {
 
-/// As "rotations" and "translations" of an open object, bit for bit.
+/// Writes it as "rotations" and "translations" of an open object, bit for bit.
 void writePose(const Pose& pose, JsonWriter& out);
-/// As "counters" of an open object.
+/// Writes them as "counters" of an open object.
 void writeCounters(const SolidCounters& counters, JsonWriter& out);
 /// Both names are JSON already: the link's, and that of the object or own link that it touches.
 void writeSolidContact(const SolidContact& contact, std::string_view link, std::string_view touched,

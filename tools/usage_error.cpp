@@ -24,7 +24,7 @@ std::vector<std::string> commandNames(const CLI::App& app) {
   return names;
 }
 
-/// As help lists them.
+/// The names of options as help lists them.
 std::vector<std::string> optionNames(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* const option : app.get_options()) {
