@@ -58,10 +58,10 @@ struct LogReplayReport {
   std::int64_t unreadableAnswers = 0;  ///< In the log: nothing can be equal to them.
   std::int64_t shown = 0;              ///< Poses shown by avatars that are solid by themselves.
   JournalCheck journal;
-  JournalCheck solids{AnswerKind::Solid};  ///< The shown poses, if solid avatars are asked for.
-  std::int64_t solidsNotAsked = 0;         ///< Shown poses in the log, if they are not.
-  std::int64_t said = 0;                   ///< Messages about persons.
-  std::vector<PersonMessage> ended;        ///< Of these, last steps whose next pose did not come.
+  JournalCheck solids{AnswerKind::Solid};    ///< The shown poses, if solid avatars are asked for.
+  std::int64_t solidsNotAsked = 0;           ///< Shown poses in the log, if they are not.
+  std::int64_t said = 0;                     ///< Messages about persons.
+  std::vector<PersonMessage> ended;          ///< Of these, last steps whose next pose did not come.
   JournalCheck persons{AnswerKind::Person};  ///< These messages, if they are asked for.
   std::int64_t personsNotAsked = 0;          ///< Such messages in the log, if they are not.
   std::int64_t eventsNotAsked = 0;           ///< A moving world's, in the log; without one.
