@@ -24,8 +24,8 @@ struct LoadedBody {
   BodyStretches stretches;        ///< At least one.
   std::optional<PairRules> self;  ///< Where own links are asked.
   BodyGroup group = 0;
-  std::size_t numPoses = 0;                      ///< In its files; 0: it stands.
-  std::int64_t firstPoseUs = 0, lastPoseUs = 0;  ///< Those of these poses.
+  std::size_t numPoses = 0;                                    ///< In its files; 0: it stands.
+  std::int64_t firstPoseUs = 0, lastPoseUs = 0;                ///< Those of these poses.
   std::map<std::int64_t, std::vector<LinkId>> lostLinks = {};  ///< As BodyKnots has them.
   std::vector<BodyKnot> leftOut = {};                          ///< The same.
 

@@ -52,7 +52,7 @@ struct WorldTouch : Touch {
 /// Counts of a whole replay.
 struct WorldTouchCounts {
   std::int64_t scene = 0, bodies = 0, own = 0;  ///< With the scene, two bodies, own links.
-  std::int64_t missed = 0;  ///< Of these: not seen where windows begin and end.
+  std::int64_t missed = 0;                      ///< Of these: not seen where windows begin and end.
 };
 
 class WorldTouches {
