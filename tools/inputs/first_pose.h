@@ -41,7 +41,7 @@ struct FrameOptions {
   const char* up;
 };
 
-/// Says so if an option repeats what the file says of itself, or stands in place of it.
+/// Says so if an option repeats what the file says about itself, or stands in place of it.
 [[nodiscard]] std::optional<std::string> remarkOnFrame(const FileFrame& frame,
                                                        const FrameOptions& options,
                                                        const std::string& path);
