@@ -48,7 +48,7 @@ class Garbage {
 /// Short noise.
 [[nodiscard]] std::vector<Bytes> noiseDatagrams(std::uint64_t seed);
 
-/// Sends datagrams, again and again in order, from a thread of its own.
+/// Sends datagrams, again and again in order, from its own thread.
 class Flood {
  public:
   /// `perSecond`: the number of datagrams; fewer if the system takes no more.
