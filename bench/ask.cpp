@@ -28,12 +28,12 @@ constexpr const char* kAskParts[] = {"clearances", "crowd", "players", "scene", 
 
 struct AskBenchRequest {
   std::string dataFolder;          ///< With mocap/; without clips in it, the bundled dancer.
-  std::vector<std::string> clips;  ///< By name or path; empty: six.
-  std::vector<std::string> parts;  ///< Of kAskParts; empty: all.
+  std::vector<std::string> clips;  ///< Names or paths; empty: six.
+  std::vector<std::string> parts;  ///< Some of kAskParts; empty: all.
   std::vector<int> avatars{1, 10, 100, 1000};
-  int questions = 5000;     ///< Of each kind.
+  int questions = 5000;     ///< For each kind.
   int shots = 2000;         ///< Per row.
-  int triangles = 300'000;  ///< Of the scene of rays.
+  int triangles = 300'000;  ///< In the scene of rays.
   std::uint64_t seed = 1;
   FigureFiles figures;
 };

@@ -44,7 +44,7 @@ Draft draftOf(const Avatar& base) {
   return draft;
 }
 
-/// Of the joints without children the one whose LSS hold least; the last of equals.
+/// Among the joints without children the one whose LSS hold least; the last of equals.
 JointId leastLeaf(const Draft& draft) {
   std::vector<bool> hasChild(draft.lss.size(), false);
   for (const RawJoint& joint : draft.skeleton.joints) {

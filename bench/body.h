@@ -22,7 +22,7 @@ struct AddedSwing {
 struct BenchBody {
   Avatar avatar;
   std::vector<JointId> baseJoint;  ///< Per joint the one of the base avatar; kNoParent if added.
-  std::vector<AddedSwing> swing;   ///< Per joint; of added ones.
+  std::vector<AddedSwing> swing;   ///< Per joint; for added ones.
 };
 
 /// The avatar with `links` links (1 to kMaxBenchLinks). Fewer: drops the leaf with the least

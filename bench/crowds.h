@@ -1,4 +1,4 @@
-// bench/crowds.h: who sends poses to a service that is measured, and where they stand.
+// bench/crowds.h: the senders of poses to a service that is measured, and where they stand.
 #pragma once
 
 #include <vector>
@@ -12,10 +12,10 @@ namespace foretouch::tools {
 Setting& addCrowds(Settings& settings, const char* option, const char* value,
                    std::vector<StreamCrowd>& crowds, const char* help);
 
-/// --workers of a service.
+/// The option --workers of a service.
 void addWorkers(Settings& settings, int& workers);
 
-/// --place of the bundled dancer.
+/// The option --place of the bundled dancer.
 void addDancerPlace(Settings& settings, Placement& place);
 
 }  // namespace foretouch::tools

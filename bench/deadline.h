@@ -18,16 +18,16 @@ struct DeadlineRequest {
   std::size_t triangles = 0;  ///< 0: the scene's own.
   std::vector<double> deadlinesUs;
   std::vector<int> workBudgets;
-  std::int64_t asks = 100'000;  ///< Of each of them, at least; whole passes over the steps.
+  std::int64_t asks = 100'000;  ///< For each of them, at least; whole passes over the steps.
 };
 
 /// Compares every answer with the same step's touch: the scalar form at kTouchTolerance. A
 /// violation claims to be free beyond the touch. One thread.
 [[nodiscard]] Result<JudgedReport> measureDeadlines(const DeadlineRequest& request);
 
-/// Metres: counts as touching in judging an answer.
+/// What counts as touching when an answer is judged (m).
 inline constexpr double kTouchTolerance = 1e-7;
-/// Of the step: a touch this much later than at kTouchTolerance counts as the same.
+/// A share of the step: a touch this much later than at kTouchTolerance counts as the same.
 inline constexpr double kTouchTime = 1e-6;
 
 /// The false claims of `answer` against `touch`: the number of links claimed free beyond their

@@ -17,7 +17,7 @@ class EventReaders {
   EventReaders& operator=(EventReaders&&) = delete;
   ~EventReaders();
 
-  /// Stops reading. How many connections the service ended.
+  /// Stops reading. Returns how many connections the service ended.
   [[nodiscard]] std::int64_t stop();
 
  private:

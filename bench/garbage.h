@@ -13,7 +13,7 @@
 
 namespace foretouch::tools {
 
-/// Sends datagrams to a group, from a port of its own.
+/// Sends datagrams to a group, from its own port.
 class GroupSocket {
  public:
   explicit GroupSocket(const UdpmUrl& url);
@@ -22,7 +22,7 @@ class GroupSocket {
   ~GroupSocket();
   /// False if the system did not take it.
   bool send(const Bytes& datagram) const;
-  /// Of `count` datagrams from `first` on, in one call; how many the system took.
+  /// Sends `count` datagrams from `first` on, in one call; returns how many the system took.
   std::size_t send(std::vector<Bytes>& datagrams, std::size_t first, std::size_t count);
 
  private:
@@ -48,16 +48,16 @@ class Garbage {
 /// Short noise.
 [[nodiscard]] std::vector<Bytes> noiseDatagrams(std::uint64_t seed);
 
-/// Sends datagrams, again and again in order, from a thread of its own.
+/// Sends datagrams, again and again in order, from its own thread.
 class Flood {
  public:
-  /// `perSecond`: how many; fewer if the system takes no more.
+  /// `perSecond`: the number of datagrams; fewer if the system takes no more.
   Flood(const UdpmUrl& url, std::vector<Bytes> datagrams, double perSecond, double seconds);
   Flood(const Flood&) = delete;
   Flood& operator=(const Flood&) = delete;
   ~Flood();  ///< Stops it.
 
-  /// Waits for its end: how many went out.
+  /// Waits for its end; returns how many went out.
   [[nodiscard]] std::int64_t wait();
 
  private:

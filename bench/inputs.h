@@ -29,10 +29,10 @@ struct BenchInputs {
   Avatar avatar;
   Clip clip;
   JointMatch match;
-  bool isUpright = false;  ///< As Motion::isUpright.
+  bool isUpright = false;  ///< As in Motion::isUpright.
 };
 
-/// 1 and Y, the defaults of the options, ask for nothing: what a file says of itself counts then.
+/// 1 and Y, the options' defaults, ask for nothing: what a file says about itself then counts.
 [[nodiscard]] SceneImportOptions importOf(double scale, UpAxis up);
 
 /// Errors name the file.

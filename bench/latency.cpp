@@ -92,7 +92,7 @@ BenchTable rawTable() {
   return table;
 }
 
-/// Per step.
+/// What a case adds, per step.
 std::vector<double> whatIsAdded(const CaseTimes& times, const CaseTimes& base) {
   std::vector<double> added;
   for (std::size_t i = 0; i < times.steps.size(); ++i) {
@@ -208,8 +208,8 @@ void addRawRows(const RateTimes& at, BenchTable& table) {
   }
 }
 
-/// Every tolerance at the first width, and every width at the first tolerance; there also with own
-/// links, if there are rules for them.
+/// The cases: every tolerance at the first width, and every width at the first tolerance; there
+/// also with own links, if there are rules for them.
 std::vector<BenchCase> casesOf(const LatencyRequest& request, const QueryOptions& query,
                                const std::optional<PairRules>& rules) {
   std::vector<BenchCase> cases;

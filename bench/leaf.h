@@ -14,7 +14,7 @@ struct LeafBench {
   std::vector<TimedSet> sets;
   int repeat = 1;
   double overheadUs = 0.0;  ///< Already subtracted from every time.
-  std::uint64_t seed = 0;   ///< Of generated queries.
+  std::uint64_t seed = 0;   ///< The seed of generated queries.
   std::size_t generated = 0;
 };
 

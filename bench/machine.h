@@ -23,7 +23,7 @@ namespace foretouch::tools {
 /// What the program has allocated and not freed (glibc's count; else 0).
 [[nodiscard]] double heapMiB();
 
-/// What reading a clock takes: between two readings with nothing in between, the least of many.
+/// The time to read a clock: between two readings with nothing in between, the least of many.
 template <typename NowUs>
 [[nodiscard]] double overheadOf(const NowUs& nowUs) {
   constexpr int kReadings = 10'000;
@@ -35,8 +35,8 @@ template <typename NowUs>
   return least;
 }
 
-/// Processor time of this thread since it was made, less what reading that clock takes: a system
-/// call, of which some machines make more than a microsecond. Other work on the machine does not
+/// Processor time of this thread since it was made, less the time to read that clock: a system
+/// call, which takes more than a microsecond on some machines. Other work on the machine does not
 /// count.
 class ThreadStopwatch {
  public:

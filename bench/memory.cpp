@@ -30,7 +30,7 @@ struct MemoryRequest : WorldRequest {
   std::string avatarPath;
 };
 
-/// Of /proc/self/status, in MiB; nothing if there is no such line.
+/// A value in /proc/self/status, in MiB; nothing if there is no such line.
 std::optional<double> statusMiB(const std::string& key) {
   constexpr double kKiBAMiB = 1024.0;
   std::ifstream status("/proc/self/status");
@@ -41,7 +41,7 @@ std::optional<double> statusMiB(const std::string& key) {
   return std::nullopt;
 }
 
-/// This process's and its ended children's, so far (ms).
+/// Processor time of this process and its ended children, so far (ms).
 double processorMs() {
   double sum = 0.0;
   for (const int whose : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
@@ -54,10 +54,10 @@ double processorMs() {
   return sum;
 }
 
-/// A row per stage: how long it took, of how much processor time, that of the import child
-/// included, and this process's memory after it, as the system counts it (without that child).
-/// Peak: since the process began. Now: with freed memory that is kept for later. Heap: of it,
-/// allocated and not freed.
+/// A row per stage: how long it took, how much processor time, including that of the import
+/// child, and this process's memory after it, as the system counts it (without that child).
+/// Peak: since the process began. Now: with freed memory that is kept for later. Heap: the part
+/// of it that is allocated and not freed.
 class Stages {
  public:
   Result<Done> end(const std::string& name) {

@@ -21,7 +21,7 @@ constexpr char kHall[] =
     "o floor\nv -12 0 -12\nv -12 0 12\nv 12 0 12\nv 12 0 -12\nf 1 2 3\nf 1 3 4\n"
     "o walls\nv -12 4 -12\nv -12 4 12\nv 12 4 12\nv 12 4 -12\n"
     "f 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
-/// Of the circles on which balls go (m), and how fast (rad/s). Heights are from the shin to the
+/// The circles on which balls go (m), and how fast (rad/s). Heights are from the shin to the
 /// head.
 constexpr double kCircle = 0.45, kTurn = 2.0, kLowest = 0.4, kHighest = 1.7;
 constexpr double kUsPerS = 1e6;
@@ -83,7 +83,7 @@ bool MovingProps::move(Publisher& publisher, std::int64_t captureUs, std::int64_
   return publisher.publish(kRigidPoseChannel, payload_);
 }
 
-/// Around the people, each at its own height and from its own angle on, spinning.
+/// A ball's place around the people, each at its own height and from its own angle on, spinning.
 RigidPose MovingProps::poseAt(std::size_t ball, double seconds) const {
   const double share = static_cast<double>(ball) / static_cast<double>(pose_.bodies.size());
   const double angle = kTurn * seconds + 17.0 * share;

@@ -1,5 +1,5 @@
-// bench/moving_load.h: rigid bodies beside the avatars of a load: what a service with a world is
-// told of them, the file of that world, and what comes back.
+// bench/moving_load.h: rigid bodies beside the avatars of a load: what a service with a world gets
+// to know about them, the file of that world, and what comes back.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace foretouch::tools {
 
 struct MovingRequest {
   int props = 0;             ///< Balls, each on a circle of its own; 0: there is no world.
-  double rateHz = 60.0;      ///< Of the message that has all of them.
+  double rateHz = 60.0;      ///< The rate of the message that has all of them.
   bool isFurnished = false;  ///< They move in the scene of the files, and not in an empty hall.
 };
 
@@ -28,16 +28,16 @@ struct MovingRequest {
 /// Where the avatar of this index stands, beside the first one (m): people in rows.
 [[nodiscard]] Eigen::Vector3d placeInCrowd(std::size_t index);
 
-/// Tells of the balls, and moves them. For the thread that sends.
+/// Announces the balls, and moves them. For the thread that sends.
 class MovingProps {
  public:
   /// `session`: when they begin to move. `firstBody`: the number of the first ball, above those of
   /// all avatars.
   MovingProps(const MovingRequest& request, std::int64_t session, BodyNumber firstBody);
 
-  /// What each of them is; also every second, so that who comes later knows.
+  /// Sends what each of them is; also every second, so that a late receiver knows.
   void tell(Publisher& publisher, std::int64_t utimeUs);
-  /// All of them at one instant. False if the system did not take it.
+  /// Sends all of them at one instant. False if the system did not take it.
   bool move(Publisher& publisher, std::int64_t captureUs, std::int64_t sendUs);
 
  private:
@@ -49,7 +49,7 @@ class MovingProps {
   Bytes payload_;
 };
 
-/// What the service says of the world, message by message. For the thread that receives.
+/// What the service says about the world, message by message. For the thread that receives.
 struct MovingAnswers {
   void take(ByteView payload);
 
@@ -57,7 +57,7 @@ struct MovingAnswers {
   std::int64_t missed = 0;    ///< Messages that never came here.
   std::int64_t events = 0, marked = 0;
   std::int64_t timelines = 0;
-  /// From the receipt that let the watermark advance to the sending, per window.
+  /// Per window: from the receipt that let the watermark advance to the sending.
   std::vector<float> advanceUs;
 
  private:

@@ -24,7 +24,7 @@ namespace {
 
 constexpr NumberRange kMetres{-kMaxCoordinate, kMaxCoordinate, "metres", "m"};
 
-/// Of a few values, as toString() has them.
+/// The words of a few values, as toString() has them.
 template <typename Value>
 Words<Value> wordsOf(std::initializer_list<Value> values) {
   Words<Value> words;
@@ -58,7 +58,7 @@ void takeTouching(BenchOptions& options) {
   }
 }
 
-/// Instead of a choice of places.
+/// Adds one place, instead of a choice of places.
 void addOnePlace(Settings& settings, std::optional<Placement>& place) {
   settings.parsed(
       "--place", "X,Y,Z[,YAW]",

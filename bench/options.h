@@ -1,4 +1,4 @@
-// bench/options.h: what several commands of `foretouch-bench` are asked alike.
+// bench/options.h: the options that several commands of `foretouch-bench` have in common.
 #pragma once
 
 #include <optional>
@@ -33,7 +33,7 @@ struct BenchOptions {
 inline constexpr int kMaxBenchSteps = 1'000'000, kMaxBenchRepeats = 10'000;
 inline constexpr int kMaxBenchTriangles = 50'000'000, kMaxBenchAvatars = 10'000;
 
-/// All of them; `options` outlives the settings. Then complete() them.
+/// Adds all of them; `options` outlives the settings. Then complete() them.
 void addBenchOptions(Settings& settings, BenchOptions& options);
 /// Takes apart what touches, and keeps to the processor. Errors name the option.
 [[nodiscard]] Result<Done> complete(BenchOptions& options);
@@ -55,10 +55,10 @@ void addTriangles(Settings& settings, const char* option, std::size_t& triangles
 /// wrong, in words; empty: nothing.
 [[nodiscard]] ExitCode finished(const BenchReport& report, const BenchTable& raw,
                                 const FigureFiles& files, const std::string& fault = {});
-/// The same, its first table as CSV, of a judge's findings: how many, then `fault`.
+/// The same, its first table as CSV, with a judge's findings: how many, then `fault`.
 [[nodiscard]] ExitCode finished(const JudgedReport& bench, const std::string& fault,
                                 const FigureFiles& files);
-/// Is it among those that were named? Each is, if none was.
+/// Is it among those that were named? Each is, if none was named.
 [[nodiscard]] bool isAsked(const std::vector<std::string>& named, const std::string& one);
 
 /// --data: the folder of clips and scenes, by default $FORETOUCH_DATA, else ../shared/data.
@@ -78,7 +78,7 @@ void addData(Settings& settings, std::string& folder, const char* help);
 /// What touches: "link", or "limb" where the reference room asks that.
 [[nodiscard]] const char* fidelityWord(Fidelity fidelity, const ReferenceOptions& reference);
 
-/// Scene, avatar, clip, surface and what of `reference` is not the product's, in words.
+/// Scene, avatar, clip, surface and what in `reference` is not the product's, in words.
 [[nodiscard]] std::vector<BenchFact> workloadFacts(const BenchInputs& inputs, const Scene& scene,
                                                    const Avatar& avatar, const QueryOptions& query,
                                                    const ReferenceOptions& reference = {});

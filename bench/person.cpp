@@ -1,5 +1,5 @@
-// bench/person.cpp: `foretouch-bench body`: what brackets say of persons whose poses are held back,
-// by rate and model, judged; and what they cost beside a plain step.
+// bench/person.cpp: `foretouch-bench body`: what brackets say about persons whose poses are held
+// back, by rate and model, judged; and what they cost beside a plain step.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -42,19 +42,19 @@ namespace {
 struct PersonBenchRequest {
   std::string dataFolder;  ///< With mocap/ and scenes/; empty: the bundled room and dancer alone.
   std::vector<std::string> scenes, clips;                    ///< As loadCast() takes them.
-  std::vector<double> ratesHz{60.0, 30.0, 15.0, 10.0, 5.0};  ///< Of given poses.
+  std::vector<double> ratesHz{60.0, 30.0, 15.0, 10.0, 5.0};  ///< Rates of given poses.
   std::vector<MotionModel> models{MotionModel::ConstantRate, MotionModel::Cubic,
                                   MotionModel::CubicLate};
   std::vector<Asked> asked{Asked::Scene, Asked::OwnLinks, Asked::OtherPerson};
   int places = 1;           ///< Per clip and scene.
-  double seconds = 4.0;     ///< At each.
-  int instants = 3;         ///< That the judge looks at per frame.
-  double boundShare = 1.0;  ///< Of the bounds that hold: below 1 to see them found out.
-  std::uint64_t seed = 1;   ///< Of the places.
+  double seconds = 4.0;     ///< Seconds at each.
+  int instants = 3;         ///< Instants that the judge looks at per frame.
+  double boundShare = 1.0;  ///< Share of the bounds that hold: below 1 to see them found out.
+  std::uint64_t seed = 1;   ///< The seed of the places.
   /// Above 0: bounds are learned at this quantile, on all clips of other makers than the judged
-  /// one's; touches that are missed or invented are then counted, and no violation.
+  /// one's; touches that are missed or invented are then counted, and are not violations.
   double learned = 0.0;
-  double aheadS = 0.0;  ///< Above 0: instead, what is said of this long after each pose.
+  double aheadS = 0.0;  ///< Above 0: instead, what is said about so long after each pose.
   int reaches = 0;      ///< Above 0: instead, so many reaches for a table.
   FigureFiles figures;
 };
@@ -77,7 +77,7 @@ SolidActor partOf(const SolidActor& actor, const BusyPlace& place, double second
   return part;
 }
 
-/// The names of clips begin with who made them.
+/// The names of clips begin with their makers.
 std::string makerOf(const SolidActor& actor) {
   return actor.name.substr(0, actor.name.find('_'));
 }
@@ -98,7 +98,7 @@ class Strangers {
     }
     file_ = learner.bounds();
   }
-  /// None if nobody else has this rate.
+  /// Empty if no stranger has this rate.
   [[nodiscard]] std::vector<LinkBound> of(MotionModel model, double rateHz) const {
     auto bounds = boundsOf(file_, skeleton_, model, rateHz);
     return bounds.ok() ? std::move(bounds).value().bounds : std::vector<LinkBound>{};
@@ -168,7 +168,7 @@ class PersonRuns {
     return places;
   }
 
-  /// The next of the cast, who stands beside the others.
+  /// The next one in the cast, who stands beside the others.
   [[nodiscard]] const SolidActor& after(const SolidActor& actor) const {
     const auto at = static_cast<std::size_t>(&actor - cast_.actors.data());
     return cast_.actors[(at + 1) % cast_.actors.size()];

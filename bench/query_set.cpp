@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kRows = 8, kColumns = 7;
-constexpr std::size_t kMaxDigits = 330;  // of any integer that is a double
+constexpr std::size_t kMaxDigits = 330;  // in any integer that is a double
 constexpr double kLargest = 1e100, kSmallest = 1e-100;
 
 /// The integer as a double, if it is one exactly.

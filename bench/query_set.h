@@ -1,7 +1,7 @@
 // bench/query_set.h: labelled leaf queries from CSV files, in the format of the query sets
 // published with [Wang21]: 8 rows per query (4 points at t = 0, then at t = 1), 7 integers per row
 // (x, y and z as numerator and denominator, then 0 or 1: do they meet). Folders named vertex-face
-// and edge-edge tell the kind; the folder around them names the set.
+// and edge-edge give the kind; the folder around them names the set.
 #pragma once
 
 #include <array>

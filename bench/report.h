@@ -17,14 +17,14 @@ namespace foretouch::tools {
 using BenchCell = std::variant<std::int64_t, double, std::string>;
 
 struct BenchColumn {
-  std::string key;    ///< Of the JSON and the CSV: lower_case, with its unit ("p50_us").
+  std::string key;    ///< For the JSON and the CSV: lower_case, with its unit ("p50_us").
   std::string title;  ///< In tables for people.
-  int decimals = 2;   ///< Of measured numbers in tables for people; -1: six digits in all. Files
+  int decimals = 2;   ///< For measured numbers in tables for people; -1: six digits in all. Files
                       ///< keep all digits.
 };
 
 struct BenchTable {
-  std::string name;   ///< Of the JSON: lower_case.
+  std::string name;   ///< For the JSON: lower_case.
   std::string title;  ///< One line for people.
   std::vector<BenchColumn> columns;
   std::vector<std::vector<BenchCell>> rows;  ///< As many cells as columns (asserted).
@@ -43,7 +43,7 @@ struct BenchReport {
   std::vector<std::string> notes;  ///< Notes for readers of the tables; sentences.
 };
 
-/// Of a benchmark that judges: violations are answers that are false, or broken promises.
+/// A table of a benchmark that judges: violations are false answers, or broken promises.
 struct JudgedTable {
   BenchTable table;
   std::uint64_t violations = 0;
@@ -80,7 +80,7 @@ struct FigureFiles {
 /// The report as JSON and the raw rows as CSV. Errors name the file.
 [[nodiscard]] Result<Done> writeReport(const BenchReport& report, const BenchTable& raw,
                                        const FigureFiles& files);
-/// Whole or not at all; an empty path writes nothing. Errors name the file.
+/// Writes it whole or not at all; an empty path writes nothing. Errors name the file.
 [[nodiscard]] Result<Done> writeText(const std::string& path, const std::string& text);
 
 }  // namespace foretouch::tools

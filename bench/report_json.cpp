@@ -45,9 +45,9 @@ Json toJson(const BenchTable& table) {
   return json;
 }
 
-/// Indented, but a column or a row of a table is one line: who compares files compares rows.
+/// Indented, but a column or a row of a table is one line: users who compare files compare rows.
 void append(const Json& json, std::size_t depth, std::string& text) {
-  constexpr std::size_t kRow = 4;  // of the rows of a table of the tables of a report
+  constexpr std::size_t kRow = 4;  // depth of the rows of a table of the tables of a report
   if (!json.is_structured() || json.empty() || depth == kRow) {
     text += json.dump(-1, ' ', false, Json::error_handler_t::replace);
     return;

@@ -21,7 +21,7 @@ Result<Pose> worldPose(const Skeleton& forest, const ChainMotion& motion, double
 }
 
 /// Length of the path, between two times of the true motion, of the link's point that is at `p_W`
-/// at time `from`. By chords: to tell a millimetre from more, sixteen are ample.
+/// at time `from`. By chords: to distinguish a millimetre from more, sixteen are ample.
 double travelled(const ChainMotion& motion, LinkId link, const Vector3d& p_W, double from,
                  double to) {
   constexpr int kChords = 16;

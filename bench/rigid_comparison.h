@@ -33,7 +33,7 @@ inline constexpr double kNoticeable = 1e-3;
 /// Answers steps of one avatar by the rigid model. One per thread.
 class RigidComparison {
  public:
-  /// Builds the avatar as a forest of roots, asked the same way. Errors: as Query::build().
+  /// Builds the avatar as a forest of roots, asked the same way. Errors: those of Query::build().
   static Result<RigidComparison> build(const Avatar& avatar, const Scene& scene,
                                        const QueryOptions& options);
 

@@ -31,7 +31,7 @@ struct ScalingRequest {
   std::vector<int> trianglesAxis, linksAxis;
   std::vector<double> rateAxis, toleranceAxis;
   std::vector<int> avatarsAxis, threadsAxis;  ///< Crossed with each other.
-  int crowdSteps = 4000;                      ///< Of all avatars together, at least.
+  int crowdSteps = 4000;                      ///< For all avatars together, at least.
   int crowdRepeats = 3;                       ///< The quickest counts.
 };
 

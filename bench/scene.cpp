@@ -15,7 +15,7 @@ struct LongestEdge {
   double squaredLength;
   std::size_t triangle;
   int corner;  ///< The edge goes from this corner to the next.
-  /// Of equally long edges, the first triangle's comes first.
+  /// Among equally long edges, the first triangle's comes first.
   bool operator<(const LongestEdge& other) const {
     return squaredLength != other.squaredLength ? squaredLength < other.squaredLength
                                                 : triangle > other.triangle;

@@ -23,7 +23,7 @@ Error failure(const std::string& what) {
   return Error::in("foretouch serve", ErrorCode::DeviceFailed, what);
 }
 
-/// Without what differs from one to the next: a socket's number, a log's name.
+/// The kind, without what differs from one to the next: a socket's number, a log's name.
 std::string kindOf(const fs::path& leadsTo) {
   const std::string text = leadsTo.string();
   const std::size_t number = text.find(":[");

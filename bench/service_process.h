@@ -25,12 +25,12 @@ class ServiceProcess {
   /// What each open file descriptor is, as "socket", "anon_inode:[eventfd]", "/dev/null" and
   /// "*.lcmlog", sorted; none if the process is gone.
   [[nodiscard]] std::vector<std::string> openFiles() const;
-  /// SIGTERM; the exit code, -1 if a signal ended it.
+  /// Sends SIGTERM; returns the exit code, -1 if a signal ended it.
   int stop();
 
  private:
   ServiceProcess(pid_t child, int output) : child_(child), output_(output) {}
-  [[nodiscard]] std::string folder() const;  // of /proc
+  [[nodiscard]] std::string folder() const;  // in /proc
   pid_t child_ = -1;
   int output_ = -1;  // its stdout, kept open so that it never writes into a closed pipe
 };

@@ -31,7 +31,7 @@ constexpr int kFloodEvery = 30, kRestartEvery = 20, kSilence = 3;
 constexpr int kFillEvery = 300, kFullFor = 60;
 constexpr std::size_t kFillerBytes = std::size_t{1} << 20;
 
-/// `foretouch publish`, killed with it.
+/// Runs `foretouch publish`, and kills it at its own end.
 class RestartedSender {
  public:
   explicit RestartedSender(const TroubleRequest& request) : request_(request) {}
@@ -76,7 +76,7 @@ class RestartedSender {
   pid_t child_ = -1;
 };
 
-/// Takes what room there is on a disk, some megabytes at a time.
+/// Takes all room on a disk, some megabytes at a time.
 class Filler {
  public:
   explicit Filler(const std::string& folder) : path_(folder + "/filler") {}

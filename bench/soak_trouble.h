@@ -17,7 +17,7 @@ namespace foretouch::tools {
 struct TroubleRequest {
   BenchFiles files;
   UdpmUrl url;
-  int avatar = 1;         ///< Whose sender is restarted; nobody else sends its poses.
+  int avatar = 1;         ///< The one whose sender is restarted; nothing else sends its poses.
   std::string logFolder;  ///< Where the service logs to. What is on the same disk may find it full.
   bool fillsDisk = false;
 };
@@ -37,7 +37,7 @@ class SoakTrouble {
   SoakTrouble& operator=(SoakTrouble&&) = delete;
   ~SoakTrouble();
 
-  /// To be called once a second; waits for nothing.
+  /// Call once a second; waits for nothing.
   void everySecond();
   /// Ends it all, and empties the disk.
   [[nodiscard]] TroubleCounts stop();

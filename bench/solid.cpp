@@ -40,8 +40,8 @@ struct SolidBenchRequest {
   std::vector<std::string> scenes, clips;  ///< By name; empty: kitchen, office and room; six clips.
   std::vector<double> ratesHz{90.0};
   int places = 2;                  ///< Per clip and scene.
-  double seconds = 4.0;            ///< At each.
-  std::vector<std::string> parts;  ///< Of kSolidParts; empty: all.
+  double seconds = 4.0;            ///< For each place.
+  std::vector<std::string> parts;  ///< Some of kSolidParts; empty: all.
   bool mustExplain = false;        ///< What holds it, and what its slowest ticks are made of.
   TrialRequest trials;             ///< Its options and seed are also those of the scenes.
   FigureFiles figures;
@@ -196,7 +196,7 @@ Result<JudgedReport> measureSolid(const SolidBenchRequest& request) {
 }
 
 ExitCode run(SolidBenchRequest& request) {
-  /// Of the skin, as SolidOptions has them.
+  /// Share of the skin, as SolidOptions has them.
   constexpr double kToleranceShare = 0.25;
   request.trials.options.tolerance = kToleranceShare * request.trials.options.skin;
   FORETOUCH_TRY_OR(failed, const auto bench, measureSolid(request));

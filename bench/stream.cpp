@@ -92,7 +92,7 @@ struct Sample {
   std::int64_t residentBytes, openFiles;
 };
 
-/// Of `all`, what `usual` has not, both sorted.
+/// What is in `all` and not in `usual`, both sorted.
 std::string beyond(const std::vector<std::string>& usual, const std::vector<std::string>& all) {
   std::vector<std::string> more;
   std::set_difference(all.begin(), all.end(), usual.begin(), usual.end(), std::back_inserter(more));
@@ -123,7 +123,7 @@ class Watch {
   const ServiceProcess& service_;
   Clock::time_point start_ = Clock::now();
   std::vector<Sample> samples_;
-  std::vector<std::string> least_, most_;  // of one moment each
+  std::vector<std::string> least_, most_;  // each at one moment
 };
 
 struct OpenFiles {
@@ -132,10 +132,10 @@ struct OpenFiles {
 
 struct SoakMemory {
   double firstMb = 0.0, middleMb = 0.0, lastMb = 0.0, slopeMbPerHour = 0.0;
-  OpenFiles filesFirst, filesLast;  // of each half
+  OpenFiles filesFirst, filesLast;  // for each half
 };
 
-/// Numbered from 1.
+/// The senders, numbered from 1.
 std::vector<LoadSender> sendersOf(const std::vector<StreamCrowd>& crowds) {
   std::vector<LoadSender> senders;
   for (const StreamCrowd& crowd : crowds) {
@@ -146,7 +146,7 @@ std::vector<LoadSender> sendersOf(const std::vector<StreamCrowd>& crowds) {
   return senders;
 }
 
-/// For `foretouch serve` with these senders.
+/// The arguments for `foretouch serve` with these senders.
 std::vector<std::string> serviceArguments(const BenchFiles& files, std::size_t avatars,
                                           int workers) {
   std::vector<std::string> arguments = {"--scene", files.scenePath, "--workers",
@@ -235,7 +235,7 @@ double slopeOf(const std::vector<double>& times, const std::vector<double>& valu
 
 namespace {
 
-/// What is known of the samples after warm-up.
+/// What is known about the samples after warm-up.
 SoakMemory memoryOf(const std::vector<Sample>& samples, double warmUpS, double endS) {
   SoakMemory memory;
   std::vector<double> hours, megabytes;
@@ -263,7 +263,7 @@ std::int64_t countNamed(const StatusMessage& status, const std::string& name) {
   return 0;
 }
 
-/// What came of the moving world. Returns the poses that were sent and are not in it.
+/// Adds what came of the moving world. Returns the poses that were sent and are not in it.
 std::int64_t addWorldRows(const MovingRequest& moving, const LoadOutcome& outcome,
                           BenchTable& table) {
   const auto row = [&](const char* name, double value) {

@@ -22,7 +22,7 @@ struct StreamRequest {
   BenchFiles files;
   Placement place;
   std::vector<StreamCrowd> crowds;
-  double durationS = 10.0;  ///< Of each crowd.
+  double durationS = 10.0;  ///< Duration of each crowd.
   int workers = 1;
 };
 
@@ -34,7 +34,7 @@ struct SoakRequest {
   Placement place;
   std::vector<StreamCrowd> crowds;  ///< All at once.
   double minutes = 2.0;
-  double warmUpShare = 0.25;   ///< Of the time: before watching memory.
+  double warmUpShare = 0.25;   ///< Share of the time before memory is watched.
   double garbageShare = 0.01;  ///< Datagrams of garbage per pose.
   int workers = 1;
   MovingRequest moving;  ///< With balls the service has a world; calm alone.
@@ -46,10 +46,10 @@ struct SoakRequest {
 struct SoakOutcome {
   BenchReport report;
   std::int64_t lost = 0;        ///< Poses that were not answered, or are not in the world.
-  double slopeMbPerHour = 0.0;  ///< Of resident memory after warm-up, by least squares.
+  double slopeMbPerHour = 0.0;  ///< Growth of resident memory after warm-up, by least squares.
   double grownMb = 0.0;         ///< Resident memory, in the last half after warm-up.
   bool filesGrown = false;  ///< Never so few open in the last half after warm-up as in the first.
-  int exitCode = -1;        ///< Of the service.
+  int exitCode = -1;        ///< The service's.
 };
 
 /// One service under one load. Precondition as above.

@@ -52,7 +52,7 @@ ExitCode run(AskedSoak& asked) {
       isSound ? "" : "the service lost poses, grew, or did not end well: see the table");
 }
 
-/// Of both.
+/// Adds the settings of both.
 template <typename Asked>
 void addShared(Settings& settings, Asked& asked) {
   addCrowds(settings, "--crowds", "NxHZ,...", asked.request.crowds,

@@ -82,7 +82,7 @@ class Senders {
 
   [[nodiscard]] std::int64_t session() const { return startUtimeUs_; }
 
-  /// Who is there: skeletons, and bodies of a moving world.
+  /// Announces all senders: skeletons, and bodies of a moving world.
   void sendSkeletons() {
     if (props_) props_->tell(publisher_, utimeUs());
     Bytes payload;
@@ -148,7 +148,7 @@ class Senders {
     }
     return first;
   }
-  /// Forth and back over the track.
+  /// The pose, forth and back over the track.
   [[nodiscard]] const PoseMessage& poseAt(std::int64_t sequence) const {
     const auto last = static_cast<std::int64_t>(track_.poses.size()) - 1;
     const std::int64_t place = sequence % (2 * last);
@@ -191,7 +191,7 @@ class Senders {
   SendTimes& times_;
   LoadOutcome& outcome_;
   std::int64_t startNs_ = 0, startUtimeUs_ = 0;
-  std::vector<Due> schedule_;  // of the senders; then of the balls, if there are any
+  std::vector<Due> schedule_;  // those of the senders; then of the balls, if there are any
   std::optional<MovingProps> props_;
   PoseMessage pose_;
   Bytes payload_;

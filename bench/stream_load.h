@@ -30,14 +30,14 @@ struct LoadRequest {
   std::vector<LoadSender> senders;
   double durationS = 10.0;
   double garbageShare = 0.0;  ///< Invalid datagrams, or wrong messages, per pose.
-  std::uint64_t seed = 1;     ///< Of the garbage.
+  std::uint64_t seed = 1;     ///< The seed of the garbage.
   MovingRequest moving;       ///< With balls the avatars stand apart (placeInCrowd()).
 };
 
 struct LoadAnswer {
   float roundTripUs = 0.0F;  ///< From before the system gets the pose to the receipt of its answer.
   float serviceUs = 0.0F;    ///< By the service: from receiving the pose to sending the answer.
-  float queryUs = 0.0F;      ///< Of that, the query alone.
+  float queryUs = 0.0F;      ///< The part of that which the query takes.
   std::int32_t sender = 0;   ///< Index in LoadRequest::senders.
 };
 
@@ -51,7 +51,7 @@ struct LoadOutcome {
   std::int64_t ownDrops = 0;      ///< Datagrams that the system dropped before this side read them.
   StatusMessage status;           ///< The service's last one.
   std::vector<LoadAnswer> answers;
-  std::int64_t propMessages = 0;  ///< Of all balls.
+  std::int64_t propMessages = 0;  ///< For all balls.
   MovingAnswers world;
 };
 

@@ -16,7 +16,7 @@
 
 namespace foretouch::tools {
 
-/// Of a set of times or of ratios. Percentiles are the value at the rank, never in between.
+/// Percentiles of a set of times or ratios: the value at the rank, never in between.
 struct Percentiles {
   double mean = 0.0, p50 = 0.0, p90 = 0.0, p99 = 0.0, max = 0.0;
 };
@@ -34,10 +34,10 @@ struct BenchCase {
 };
 
 struct TimingOptions {
-  int repeats = 9;      ///< Of each step, in a row.
-  int coldPasses = 3;   ///< Over all steps; a step's least time counts. Also of steps asked once.
-  int betweenKb = 512;  ///< Streamed through the caches before each step that is asked once: what
-                        ///< else a program does between two poses.
+  int repeats = 9;      ///< Repeats of each step, in a row.
+  int coldPasses = 3;   ///< Over all steps; a step's least time counts. Also for steps asked once.
+  int betweenKb = 512;  ///< Streamed through the caches before each step that is asked once: like
+                        ///< other work of a program between two poses.
   int coldMb = 16;      ///< Streamed through the caches before each cold step.
 };
 
@@ -59,14 +59,14 @@ struct CaseTimes {
 struct Timing {
   std::vector<CaseTimes> cases;
   std::vector<double> raySetUs;  ///< Per step the least of all repeats.
-  double overheadUs = 0.0;       ///< Of the clock; subtracted from every time.
+  double overheadUs = 0.0;       ///< The clock's; subtracted from every time.
 };
 
 /// One thread's memory from step to step.
 struct StepMemory {
   ChainMotion motion;
   Scratch scratch;
-  StepContacts contacts;  ///< Of the last step.
+  StepContacts contacts;  ///< The last step's.
 };
 
 /// Answers one step. A separate function, so that a profiler can count its cost alone.
@@ -74,7 +74,7 @@ void answerStep(const Query& query, const StepPoses& poses, StepMemory& memory);
 
 /// Alternates all cases and the ray set at each step, so that drift of the machine affects all
 /// alike; then asks them singly, place by place in the order of the clip (`clipOrder`). One thread.
-/// Errors: as buildReference().
+/// Errors: those of buildReference().
 [[nodiscard]] Result<Timing> timeSteps(const Avatar& avatar, const std::vector<StepPoses>& steps,
                                        const std::vector<std::size_t>& clipOrder,
                                        const Scene& scene, const std::vector<BenchCase>& cases,

@@ -19,8 +19,8 @@ struct TradeRequest {
   std::vector<double> ratesHz;     ///< Skips those that a clip does not have.
   double baseTolerance = 1e-3;     ///< While varying the rate; one of the tolerances.
   double baseRateHz = 5.0;         ///< While varying the tolerance; one of the rates.
-  double seconds = 4.0;            ///< Of the clip, at each place.
-  int places = 3;                  ///< In each scene.
+  double seconds = 4.0;            ///< Length of the clip's part at each place.
+  int places = 3;                  ///< Places in each scene.
   int passes = 3;
   int judged = 40;  ///< Links per world.
   std::size_t surfaceTriangles = 20'000;

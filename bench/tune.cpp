@@ -102,7 +102,7 @@ class Tuner {
         settings.push_back(std::move(setting));
       }
     }
-    constexpr double kMargin = 1e-3;  // of an engine's contacts (m)
+    constexpr double kMargin = 1e-3;  // the margin of an engine's contacts (m)
     contenders.push_back({sampling(world_, 1, kMargin), kMargin, false});
     return contenders;
   }

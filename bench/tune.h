@@ -16,10 +16,10 @@ namespace foretouch::tools {
 
 struct TuneRequest {
   BenchFiles files;
-  Placement placement;           ///< Of the clip in the scene.
+  Placement placement;           ///< The clip's in the scene.
   double budgetUs = 20.0;        ///< Time of a step, at the 99th percentile.
   std::optional<double> rateHz;  ///< None: kTuneRatesHz, as far as the clip has them.
-  std::size_t steps = 400;       ///< At each rate at most, from the clip's beginning.
+  std::size_t steps = 400;       ///< For each rate at most, from the clip's beginning.
   int passes = 3;
   FigureFiles figures;  ///< Without lines for a CSV.
 };
@@ -42,7 +42,7 @@ struct Recommendation {
 };
 
 /// Chooses among the settings of one rate. Never recommends one that missed something or was late.
-/// Of the others within the budget at the 99th percentile (if none is: within a quarter of the
+/// Among the others within the budget at the 99th percentile (if none is: within a quarter of the
 /// quickest), takes the one with the fewest false contacts, then the finest fidelity, then the
 /// finest tolerance. None: it tried nothing, or all missed something.
 [[nodiscard]] std::optional<Recommendation> recommended(const std::vector<TunedSetting>& settings,

@@ -30,7 +30,7 @@ Avatar grownBy(const Avatar& avatar, double margin) {
   return Avatar::build(avatar.skeleton(), std::move(lss)).value();  // as legal as before
 }
 
-/// With legal options, which nothing can be said against.
+/// A query with legal options, which cannot be refused.
 Query queryOf(const Avatar& avatar, const Scene& scene) {
   QueryOptions options;
   options.tolerance = kWorkloadTolerance;

@@ -36,11 +36,11 @@ constexpr const char* kWorldParts[] = {"crowd", "self",  "clocks",  "platform", 
 
 struct WorldBenchRequest {
   std::string dataFolder;          ///< With mocap/; without clips in it, the bundled dancer.
-  std::vector<std::string> clips;  ///< By name or path; empty: six.
-  std::vector<std::string> parts;  ///< Of kWorldParts; empty: all.
+  std::vector<std::string> clips;  ///< Names or paths; empty: six.
+  std::vector<std::string> parts;  ///< Some of kWorldParts; empty: all.
   std::vector<int> avatars{2, 10, 30, 100, 300, 1000, 3000};
-  int pairs = 2000;          ///< Of two capsules.
-  int tickingWindows = 100;  ///< Of two people.
+  int pairs = 2000;          ///< Pairs of two capsules.
+  int tickingWindows = 100;  ///< Windows with two people.
   std::uint64_t seed = 1;
   FigureFiles figures;
 };

@@ -30,7 +30,7 @@ Angles zxyDegrees(const Quaternion& rotation, const Angles& previous) {
   return angles;
 }
 
-/// Rounded before it is printed: no "-0.0000".
+/// The value, rounded before it is printed: no "-0.0000".
 double rounded(double value, double perUnit) {
   return std::round(value * perUnit) / perUnit + 0.0;
 }

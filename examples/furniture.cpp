@@ -30,7 +30,7 @@ void addDiningTable(MeshBuilder& mesh, const Isometry3d& frame) {
   addTableLamp(mesh, frame * standingAt(-0.72, 0.75, 0.0));
 }
 
-/// Faces +Z; the slatted back is at -Z.
+/// A chair that faces +Z; its slatted back is at -Z.
 void addChair(MeshBuilder& mesh, const std::string& name, const Isometry3d& frame) {
   mesh.begin(name, frame);
   mesh.cushion({0, 0.455, 0}, {0.215, 0.018, 0.21}, 6.0, 16, 40);
@@ -113,7 +113,7 @@ void addBooks(MeshBuilder& mesh, const Isometry3d& frame, int shelf, double floo
   }
 }
 
-/// Open to both sides, along x, its front towards +Z.
+/// A shelf that is open to both sides, along x, its front towards +Z.
 void addShelf(MeshBuilder& mesh, const Isometry3d& frame) {
   mesh.begin("shelf", frame);
   for (const double x : {-0.84, 0.0, 0.82}) {

@@ -40,7 +40,7 @@ Vector3d wristAt(double timeS) {
   return {tracks[0].at(timeS), tracks[1].at(timeS), tracks[2].at(timeS)};
 }
 
-/// Of two bones from the shoulder to the wrist.
+/// The elbow between two bones from the shoulder to the wrist.
 Vector3d elbowFor(const Vector3d& wrist) {
   const Vector3d way = wrist - kShoulder;
   const double reach = std::min(way.norm(), 0.999 * (kUpper + kLower));

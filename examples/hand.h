@@ -11,7 +11,7 @@
 
 namespace foretouch::examples {
 
-/// One arm from its shoulder on, a LSS per link. At rest it is stretched along +X, palm down.
+/// One arm from its shoulder on, an LSS per link. At rest it is stretched along +X, palm down.
 [[nodiscard]] Result<Avatar> handAvatar();
 
 inline constexpr double kHandDurationS = 4.6;

@@ -36,14 +36,14 @@ class MeshBuilder {
   void surface(int rows, int columns, bool closedV,
                const std::function<Eigen::Vector3d(double u, double v)>& point);
 
-  /// Axis-aligned in the object's frame: 12 triangles.
+  /// A box that is axis-aligned in the object's frame: 12 triangles.
   void box(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
   /// A box with rounded edges: |x/a|^n + |y/b|^n + |z/c|^n = 1. Exponent 2 is an ellipsoid.
   void cushion(const Eigen::Vector3d& center, const Eigen::Vector3d& half, double exponent,
                int rows, int columns);
 
-  /// Turned about the vertical through `base`; heights are above `base`.
+  /// A surface that turns the profile about the vertical through `base`; heights are above `base`.
   void revolve(const Eigen::Vector3d& base, const Profile& profile, int sides);
 
   /// A closed tube along a line of at least two different points.

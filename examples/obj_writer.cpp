@@ -9,7 +9,7 @@
 namespace foretouch::examples {
 namespace {
 
-/// Rounded before it is printed, so that no "-0.00000" depends on how a zero came about.
+/// The value, rounded before it is printed, so that no "-0.00000" depends on how a zero arose.
 double printable(double metres) {
   return std::round(metres * 1e5) / 1e5 + 0.0;
 }

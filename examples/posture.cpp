@@ -51,7 +51,7 @@ class PoseInProgress {
   void world(JointId joint, const Quaterniond& R_W) {
     local(joint, rotation(skeleton_.parent(joint)).conjugate() * R_W);
   }
-  /// Known as soon as the parent is.
+  /// The joint's place; known as soon as the parent is.
   [[nodiscard]] Vector3d place(JointId joint) const {
     const auto parent = at(skeleton_.parent(joint));
     return p_W_[parent] + R_W_[parent] * skeleton_.restOffset(joint);

@@ -21,9 +21,9 @@ struct Posture {
     double grip = 0.0;  ///< 0: flat, 1: a fist.
   };
   Eigen::Vector3d hips = Eigen::Vector3d::Zero();
-  double yaw = 0.0, pitch = 0.0, roll = 0.0;   ///< Of the hips; pitch > 0: bent forward.
-  double twist = 0.0, bend = 0.0, lean = 0.0;  ///< Of the chest against the hips: yaw, pitch, roll.
-  double gaze = 0.0, nod = 0.0;                ///< Of the head against the chest: yaw, pitch.
+  double yaw = 0.0, pitch = 0.0, roll = 0.0;   ///< The hips'; pitch > 0: bent forward.
+  double twist = 0.0, bend = 0.0, lean = 0.0;  ///< The chest's against the hips: yaw, pitch, roll.
+  double gaze = 0.0, nod = 0.0;                ///< The head's against the chest: yaw, pitch.
   Foot leftFoot, rightFoot;
   Hand leftHand, rightHand;
 };

@@ -19,7 +19,7 @@ struct Opening {
   double left, right, bottom, top;
 };
 
-/// Along the frame's x from 0 to `length`, 12 cm thick towards -z, with one opening.
+/// A wall along the frame's x from 0 to `length`, 12 cm thick towards -z, with one opening.
 void wallWithOpening(MeshBuilder& mesh, double length, const Opening& hole) {
   constexpr double kThick = 0.12;
   mesh.box({0, 0, -kThick}, {hole.left, kWallHeight, 0});

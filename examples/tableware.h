@@ -5,7 +5,7 @@
 
 namespace foretouch::examples {
 
-/// On a laid table for four whose top is the plane y = 0 of `top`, 1.7 m along x, 0.9 m along z.
+/// Tableware for four; the table's top is the plane y = 0 of `top`, 1.7 m along x, 0.9 m along z.
 void addTableware(MeshBuilder& mesh, const Eigen::Isometry3d& top);
 
 /// A vase on y = 0 of `frame`.

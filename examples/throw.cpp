@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double kGravity = 9.81;  // m/s2
 constexpr int kPosesPerS = 120;
-/// What is left of the speed across, and along, whatever it bounces off.
+/// The share of the speed across, and along, that is left after a bounce off anything.
 constexpr double kBounce = 0.62, kSlide = 0.85;
 /// Where the middle of the ball stays: the room within its walls, above the floor.
 const Vector3d kLowest(-3.3, kBallRadius, -2.8), kHighest(3.3, 10.0, 2.8);
@@ -33,7 +33,7 @@ Vector3d ballInHand(const Avatar& dancer, double timeS) {
   return still.stateAt(kRightHand, 0.0).pointAt({kBallInHand[0], kBallInHand[1], kBallInHand[2]});
 }
 
-/// Bounces off what it would be beyond; what bounces hardly any more rests on the floor.
+/// Bounces off what it would be beyond; what hardly bounces any more rests on the floor.
 void keepInRoom(Vector3d& place, Vector3d& velocity) {
   for (int axis = 0; axis < 3; ++axis) {
     const double kept = std::fmin(std::fmax(place[axis], kLowest[axis]), kHighest[axis]);

@@ -13,7 +13,7 @@ inline constexpr double kBallInHand[3] = {-0.05, -0.117, 0.0};
 /// When the hand lets it go (s).
 inline constexpr double kThrowS = 5.5;
 
-/// `time,x,y,z`: from the throw to the end of the dance, 120 times a second; to 10 micrometres.
+/// `time,x,y,z`: from the throw to the end of the dance, 120 times per second; to 10 micrometres.
 [[nodiscard]] std::string throwText(const Avatar& dancer);
 
 }  // namespace foretouch::examples

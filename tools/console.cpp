@@ -5,7 +5,7 @@
 namespace foretouch::tools {
 namespace {
 
-// Of the process, as are its streams: whoever prints asks for it, and none of them has settings.
+// The process has one, as it has one of each stream: all that print ask for it, without settings.
 bool isToldQuiet = false;
 
 /// File names and foreign text may contain line breaks and terminal sequences: one error is one

@@ -36,7 +36,7 @@ ExitCode failed(const Error& error);
 
 /// A line on stderr for remarks that stop nothing.
 void printNote(const std::string& text);
-/// One for each, about a file.
+/// A remark for each note, about a file.
 void printNotes(const std::string& file, const std::vector<std::string>& notes);
 
 /// Text on stderr, unchanged: for text that belongs on stdout when a file uses stdout.

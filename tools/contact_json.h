@@ -20,14 +20,14 @@ struct ContactWords {
   std::optional<std::int64_t> utimeUs;  ///< and on the clock.
   /// The own link, its name or number, that takes the place of the scene; empty: none.
   std::string_view other;
-  /// Of an own link that starts in contact (m): it is no deeper; infinite: not known.
+  /// How deep an own link that starts in contact is at most (m); infinite: not known.
   double penetrationAtMost = std::numeric_limits<double>::infinity();
 };
 
 /// Writes the contact's fields by kContactFields into an open object. `contact` is not clear.
 void writeContact(const LinkContact& contact, const ContactWords& words, JsonWriter& out);
 
-/// How deep a start in contact is (m); null if that is not known, as of triangles, which have no
+/// How deep a start in contact is (m); null if that is not known, as for triangles, which have no
 /// inside.
 inline void writePenetration(double penetration, JsonWriter& out) {
   out.key("penetration");

@@ -1,5 +1,5 @@
-// tools/demo_main.cpp: `foretouch demo` alone. Who has just fetched the sources sees the dancer
-// once what plays a clip is compiled, without servers, logs and all that else the program does.
+// tools/demo_main.cpp: `foretouch demo` alone. A user who has just fetched the sources sees the
+// dancer once what plays a clip is compiled, without servers, logs and all else in the program.
 #include <utility>
 
 #include "tools/commands/demo_command.h"

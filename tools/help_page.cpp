@@ -100,7 +100,7 @@ std::vector<HelpBlock> blocksOf(const std::string& footer) {
   return blocks;
 }
 
-/// Before the options: whoever asks for a program's help looks for a command.
+/// Comes before the options: users who ask for a program's help look for a command.
 void addCommandEntries(const CLI::App& app, HelpPage& page) {
   std::vector<HelpGroup> groups;
   for (const CLI::App* const command : app.get_subcommands({})) {

@@ -45,7 +45,7 @@ std::string wrappedCommand(std::string line, std::size_t columns) {
 
 std::string footerText(const std::vector<HelpBlock>& footer, std::size_t columns) {
   std::string text;
-  bool wasTitle = true;  // nothing stands between a title and what it is of
+  bool wasTitle = true;  // nothing stands between a title and its content
   for (const HelpBlock& block : footer) {
     if (!block.isCommand && !wasTitle) text += "\n";
     text += block.isCommand ? wrappedCommand(block.text, columns)

@@ -8,7 +8,7 @@
 
 namespace foretouch::tools {
 
-/// Columns for text on stdout: those of its terminal within 60 and 100; 80 where it is none.
+/// The columns for text on stdout: those of its terminal within 60 and 100; 80 without a terminal.
 [[nodiscard]] std::size_t textColumns();
 
 /// No line is longer than `columns`, unless one word is.

@@ -15,7 +15,7 @@ class HandledSignals {
   HandledSignals& operator=(const HandledSignals&) = delete;
   ~HandledSignals() { restore(); }
 
-  /// As they were before.
+  /// Restores the signals as they were before.
   void restore();
 
  private:

@@ -26,7 +26,7 @@ inline constexpr char kTimeInWords[] = "a number of seconds within 285 years of 
   return std::llround(seconds * kUsPerS);
 }
 
-/// For people. Read again, it is the same instant.
+/// Seconds for people. Read again, they are the same instant.
 [[nodiscard]] inline double inSeconds(std::int64_t utimeUs) {
   return static_cast<double>(utimeUs) / kUsPerS;
 }

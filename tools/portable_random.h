@@ -13,7 +13,7 @@ class PortableRandom {
   explicit PortableRandom(std::uint64_t seed) : engine_(seed) {}
 
   std::uint64_t next() { return engine_(); }
-  /// In [low, high); the standard's distributions differ between libraries.
+  /// A number in [low, high); the standard's distributions differ between libraries.
   double uniform(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
   }
@@ -22,7 +22,7 @@ class PortableRandom {
                  z = uniform(low.z(), high.z());
     return {x, y, z};
   }
-  /// In the cube of this half edge around the origin.
+  /// A point in the cube of this half edge around the origin.
   Eigen::Vector3d inBox(double half) {
     return inBox(Eigen::Vector3d::Constant(-half), Eigen::Vector3d::Constant(half));
   }

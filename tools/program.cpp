@@ -52,7 +52,7 @@ std::string manPageOf(const CLI::App& program, const CLI::App& app, const std::s
   return manPage(helpPageOf(app), version, others);
 }
 
-/// Into `folder`, for an installation.
+/// Writes the pages into `folder`, for an installation.
 ExitCode writeManPages(const CLI::App& program, const std::string& version,
                        const std::string& folder) {
   std::vector<const CLI::App*> all = listedCommands(program);
@@ -103,7 +103,7 @@ void addOwnCommands(CLI::App& program, const std::string& version, ExitCode& exi
   });
 }
 
-/// A command line that is no command's: also `foretouch`, and `foretouch avatar help`.
+/// Reports a command line that names no command: also `foretouch`, and `foretouch avatar help`.
 ExitCode tellUsage(const CLI::App& program, const std::vector<std::string>& words,
                    const std::string& parsersWords) {
   std::size_t rest = 0;
@@ -128,7 +128,7 @@ ExitCode run(const ProgramText& text, const AddCommands& addCommands, int argc,
   ExitCode exit = ExitCode::Done;
   addCommands(program, exit);
   addOwnCommands(program, version, exit);
-  // Of the program alone: commands take over what is set before them.
+  // For the program alone: commands take over what is set before them.
   program.set_help_all_flag("--help-all", "Show the help of every command");
   try {
     program.parse(argc, argv);

@@ -10,11 +10,11 @@
 
 namespace foretouch::tools {
 
-/// As "rotations" and "translations" of an open object, bit for bit.
+/// Writes it as "rotations" and "translations" of an open object, bit for bit.
 void writePose(const Pose& pose, JsonWriter& out);
-/// As "counters" of an open object.
+/// Writes them as "counters" of an open object.
 void writeCounters(const SolidCounters& counters, JsonWriter& out);
-/// Both are names, as JSON: of the link, and of the object or own link that it touches.
+/// Both names are JSON already: the link's, and that of the object or own link that it touches.
 void writeSolidContact(const SolidContact& contact, std::string_view link, std::string_view touched,
                        JsonWriter& out);
 

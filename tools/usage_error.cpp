@@ -24,7 +24,7 @@ std::vector<std::string> commandNames(const CLI::App& app) {
   return names;
 }
 
-/// As help lists them.
+/// The names of options as help lists them.
 std::vector<std::string> optionNames(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* const option : app.get_options()) {
@@ -34,7 +34,7 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   return names;
 }
 
-/// "--output" of "--output=x"; empty for what is no option's name: a value, a number.
+/// "--output" of "--output=x"; empty for what is not an option's name: a value, a number.
 std::string optionIn(const std::string& word) {
   if (word.size() < 2 || word[0] != '-' || word == "--") return "";
   const auto second = static_cast<unsigned char>(word[1]);
@@ -60,7 +60,7 @@ std::string unknownOption(const CLI::App& app, const std::string& option) {
   return leadOf(app) + "unknown option " + inQuotes(option) + optionMeant(app, option);
 }
 
-/// The first word from `from` on that looks like an option and is none.
+/// The first word from `from` on that looks like an option and is not one.
 std::string firstUnknownOption(const CLI::App& app, const std::vector<std::string>& words,
                                std::size_t from) {
   for (std::size_t i = from; i < words.size() && words[i] != "--"; ++i) {

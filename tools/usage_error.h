@@ -23,7 +23,7 @@ namespace foretouch::tools {
 /// "unknown command 'replya'; did you mean 'replay'?"
 [[nodiscard]] std::string unknownCommand(const CLI::App& app, const std::string& word);
 
-/// The words are those behind the program's name; `parsersWords`: what the parser says, for all
+/// `words`: those behind the program's name; `parsersWords`: what the parser says, for all
 /// that is not a name or an argument too many.
 [[nodiscard]] std::string usageError(const CLI::App& program, const std::vector<std::string>& words,
                                      const std::string& parsersWords);

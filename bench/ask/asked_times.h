@@ -7,7 +7,7 @@
 
 namespace foretouch::tools {
 
-/// Microseconds by a steady clock, less what reading it takes.
+/// Microseconds by a steady clock, less the time to read it.
 class AskedTimes {
  public:
   AskedTimes() {

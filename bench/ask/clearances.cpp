@@ -30,7 +30,7 @@ constexpr double kHalfTurn = 3.14159265358979323846;
 /// Instants per judged edge.
 constexpr int kInstants = 64;
 constexpr std::size_t kMostJudged = 2000;
-/// Of the judge's distances in double (m).
+/// Rounding of the judge's distances in double (m).
 constexpr double kJudgeRounding = 1e-9;
 
 /// The room turned to +Z up, the robot's base at the origin.

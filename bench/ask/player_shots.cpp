@@ -106,7 +106,7 @@ Played playedWith(const std::vector<Person>& people, double thinnedMm, int shots
   constexpr double kOfEach = kPlayers * kWarmSeconds;
   result.kib = (heapMiB() - before) * kKiBPerMiB / kOfEach;
   result.posesKib = static_cast<double>(played.world.poseBytes()) / (kKiBPerMiB * kOfEach);
-  // A replay, from the same poses: asked in another order, by a memory of its own.
+  // A replay, from the same poses: asked in another order, with its own memory.
   PlayedWorld replay(people, thinnedMm);
   for (int i = 0; i < kTickHz * kWarmSeconds; ++i) replay.tick();
   Scratch anew;

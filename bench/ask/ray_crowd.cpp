@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 constexpr double kCrowdPoseHz = 60.0, kApartM = 5.0, kNearestRayM = 5.0, kFarthestRayM = 60.0;
 constexpr std::int64_t kRememberedUs = 1'000'000;
 constexpr std::size_t kSurfaceTriangles = 20'000;
-/// Corners nearer to the joint follow the link above it as well.
+/// Corners nearer to the joint follow the link above it, too.
 constexpr double kBlendedM = 0.15;
 
 enum class CrowdBy { Lss, Triangles, Skin };
@@ -64,7 +64,7 @@ SkinnedSurface blendedSkin(const Avatar& avatar) {
 /// A crowd with a second of poses.
 struct RememberedCrowd {
   World world = World::build(std::nullopt).value();
-  std::vector<Vector3d> places;  ///< Of their roots, about.
+  std::vector<Vector3d> places;  ///< About where their roots are.
 
   std::string by;  ///< What questions meet.
 
@@ -106,7 +106,7 @@ constexpr AskedKind kAskedKinds[] = {
     {"sphere of 10 cm, overlap", 0.1, AskWhat::Overlap, AskWhich::All},
     {"nearest within 1 m", 0.0, AskWhat::Nearest, AskWhich::Closest}};
 
-/// At somebody, from afar.
+/// A question aimed at a person, from afar.
 WorldQuestion questionOf(const RememberedCrowd& crowd, const AskedKind& kind,
                          PortableRandom& random) {
   const auto n = static_cast<std::size_t>(random.next() % crowd.places.size());

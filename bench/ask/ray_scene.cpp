@@ -54,7 +54,7 @@ RayTimes timed(const std::vector<RaySegment>& rays, const Cast& cast) {
   return times;
 }
 
-/// `peer`: beside whom.
+/// `peer`: the times of the peer beside it.
 std::vector<BenchCell> rayRow(const char* name, const RayTimes& times, const RayTimes& peer) {
   const Percentiles us = percentilesOf(times.us), theirs = percentilesOf(peer.us);
   return {std::string(name),
@@ -84,7 +84,7 @@ BenchTable rayTable(const Scene& scene) {
 #if FORETOUCH_HAS_EMBREE
 namespace {
 
-/// Of rays beside Embree, and of casts of a sphere. Without Bullet in this build, nothing.
+/// Adds rays beside Embree, and casts of a sphere. Without Bullet in this build, nothing.
 void addBullet([[maybe_unused]] const Scene& scene,
                [[maybe_unused]] const std::vector<RaySegment>& rays,
                [[maybe_unused]] const RayTimes& embree, [[maybe_unused]] const RayTimes& ours,

@@ -8,7 +8,7 @@
 
 namespace foretouch::tools {
 
-/// The bundled room, cut into so many triangles. Errors name a file; DeviceFailed in a build
+/// In the bundled room, cut into so many triangles. Errors name a file; DeviceFailed in a build
 /// without Embree.
 [[nodiscard]] Result<BenchTable> raySceneTable(int triangles, int questions, std::uint64_t seed);
 

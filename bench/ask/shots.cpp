@@ -27,11 +27,11 @@ constexpr int kShotsPerPerson = 25;
 /// A ray that passes so near to a surface (m) is not judged: who is right is rounding.
 constexpr Real kGrazing = 1e-8L;
 
-/// The link that a ray hits first, and those that it hits there as well: LSS of neighbours have a
+/// The link that a ray hits first, and those that it hits there, too: LSS of neighbours have a
 /// ball at their joint in common. Empty: none.
 using Struck = std::vector<int>;
 
-/// Of parts in W, by the judge.
+/// What the ray strikes of parts in W, by the judge.
 Struck struckOf(const std::vector<OraclePart>& parts, const oracle::CastShape& ray,
                 bool* isGrazing = nullptr) {
   std::vector<Real> touches;
@@ -60,7 +60,7 @@ std::vector<OraclePart> movedBy(std::vector<OraclePart> parts, const oracle::Vec
   return parts;
 }
 
-/// Somebody who runs: in a world, and as the judge knows him.
+/// A running person: in a world, and as the judge knows him.
 class Runner {
  public:
   Runner(const ClipPoses& clip, int n) {
@@ -98,7 +98,7 @@ struct Shot {
   Vector3d from, aim;
 };
 
-/// At a point in a link, or a little beside it, when the shooter sees him there.
+/// A shot at a point in a link, or a little beside it, when the shooter sees him there.
 Shot shotAt(const Runner& runner, PortableRandom& random) {
   Shot shot;
   shot.seen = {static_cast<std::int64_t>(random.uniform(0.5e6, 1.5e6)), random.uniform(0.0, 1.0)};
@@ -114,7 +114,7 @@ Shot shotAt(const Runner& runner, PortableRandom& random) {
   return shot;
 }
 
-/// Where the others take him to be.
+/// Where the other ways take him to be.
 enum class RewindWay { NotRewound, LastTick, OriginOnly, Between };
 
 std::vector<OraclePart> seenBy(RewindWay way, const Runner& runner, Real seenUs, Real nowUs,
@@ -163,7 +163,7 @@ struct RewindRow {
   ShotTally tally = {};
 };
 
-/// Of one tick rate.
+/// The rows of one tick rate.
 struct TickRows {
   std::vector<RewindRow> rows;
   ShotTally ofWorld;

@@ -32,8 +32,8 @@ struct Asked {
   oracle::HullWorld world[2];
 };
 
-/// With denormals kept, and flushed if the processor can. Leaves the widest vectors in use; for one
-/// thread at a time, because the width is the process's.
+/// Asks with denormals kept, and flushed if the processor can. Leaves the widest vectors in use;
+/// for one thread at a time, because the width is the process's.
 [[nodiscard]] Asked ask(const ExtremeCase& extreme);
 
 /// The hulls of the case's surface at that fidelity.

@@ -33,9 +33,9 @@ struct ExtremeCase {
   double tolerance = 1e-3;
   std::vector<std::vector<Triangle>> surface;  ///< Per link; empty: link fidelity alone.
   bool isLegal = true;                         ///< Otherwise the product must refuse it.
-  std::optional<Fall> fall;  ///< Of the last link, if it is a fall that ends at the plane or below.
+  std::optional<Fall> fall;  ///< The last link's, if it is a fall that ends at the plane or below.
 
-  /// Into the scene, as object 0.
+  /// Adds to the scene, as object 0.
   void add(const Triangle& triangle);
 };
 
@@ -63,11 +63,11 @@ class Draw {
 /// The shape of a chain of limbs.
 struct RigShape {
   int joints = 2;
-  double reach = 0.5;  ///< Of a limb (m).
+  double reach = 0.5;  ///< A limb's (m).
   double radius = 0.05;
-  double turn = 0.8;                                 ///< Of a joint in the step, at most (rad).
-  double travel = 0.5;                               ///< Of the root, at most (m).
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Of the root's paths.
+  double turn = 0.8;                                 ///< A joint's in the step, at most (rad).
+  double travel = 0.5;                               ///< The root's, at most (m).
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Where the root's paths begin.
 };
 /// A case with such a chain, one LSS per limb, and no scene yet.
 [[nodiscard]] ExtremeCase rigged(Draw& draw, const RigShape& shape);
@@ -90,7 +90,7 @@ void cover(Draw& draw, ExtremeCase& extreme, bool thin);
 /// One joint that goes from one place to another without turning, and one ball or rod on it.
 [[nodiscard]] ExtremeCase sliding(const Lss& lss, const Eigen::Vector3d& from,
                                   const Eigen::Vector3d& to);
-/// In the plane y = `height`, reaching `half` and more around the origin.
+/// A triangle in the plane y = `height`, reaching `half` and more around the origin.
 [[nodiscard]] Triangle floorAt(double height, double half = 50.0);
 
 }  // namespace foretouch::tools::extremes

@@ -30,9 +30,9 @@ struct Family {
   int share = 1;  ///< Runs one in so many of the requested cases: a case costs so much more.
 };
 
-/// In the order of docs/extremes.md.
+/// All families, in the order of docs/extremes.md.
 [[nodiscard]] const std::vector<Family>& families();
-/// Its `seed % members`-th member, drawn from `seed`.
+/// The family's `seed % members`-th member, drawn from `seed`.
 [[nodiscard]] ExtremeCase makeCase(const Family& family, std::uint64_t seed,
                                    const ExtremeSizes& sizes);
 

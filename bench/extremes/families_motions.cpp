@@ -240,7 +240,7 @@ Family touching() {
          extreme.lss[0] = {{Vector3d::Zero(), Vector3d(0.5, 0, 0), 0.5}};
          extreme.surface = {{{{Vector3d::Zero(), Vector3d(0.5, 0, 0), Vector3d(0.25, 0, 0.25)}},
                              {{Vector3d::Zero(), Vector3d(0.5, 0, 0), Vector3d(0.25, 0.25, 0)}}}};
-         extreme.fall.reset();  // of the triangles, not of the LSS
+         extreme.fall.reset();  // it is about the triangles, not the LSS
          return extreme;
        }}};
   return family;

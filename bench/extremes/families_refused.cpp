@@ -24,7 +24,7 @@ ExtremeCase legal(Draw& draw) {
   return extreme;
 }
 
-/// Not a coordinate.
+/// A number that is not a coordinate.
 double noCoordinate(Draw& draw) {
   return draw.pick({kNan, kInfinity, -kInfinity, std::nextafter(kMaxCoordinate, kInfinity), -1.1e7,
                     1e300, -std::numeric_limits<double>::max()});

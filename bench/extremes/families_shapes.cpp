@@ -143,7 +143,7 @@ Family shortSegments() {
   return family;
 }
 
-/// A tenth of all numbers of zero become denormals or the least normal ones.
+/// Half of all numbers of zero become denormals or other tiny numbers.
 void speckle(Draw& draw, double& number) {
   constexpr double kLeastNormal = std::numeric_limits<double>::min();
   if (number == 0.0 && draw.chance(0.5)) {

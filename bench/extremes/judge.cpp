@@ -14,7 +14,7 @@ namespace foretouch::tools::extremes {
 namespace {
 
 constexpr double kUlp = 0x1p-52;
-/// Of the extent: the least gap that fifty digits distinguish from touching.
+/// Share of the extent: the least gap that fifty digits distinguish from touching.
 constexpr double kTouchingShare = 1e-40;
 /// Tolerance of a contact's normal as a unit vector.
 constexpr double kUnitSlack = 1e-9;
@@ -38,7 +38,7 @@ std::string malformation(const LinkContact& c, double tolerance, Scope scope) {
   if (!(c.separation >= 0.0 && c.separation <= tolerance)) return "a separation beyond [0,eps]";
   if (!(c.penetration >= 0.0)) return "a negative penetration";
   if (isTouch && c.triangle < 0) return "no triangle";
-  // What meets in a point, without radii, has no direction, and then none is told.
+  // What meets in a point, without radii, has no direction, and then none is reported.
   const bool mayHaveNone = c.verdict == Verdict::StartsInContact && c.nhat_SL_W.isZero(0.0);
   if (isTouch && !mayHaveNone && std::abs(c.nhat_SL_W.norm() - 1.0) > kUnitSlack) {
     return "no unit normal";
@@ -206,7 +206,7 @@ class Judge {
   const ExtremeCase& extreme_;
   const Asked& asked_;
   Tally& tally_;
-  std::map<std::pair<LinkId, double>, double> separations_;  // of the current oracle
+  std::map<std::pair<LinkId, double>, double> separations_;  // the current oracle's
 };
 
 }  // namespace

@@ -28,8 +28,8 @@ enum class Fault : std::uint8_t {
 /// Most evaluations that a step of one avatar may cost.
 inline constexpr std::uint64_t kMostWork = 100'000'000;
 
-/// In units of 2^-52 of the extent (HullOracle::extent): how far proven bounds may lie apart at a
-/// link of that depth. A start in contact may be this far from touching, and a query need not
+/// How far proven bounds may lie apart at a link of that depth, in units of 2^-52 of the extent
+/// (HullOracle::extent). A start in contact may be this far from touching, and a query need not
 /// resolve a tolerance below 4/3 of it. docs/extremes.md derives it.
 [[nodiscard]] double roundingsAt(int depth);
 
@@ -47,7 +47,7 @@ struct Worst {
   }
 };
 
-/// Of one family. Counts links of answers, not answers.
+/// The tally of one family. Counts links of answers, not answers.
 struct Tally {
   std::int64_t cases = 0, refused = 0, queries = 0;
   std::int64_t contacts = 0, starts = 0, clear = 0, undecided = 0;

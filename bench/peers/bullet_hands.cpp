@@ -9,7 +9,7 @@ namespace foretouch::tools {
 namespace {
 
 constexpr double kMassKg = 0.4, kSpringHz = 10.0, kPi = 3.14159265358979323846;
-/// Of the radius, as Bullet's manual advises.
+/// Shares of the radius, as Bullet's manual advises.
 constexpr double kCcdMotion = 0.5, kCcdSphere = 0.7;
 
 struct HandDrive {
@@ -19,7 +19,7 @@ struct HandDrive {
 };
 constexpr HandDrive kDrives[] = {{"Bullet, velocity", false, false, 1},
                                  {"Bullet, velocity, CCD", false, true, 1},
-                                 // Of one link, what Half-Physics [Siyao25] does of 55.
+                                 // For one link, what Half-Physics [Siyao25] does for 55.
                                  {"Bullet, velocity, 4 substeps", false, false, 4},
                                  {"Bullet, spring", true, false, 1},
                                  {"Bullet, spring, CCD", true, true, 1},
@@ -34,7 +34,7 @@ btVector3 turnBetween(const btQuaternion& from, const btQuaternion& to) {
   return sine > 0.0 ? axis * (2.0 * std::atan2(sine, turn.w()) / sine) : btVector3(0, 0, 0);
 }
 
-/// A world of its own, so that no hand meets another.
+/// In its own world, so that no hand meets another.
 class BulletHand final : public HandFollower {
  public:
   BulletHand(std::shared_ptr<BulletMesh> mesh, const Lss& hand_L, const HandDrive& drive)

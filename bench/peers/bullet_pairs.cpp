@@ -13,7 +13,7 @@ namespace {
 
 class BulletPair final : public PairSolver {
  public:
-  /// `mostTurn` (radians) of one cast; zero: the whole motion is one.
+  /// `mostTurn`: that of one cast (radians); zero: the whole motion is one.
   BulletPair(const char* name, double mostTurn) : PairSolver(name), mostTurn_(mostTurn) {}
 
   SweepAnswer solve(const MovingPair& pair) override {

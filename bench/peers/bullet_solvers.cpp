@@ -48,7 +48,7 @@ using SharedScene = std::shared_ptr<BulletScene::Impl>;
 /// A motion cut into equal pieces, cast one by one until one hits.
 class BulletSolver : public SweepSolver {
  public:
-  /// `mostTurn` (radians) of one cast; zero: the whole motion is one.
+  /// `mostTurn`: that of one cast (radians); zero: the whole motion is one.
   BulletSolver(const std::string& name, SharedScene scene, const Lss& lss_L, double mostTurn)
       : SweepSolver(name + (mostTurn > 0.0 ? fmt::format(", pieces of {:g} rad", mostTurn)
                                            : std::string(", whole motion")),

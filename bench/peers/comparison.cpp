@@ -9,7 +9,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// By nearest rank; zero if there are none.
+/// The value at a share, by nearest rank; zero if there are none.
 double atShare(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   std::sort(values.begin(), values.end());

@@ -46,7 +46,7 @@ struct Judgement {
       0.0;  ///< The most motion after a contact at which it was reported (m); 0: never.
   TimeFigures time;
 
-  /// Misses nothing and is never late: usable by anybody who needs contacts.
+  /// Misses nothing and is never late: usable by users who need contacts.
   [[nodiscard]] bool isSound() const { return missed == 0 && late == 0; }
 };
 

@@ -32,7 +32,7 @@ class FclFirst {
     placed.translation() = pose.pivot;
     return placed;
   }
-  /// What it turns about, in its own frame.
+  /// The point about which it turns, in its own frame.
   [[nodiscard]] Eigen::Vector3d pivot() const {
     return mesh_ ? Eigen::Vector3d::Zero() : capsule_.pivot_C();
   }
@@ -89,7 +89,7 @@ class FclPairContinuous final : public PairSolver {
   }
 
  private:
-  /// As FclContinuous has it: the only constructor that sets all.
+  /// As in FclContinuous: the only constructor that sets all.
   [[nodiscard]] static fcl::InterpMotion<double> motionOf(const fcl::Transform3d& from,
                                                           const fcl::Transform3d& to,
                                                           const Eigen::Vector3d& pivot) {

@@ -5,7 +5,7 @@
 
 namespace foretouch::tools {
 
-/// Its distance advanced by hand (1e-3 m), and continuousCollide() of two motions (10 and 100
+/// FCL's distance advanced by hand (1e-3 m), and continuousCollide() of two motions (10 and 100
 /// samples).
 [[nodiscard]] PairSolvers fclPairSolvers(PairKind kind);
 

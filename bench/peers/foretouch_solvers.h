@@ -1,4 +1,4 @@
-// bench/peers/foretouch_solvers.h: Foretouch on rigid sweeps, through its public query alone.
+// bench/peers/foretouch_solvers.h: Foretouch on rigid sweeps, only through its public query.
 #pragma once
 
 #include "articulated/result.h"

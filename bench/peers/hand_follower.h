@@ -1,4 +1,4 @@
-// bench/peers/hand_follower.h: a hand of one LSS that is led by a tracked one: what solid avatars
+// bench/peers/hand_follower.h: a hand of one LSS that follows a tracked one: what solid avatars
 // and the hands of a physics engine have in common.
 #pragma once
 
@@ -23,7 +23,7 @@ class HandFollower {
   virtual void begin(const RigidPose& at) = 0;
   /// Where it is `dtS` later, while the tracked hand moves to `tracked`.
   virtual RigidPose follow(const RigidPose& tracked, double dtS) = 0;
-  /// After each follow(): judges it, if somebody does. Not part of what it costs.
+  /// Called after each follow(): judges it, if a judge is there. Not part of the cost.
   virtual void look() {}
 
  private:

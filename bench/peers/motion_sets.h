@@ -18,9 +18,9 @@ namespace foretouch::tools {
 struct MotionSetKind {
   const char* name;
   const char* description;
-  double radius;      ///< Of the LSS (m); its axis is kAxisLength long.
+  double radius;      ///< The LSS's radius (m); its axis is kAxisLength long.
   double mostTurn;    ///< Radians.
-  double mostTravel;  ///< Of the pivot (m).
+  double mostTravel;  ///< The pivot's (m).
 };
 
 inline constexpr double kQuarterTurn = 1.57079632679489662;
@@ -48,7 +48,7 @@ struct SweepTruth {
 
 struct MotionSet {
   std::string name, description;
-  Lss lss_L;  ///< Of every sweep.
+  Lss lss_L;  ///< The LSS of every sweep.
   std::vector<RigidSweep> sweeps;
   std::vector<SweepTruth> truths;  ///< One per sweep.
   std::size_t uncertain = 0;  ///< Motions drawn and discarded, because their truth stayed unknown.

@@ -22,13 +22,13 @@ struct MovingPair {
   double toi = 1.0;      ///< Proven free before.
 };
 
-/// So long and so thick is each: about a forearm.
+/// Each is so long and so thick: about a forearm.
 [[nodiscard]] Lss movingLss();
 /// A torus about z, 24 cm across, of 384 triangles.
 [[nodiscard]] const std::vector<Triangle>& movingRing();
 
-/// Pairs that begin at least a centimetre apart, about half of which meet: the same for the same
-/// seed. The judge's certified answer is their truth.
+/// Pairs that begin at least a centimetre apart, about half of which meet: the same seed gives the
+/// same pairs. The judge's certified answer is their truth.
 [[nodiscard]] std::vector<MovingPair> drawnPairs(PairKind kind, int count, std::uint64_t seed);
 
 /// One solver with one setting, for pairs of one kind. Only solve() is timed.

@@ -30,7 +30,7 @@ class BulletHands {
   BulletHands& operator=(const BulletHands&) = delete;
   ~BulletHands();
 
-  /// One per kind, each in a world of its own. The axis' middle is the frame's origin.
+  /// One per kind, each in its own world. The axis' middle is the frame's origin.
   [[nodiscard]] HandFollowers of(const Lss& hand_L) const;
 
  private:
@@ -55,8 +55,8 @@ class BulletCasts {
   std::unique_ptr<Impl> impl_;
 };
 
-/// On two bodies that both move; a solver for every peer and setting. Bullet casts convex shapes
-/// alone: no ring.
+/// Solvers for two bodies that both move, one for every peer and setting. Bullet casts only convex
+/// shapes: no ring.
 [[nodiscard]] PairSolvers peerPairSolvers(PairKind kind);
 
 /// The scene in the peers' own structures, built once.

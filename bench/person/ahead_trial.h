@@ -14,19 +14,19 @@ namespace foretouch::tools {
 
 struct AheadTally {
   std::uint64_t asked = 0;    ///< Links at poses that touch nothing there.
-  std::uint64_t touched = 0;  ///< Of them, within the horizon.
+  std::uint64_t touched = 0;  ///< Those of them that touch within the horizon.
   std::uint64_t late = 0;     ///< Said to be free for longer than they were.
   std::uint64_t alarms = 0;   ///< Said to touch, perhaps, within the horizon, and did not.
   std::vector<double>
-      earlyMs;  ///< Of those that touched: how much before it was said to be possible.
+      earlyMs;  ///< For those that touched: how much before it was said to be possible.
   std::uint64_t poses = 0;
-  double us = 0.0;  ///< Of all poses; of capsules none.
+  double us = 0.0;  ///< Of all poses; none for capsules.
 
   void add(const AheadTally& other);
 };
 
 struct AheadTrial {
-  double rateHz = 30.0;  ///< Of given poses.
+  double rateHz = 30.0;  ///< The rate of given poses.
   double horizonS = 0.3;
 };
 

@@ -10,7 +10,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Of capsules: instants per horizon. What is found is told at the instant before it.
+/// For capsules: instants per horizon. What is found is reported at the instant before it.
 constexpr int kGrid = 120;
 constexpr double kBeyondM = 1e-3;
 
@@ -99,7 +99,7 @@ void AheadPerson::learnStep(Learn what, const HeldBackStep& step, AheadBounds& b
   }
 }
 
-/// From the highest link of each limb on.
+/// Finds the limbs, from the highest link of each on.
 void AheadPerson::findLimbs(AheadBounds& bounds) const {
   const std::vector<std::string> parts = boundParts(avatar_.skeleton());
   const std::vector<int>& linkOf = held_.linkOf();

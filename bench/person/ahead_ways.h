@@ -27,7 +27,7 @@ enum class AheadWay : std::uint8_t {
 inline constexpr std::size_t kAheadWays = 4;
 [[nodiscard]] const char* toString(AheadWay way);
 
-/// What holds on all that was seen.
+/// Bounds that hold on all that was seen.
 struct AheadBounds {
   /// The error after tau s is at most speed tau + acceleration tau^2/2.
   struct Growth {
@@ -37,34 +37,34 @@ struct AheadBounds {
   /// An end of an axis at the limb's shoulder or hip, how far from there the limb reaches, its
   /// radii counted, and how fast that end is at most (m/s).
   struct Limb {
-    std::size_t base = 0;  ///< Axis.
+    std::size_t base = 0;  ///< Index of the axis.
     double reach = 0.0, speed = 0.0;
   };
   std::array<std::vector<Growth>, 3> growths;  ///< Per way but LimbBall, and link.
   std::vector<std::optional<Limb>> limbs;      ///< Per link.
 };
 
-/// One person at full rate, of whom every n-th pose is given. For one thread; what it refers to
-/// outlives it.
+/// One person at full rate; every n-th pose is given. For one thread; what it refers to outlives
+/// it.
 class AheadPerson {
  public:
   struct Horizon {
     double frameS = 0.0;  ///< Between poses at full rate.
     std::size_t every = 1;
-    int frames = 0;  ///< Of full rate.
+    int frames = 0;  ///< At full rate.
     [[nodiscard]] double seconds() const { return frames * frameS; }
   };
   AheadPerson(HeldBack& held, const Avatar& avatar, const std::vector<Pose>& frames,
               const BracketQuery& query, const Horizon& horizon);
 
-  /// Those after which the whole horizon is known.
+  /// The steps after which the whole horizon is known.
   [[nodiscard]] const std::vector<HeldBackStep>& steps() const { return steps_; }
-  /// Raises the bounds until they hold here: of several persons first `Speed` of all, then `Rest`.
+  /// Raises the bounds until they hold here: for several persons first `Speed` of all, then `Rest`.
   enum class Learn : std::uint8_t { Speed, Rest };
   void learn(Learn what, AheadBounds& bounds);
 
   using Instants = std::vector<std::optional<double>>;  ///< Per link (s); none within the horizon.
-  /// When a touch is possible first. Fills `us`: what the library took.
+  /// When a touch is possible first. Fills `us`: the time that the library took.
   [[nodiscard]] Instants told(AheadWay way, const HeldBackStep& step, const AheadBounds& bounds,
                               double& us);
   /// When links first touch.

@@ -18,7 +18,7 @@ struct PersonTrial {
   bool isFollowed = true;  ///< Bounds follow how the poses bend, too.
   bool asksOwnLinks = false;
   double boundShare = 1.0;             ///< Of the bounds that hold: below 1 for planted faults.
-  int instants = 4;                    ///< That are looked at per frame of the clip.
+  int instants = 4;                    ///< Instants to look at per frame of the clip.
   std::vector<LinkBound> bounds = {};  ///< One per link; empty: those that hold on the clip.
   double poseErrorM = 0.0;             ///< Given poses are off by so much, each another way.
   bool claimsPoseError = true;         ///< False is a planted fault, and so is the next.

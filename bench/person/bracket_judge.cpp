@@ -22,7 +22,7 @@ bool excludes(const LinkBracket& bracket, double t) {
           (t < bracket.possibleFrom || t > bracket.possibleUntil));
 }
 
-/// Instants that the judge looks at of a passage: thin links are on a surface for a short time.
+/// Instants of a passage that the judge looks at: thin links are on a surface for a short time.
 constexpr int kPassageLooks = 2000;
 
 void checkPassage(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& tally) {
@@ -71,8 +71,8 @@ double firstWithin(const JudgedSides& sides, double share, double from, double t
   return to;
 }
 
-/// Nobody within the bounds touches before its begin, and there are two persons within them of whom
-/// one touches a plane there, and the other not until its end.
+/// No person within the bounds touches before its begin, and there are two within them, one of whom
+/// touches a plane there, and the other not until its end.
 void measureWidth(const LinkBracket& bracket, const JudgedSides& sides, PersonTally& tally) {
   const double ms = 1e3 * sides.seconds * (bracket.certainFrom - bracket.possibleFrom);
   tally.widthsMs.push_back(ms);

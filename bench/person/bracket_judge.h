@@ -11,11 +11,11 @@ namespace foretouch::tools {
 
 struct JudgedSides {
   std::string name;
-  double seconds = 0.0;                         ///< That the bracket is about.
+  double seconds = 0.0;                         ///< The time that the bracket is about.
   int looks = 0;                                ///< Instants that are looked at, less one.
   std::function<double(int look)> apartAtLook;  ///< Their separation (m) at t = look / looks.
   std::function<double(double t)> apartAt;
-  /// Of the model, and by how much the person may be elsewhere (m): for the least width that any
+  /// The model's separation, and how far the person may be elsewhere (m): for the least width that
   /// answer from the same bounds has. Both or none.
   std::function<double(double t)> modelApartAt = {}, growthAt = {};
 };

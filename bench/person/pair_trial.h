@@ -1,5 +1,5 @@
 // bench/person/pair_trial.h: brackets of two persons, both of whom hold poses back, judged: each
-// has steps of its own, of which the parts that overlap are asked.
+// has its own steps; the parts that overlap are asked.
 #pragma once
 
 #include "bench/person/person_trial.h"

@@ -16,7 +16,7 @@ namespace foretouch::tools {
 enum class Asked : std::uint8_t { Scene, OwnLinks, OtherPerson };
 [[nodiscard]] const char* toString(Asked asked);
 
-/// By what is asked, by falling rate (its negative, in Hz), and by model.
+/// By the question, by falling rate (its negative, in Hz), and by model.
 using PersonTallies = std::map<std::tuple<Asked, double, MotionModel>, PersonTally>;
 /// By falling rate (its negative, in Hz); one tally per AheadWay.
 using AheadTallies = std::map<double, std::vector<AheadTally>>;

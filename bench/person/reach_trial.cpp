@@ -29,7 +29,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kEvery = 8;
 constexpr double kHorizonS = 0.2;
 constexpr std::array<double, 3> kLeadsS = {0.05, 0.1, 0.15};
-/// Before and after the hand moves (s).
+/// How long the hand rests before and after it moves (s).
 constexpr double kRestS = 0.1;
 
 constexpr double kTopM = 0.75, kTableThickM = 0.04;
@@ -98,7 +98,7 @@ class ReachDraw {
       reach.from.z() = reach.to.z();
       reach.from.x() = reach.to.x() > 0.0 ? -0.25 : 0.25;
     }
-    // Of the least jerk, the greatest speed is 15/8 of the mean one.
+    // With the least jerk, the greatest speed is 15/8 of the mean one.
     reach.seconds =
         15.0 / 8.0 * (reach.to - reach.from).norm() / (uniform(0.8, 1.2) * request_.speed);
     reach.swivel = uniform(0.1, 0.8);
@@ -157,14 +157,14 @@ std::vector<Pose> posesOf(const Skeleton& skeleton, const Reach& reach, double f
   return poses;
 }
 
-/// A reach that goes on, and what is said of it.
+/// A reach that goes on, and what is said about it.
 struct Told {
   std::vector<Pose> frames;
   std::unique_ptr<HeldBack> held;
   std::unique_ptr<AheadPerson> ahead;
-  std::optional<double> touchS;                           ///< The first of any link.
-  std::vector<double> posesS;                             ///< Before it, or all.
-  std::vector<double> distances;                          ///< Per pose, of the nearest link (m).
+  std::optional<double> touchS;                           ///< The first touch of any link.
+  std::vector<double> posesS;                             ///< The poses before it, or all.
+  std::vector<double> distances;                          ///< Per pose, for the nearest link (m).
   std::array<std::vector<double>, kAheadWays> possibleS;  ///< Per pose; infinite: not in sight.
 };
 
@@ -206,7 +206,7 @@ class ReachTrial {
     }
   }
 
-  /// Of the link that is nearest.
+  /// How far the nearest link is apart.
   [[nodiscard]] double apart(const Told& reach, const std::vector<HeldBack::Axis>& axes) const {
     constexpr double kFar = 1.0;
     double least = kFar;
@@ -250,8 +250,8 @@ class ReachTrial {
     }
   }
 
-  /// How long before the touch one is warned (s): by the first pose of which `says` is true; none:
-  /// never.
+  /// How long before the touch the warning comes (s): by the first pose for which `says` is true;
+  /// none: never.
   template <typename Says>
   static std::optional<double> warned(const Told& reach, const Says& says) {
     for (std::size_t i = 0; i < reach.posesS.size(); ++i) {
@@ -281,7 +281,7 @@ class ReachTrial {
     return all;
   }
 
-  /// The largest that warns no more than so many of those who do not touch.
+  /// The largest distance that warns no more than so many of the hands that do not touch.
   [[nodiscard]] double distanceFor(std::uint64_t alarms) const {
     std::vector<double> nearest;
     for (const Told& reach : reaches_) {

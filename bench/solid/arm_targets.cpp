@@ -13,7 +13,7 @@ namespace {
 using Eigen::AngleAxisd;
 using Eigen::Vector3d;
 
-/// Of the figure: from the shoulder to the elbow, and on to the wrist.
+/// The figure's lengths: from the shoulder to the elbow, and on to the wrist.
 constexpr double kUpper = 0.28, kLower = 0.25;
 
 Quaternion fromRest(const Vector3d& direction) {

@@ -19,12 +19,12 @@ struct RightArm {
   Eigen::Vector3d shoulder;  ///< At rest.
 };
 
-/// At rest but for the right arm, which reaches with its wrist for `wrist`, elbow down, and points
-/// with its hand to -z. Beyond its reach: stretched towards it.
+/// The figure at rest but for the right arm, which reaches with its wrist for `wrist`, elbow down,
+/// and points with its hand to -z. Beyond its reach: stretched towards it.
 [[nodiscard]] Pose reachingFor(const Avatar& figure, const RightArm& right,
                                const Eigen::Vector3d& wrist);
 
-/// At rest but for the right arm, which points anywhere in front or to its side.
+/// The figure at rest but for the right arm, which points anywhere in front or to its side.
 [[nodiscard]] Pose pointingAnywhere(const Avatar& figure, const RightArm& right,
                                     PortableRandom& random);
 

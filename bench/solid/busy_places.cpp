@@ -9,7 +9,7 @@ namespace foretouch::tools {
 namespace {
 
 constexpr int kProbes = 24;
-constexpr double kMostClearance = 0.03;  ///< Of the clip's lowest point above the surface (m).
+constexpr double kMostClearance = 0.03;  ///< The clip's lowest point above the surface (m).
 
 class PlaceDraws {
  public:

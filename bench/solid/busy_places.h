@@ -11,13 +11,13 @@ namespace foretouch::tools {
 
 struct BusyPlace {
   Placement placement;
-  double fromS = 0.0;   ///< Of the clip.
+  double fromS = 0.0;   ///< Since the clip's begin.
   double inside = 0.0;  ///< Share of the probed frames in which the body is inside something.
 };
 
 struct BusyPlaceRequest {
   int count = 1;
-  double seconds = 4.0;  ///< Of the clip, from a random instant on.
+  double seconds = 4.0;  ///< Length of the clip's part, from a random instant on.
   std::uint64_t seed = 1;
   double leastInside = 0.15, mostInside = 0.6;
   int mostDraws = 2000;

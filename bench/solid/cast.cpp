@@ -58,7 +58,7 @@ std::vector<std::string> everyClip(const std::string& folder) {
   return clips;
 }
 
-/// By name, or paths.
+/// The clips by name, or paths.
 std::vector<std::string> clipPaths(const std::string& folder,
                                    const std::vector<std::string>& names) {
   if (names == std::vector<std::string>{"all"}) return everyClip(folder);

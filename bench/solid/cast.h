@@ -1,4 +1,4 @@
-// bench/solid/cast.h: who plays where: clips and scenes by name, those that are there.
+// bench/solid/cast.h: which clips play in which scenes, by name: those that are there.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace foretouch::tools {
 
-/// Without scenes for a world, which brings its own.
+/// It has no scenes for a world, which brings its own.
 struct Cast {
   std::vector<SolidActor> actors;
   std::vector<SolidStage> stages;
-  std::vector<std::string> leftOut;  ///< Which are not there, or have no two frames.
+  std::vector<std::string> leftOut;  ///< Names of those that are not there, or have no two frames.
 };
 
 /// `dataFolder`: with mocap/ and scenes/. `scenes`: kitchen, office, collision-world, undulating,
@@ -22,11 +22,11 @@ struct Cast {
 [[nodiscard]] Result<Cast> loadCast(const std::string& dataFolder, std::vector<std::string> scenes,
                                     const std::vector<std::string>& clips);
 
-/// The same clips alone.
+/// Loads only the same clips.
 [[nodiscard]] Result<Cast> loadActors(const std::string& dataFolder,
                                       const std::vector<std::string>& clips);
 
-/// With commas.
+/// The names, separated by commas.
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 
 }  // namespace foretouch::tools

@@ -10,7 +10,7 @@
 
 namespace foretouch::tools {
 
-/// In front of the figure: two shelves, a back wall, a partition and a pole of 2 cm, a box.
+/// Clutter in front of the figure: two shelves, a back wall, a partition, a pole of 2 cm, a box.
 [[nodiscard]] RawScene clutter();
 
 struct ClutterTally {

@@ -12,7 +12,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Of all ticks in contact: the slowest, which are taken apart.
+/// The share of all ticks in contact, the slowest, that are taken apart.
 constexpr double kSlowest = 0.01;
 /// A link that is nearer than this (m) to where it is tracked is there.
 constexpr double kIsThere = 1e-4;
@@ -21,7 +21,7 @@ constexpr const char* kHeldBy[kNumHeldBy] = {
     "itself inside something", "the trunk inside something", "another limb inside something",
     "free: catching up",       "free: on a way around",      "free: no way found yet"};
 
-/// What of the tracked body is inside something, link by link.
+/// Which links of the tracked body are inside something.
 class TrackedLinks {
  public:
   TrackedLinks(const SolidStage& stage, const SolidActor& actor)

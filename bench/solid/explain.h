@@ -47,7 +47,7 @@ struct ExplainTally {
                                            const std::vector<Pose>& tracked, double rateHz,
                                            const SolidOptions& options);
 
-/// The two tables, of all scenes that were added.
+/// The two tables, for all scenes that were added.
 class ExplainTables {
  public:
   ExplainTables();

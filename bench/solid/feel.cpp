@@ -82,7 +82,7 @@ class FeelMeter {
     return wanted <= moved + run_.catchUp / run_.rateHz;
   }
 
-  /// The floor policy moves the target, along y: that is told apart from what keeps it away.
+  /// The floor policy moves the target, along y: that is reported apart from what keeps it away.
   [[nodiscard]] oracle::PlainPose lifted(oracle::PlainPose pose, double lift) const {
     for (LinkId link = 0; link < actor_.avatar.numLinks(); ++link) {
       if (actor_.avatar.skeleton().parent(link) == kNoParent)
@@ -139,7 +139,7 @@ class FeelMeter {
     }
   }
 
-  /// `before`: of the last two ticks, at most.
+  /// `before`: those of the last two ticks, at most.
   void lookAtMotion(const Ends& now, std::vector<Ends>& before, std::vector<double>& acceleration,
                     double* fastest) const {
     const double rate = run_.rateHz;

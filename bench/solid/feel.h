@@ -27,8 +27,8 @@ class Follower {
 struct FeelTally {
   // Per tick and link: from the tracked place, lifted by SolidTick::lift.
   std::vector<double> deviation, hands, head;
-  std::vector<double> headAlone;   ///< Of ticks in which the tracked trunk is free.
-  std::vector<double> handsAlone;  ///< Of ticks in which the tracked trunk and hands are free.
+  std::vector<double> headAlone;   ///< For ticks in which the tracked trunk is free.
+  std::vector<double> handsAlone;  ///< For ticks in which the tracked trunk and hands are free.
   std::vector<double> acceleration, trackedAcceleration;  ///< Per tick and end of an LSS (m/s^2).
   // Per tick.
   std::vector<double> lift;
@@ -40,13 +40,13 @@ struct FeelTally {
   std::uint64_t ticks = 0, inside = 0, free = 0, equal = 0, away = 0;
   std::uint64_t late = 0;       ///< Free directly (by more than the tolerance), within the catch-up
                                 ///< speed, and yet not equal.
-  std::uint64_t neverBack = 0;  ///< Of `back`: inside again, or at the end, before equal.
-  double fastest = 0.0;         ///< Of any end of an LSS (m/s).
+  std::uint64_t neverBack = 0;  ///< Of those in `back`: inside again, or at the end, before equal.
+  double fastest = 0.0;         ///< The speed of any end of an LSS (m/s).
   WayTally way;
   void add(const FeelTally& other);
 };
 
-/// It asked the direct motion and nothing else, and that was clear.
+/// True if it asked only the direct motion, and that was clear.
 [[nodiscard]] inline bool isFreeTick(const SolidTick& tick) {
   return tick.state == SolidState::Equal && tick.counters.queries == 1;
 }
@@ -57,11 +57,11 @@ inline constexpr double kAway = 0.05;
 struct FeelRun {
   std::string name;
   double rateHz = 90.0;
-  double tolerance = 5e-4;  ///< Of the follower's queries.
-  double catchUp = 2.0;     ///< Of the follower (m/s); for `late`.
+  double tolerance = 5e-4;  ///< The tolerance of the follower's queries.
+  double catchUp = 2.0;     ///< The follower's catch-up (m/s); for `late`.
 };
 
-/// Follows all of `tracked`. Whether a tracked pose is free says the judge.
+/// Follows all of `tracked`. The judge says whether a tracked pose is free.
 [[nodiscard]] Result<FeelTally> feel(const SolidStage& stage, const SolidActor& actor,
                                      const std::vector<Pose>& tracked, const FeelRun& run,
                                      Follower& follower);

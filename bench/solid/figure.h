@@ -16,7 +16,7 @@ inline constexpr double kTrialRateHz = 90.0;
 /// Stands at the origin on y = 0 and stretches its arms along x.
 [[nodiscard]] Avatar figure();
 
-/// Of a hand, along x about its own origin.
+/// The LSS of a hand, along x about its own origin.
 [[nodiscard]] Lss handLss();
 /// One link, "Hand", of handLss().
 [[nodiscard]] Avatar handAlone();
@@ -26,7 +26,7 @@ void addSheet(RawScene& raw, const Eigen::Vector3d& corner, const Eigen::Vector3
               const Eigen::Vector3d& v, int n = 1);
 /// A box of six sheets.
 void addBox(RawScene& raw, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
-/// Across z = `z`, in front of the figure.
+/// A wall across z = `z`, in front of the figure.
 [[nodiscard]] RawScene wallAt(double z, int n = 1);
 
 }  // namespace foretouch::tools

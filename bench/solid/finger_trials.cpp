@@ -24,11 +24,11 @@ constexpr int kFingers = 5, kFineTable = 220;
 constexpr double kApproachS = 0.5, kFromAbove = 0.15;
 constexpr double kHalfApart = 0.1, kFullTurn = 6.283185307179586;
 
-/// From the wrist outwards; the thumb has one bone less.
+/// A finger from the wrist outwards; the thumb has one bone less.
 struct Finger {
   const char* name;
-  Vector3d base;  ///< From the wrist, of a right hand.
-  double yaw;     ///< About y, of its first bone.
+  Vector3d base;  ///< From the wrist, for a right hand.
+  double yaw;     ///< The first bone's, about y.
   std::array<double, 4> bones;
 };
 const std::array<Finger, kFingers> kHand{{
@@ -52,8 +52,8 @@ struct Bend {
 
 /// What both hands do at a time: the left one as in a mirror.
 struct Gesture {
-  Vector3d wrist = Vector3d::Zero();  ///< Of the right hand, beside its place at rest.
-  double roll = 0.0;                  ///< Of the palm, about z.
+  Vector3d wrist = Vector3d::Zero();  ///< The right hand's, beside its place at rest.
+  double roll = 0.0;                  ///< The palm's, about z.
   std::array<Bend, kFingers> bends;
 };
 
@@ -188,7 +188,7 @@ void look(const SolidTick& tick, double us, FingerTally& tally) {
   }
 }
 
-/// The first half second leads from above, where nothing is.
+/// The gesture; its first half second leads from above, where nothing is.
 Gesture approaching(const Task& task, double t) {
   Gesture gesture = task.at(std::max(0.0, t - kApproachS));
   gesture.wrist.y() += kFromAbove * std::max(0.0, 1.0 - t / kApproachS);

@@ -17,7 +17,7 @@ struct FingerTally {
   std::size_t links = 0, triangles = 0;
   std::uint64_t ticks = 0;
   std::vector<double> contactUs;  ///< Per tick in contact.
-  std::vector<double> offM;       ///< Per tick: of the end of an LSS that is farthest off.
+  std::vector<double> offM;       ///< Per tick: for the end of an LSS that is farthest off.
   std::uint64_t queries = 0;
   std::uint64_t equal = 0;  ///< Ticks that show what is tracked.
   WayTally way;

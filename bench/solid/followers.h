@@ -9,10 +9,10 @@
 
 namespace foretouch::tools {
 
-/// Of holdingFollower(), wherever it is measured (m).
+/// The skin of holdingFollower(), wherever it is measured (m).
 inline constexpr double kHoldSkin = 4e-3;
 
-/// Errors: as SolidAvatar::build().
+/// Errors: those of SolidAvatar::build().
 [[nodiscard]] Result<std::unique_ptr<Follower>> solidFollower(const Avatar& avatar,
                                                               const Scene& scene,
                                                               const SolidOptions& options);

@@ -34,7 +34,7 @@ std::vector<RigidPose> placesOf(const SolidActor& actor, LinkId link, const Cent
   return places;
 }
 
-/// Looks at a hand alone.
+/// Looks only at a hand.
 class HandJudge {
  public:
   HandJudge(const SolidStage& stage, const Lss& hand_L)

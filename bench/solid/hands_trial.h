@@ -16,7 +16,7 @@ namespace foretouch::tools {
 /// One number per hand and tick.
 struct HandsTally {
   std::string name;
-  std::vector<double> deviation;        ///< Of the capsule's ends, the larger one.
+  std::vector<double> deviation;        ///< The larger one of the capsule's ends.
   std::vector<double> depth;            ///< 0: it touches nothing.
   std::uint64_t ticks = 0, inside = 0;  ///< `inside`: by more than 0.1 mm.
 };
@@ -31,11 +31,11 @@ class HandsTrial {
  public:
   explicit HandsTrial(const SolidStage& stage);
 
-  /// `shown`: by the solid avatar, one per tracked pose. The first tracked pose is free.
+  /// `shown`: what the solid avatar showed, one per tracked pose. The first tracked pose is free.
   void add(const SolidActor& actor, const std::vector<Pose>& tracked, const ShownPoses& shown,
            double rateHz);
   /// The tracked hands, the solid avatar's, and one each for those of the engine, if it is built
-  /// in; those at 90 Hz and above alone.
+  /// in; the engine's only at 90 Hz and above.
   [[nodiscard]] const std::vector<HandsTally>& tallies() const { return tallies_; }
 
  private:

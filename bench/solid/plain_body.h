@@ -21,7 +21,7 @@ inline oracle::PlainPose plainPose(const Pose& pose) {
   return result;
 }
 
-/// `links`: of these alone, one per link; empty: of all.
+/// `links`: only these, one per link; empty: all.
 inline oracle::WayBody plainBody(const Avatar& avatar, const std::vector<bool>& links = {}) {
   oracle::WayBody body;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {
@@ -45,7 +45,7 @@ inline double difference(const Pose& one, const Pose& other) {
   return most;
 }
 
-/// Of links that the rules ask about: what the judge must look at.
+/// The pairs of links that the rules ask about: what the judge must look at.
 inline std::vector<std::array<int, 2>> askedPairs(const Avatar& avatar, const PairRules& rules) {
   std::vector<std::array<int, 2>> pairs;
   for (LinkId a = 0; a < avatar.numLinks(); ++a) {

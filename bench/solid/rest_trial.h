@@ -19,7 +19,7 @@ struct RestTally {
   std::vector<double> ticksToRest;  ///< Until nothing moves any more, of the 270.
   std::vector<double> noise;        ///< With a trembling target, 270 ticks: RMS acceleration of all
                                     ///< ends, shown by tracked.
-  std::vector<double> worstEnd;     ///< The same of the end where it is largest.
+  std::vector<double> worstEnd;     ///< The same for the end where it is largest.
   std::uint64_t queries = 0, ticks = 0;  ///< Of those ticks.
   WayTally way;
   void add(const RestTally& other);

@@ -15,7 +15,7 @@ namespace foretouch::tools {
 /// Follows with the avatar handAlone(); the judge looks.
 class SolidHand final : public HandFollower {
  public:
-  /// Errors: as SolidAvatar::build().
+  /// Errors: those of SolidAvatar::build().
   static Result<std::unique_ptr<SolidHand>> build(std::string name, const RawScene& raw,
                                                   const SolidOptions& options);
 

@@ -26,13 +26,13 @@ struct SolidActor {
   std::string name;
   Avatar avatar;
   Clip clip;
-  double lowestM = 0.0;  ///< Of all LSS over the whole clip.
+  double lowestM = 0.0;  ///< The lowest point of all LSS over the whole clip.
 };
 /// The largest side of the rest skeleton (m).
 inline constexpr double kActorHeight = 1.65;
 
 [[nodiscard]] SolidStage stageOf(std::string name, RawScene raw);
-/// Errors name the file. What the file says of its own axes counts before `upZ`.
+/// Errors name the file. What the file says about its own axes counts before `upZ`.
 [[nodiscard]] Result<SolidStage> loadStage(const std::string& name, const std::string& path,
                                            bool isUpZ);
 /// Errors name the file; Empty if it has fewer than two frames or no extent.

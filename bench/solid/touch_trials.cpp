@@ -64,7 +64,7 @@ class AtWall {
 
   SolidAvatar solid_;
   RightArm right_;
-  std::unique_ptr<oracle::Scene> judged_;  // where the judges find it, whoever moves this
+  std::unique_ptr<oracle::Scene> judged_;  // where the judges find it, even if this moves
   std::unique_ptr<WayAudit> audit_;
   std::unique_ptr<oracle::WayJudge> judge_;
   Pose tracked_;

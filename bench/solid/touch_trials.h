@@ -1,5 +1,5 @@
 // bench/solid/touch_trials.h: a hand at a wall: does it slide, does it rest, how does the push
-// change, and who else moves? Lengths in metres.
+// change, and what else moves? Lengths in metres.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +23,12 @@ struct SlideTally {
 /// The figure's right hand is pressed into a wall, 1 mm per tick until it is 10 cm inside, and
 /// back.
 struct PressTally {
-  double mostPush = 0.0;      ///< Of the vector sum of all pushes.
-  double mostJump = 0.0;      ///< Of that sum between two ticks.
-  double mostSlantDeg = 0.0;  ///< Of a push from the wall's normal.
+  double mostPush = 0.0;      ///< Length of the vector sum of all pushes.
+  double mostJump = 0.0;      ///< Change of that sum between two ticks.
+  double mostSlantDeg = 0.0;  ///< Angle of a push to the wall's normal.
   std::uint64_t untrue = 0;   ///< Ticks that are equal and push, or are held away and do not.
   double otherLinks = 0.0;    ///< Deviation of any link beyond the arm at 10 cm.
-  double head = 0.0;          ///< Of the head.
+  double head = 0.0;          ///< Deviation of the head.
   std::uint64_t ticks = 0;
   WayTally way;
 };

@@ -17,7 +17,7 @@ namespace foretouch::tools {
 namespace {
 
 constexpr int kFineWall = 98;
-/// Of so many hands led through a board, one looks for a way around it.
+/// One of so many hands led through a board looks for a way around it.
 constexpr std::uint64_t kTrialsPerAround = 20;
 constexpr std::uint64_t kOtherSeeds = 1'000;
 

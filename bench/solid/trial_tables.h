@@ -12,8 +12,8 @@ namespace foretouch::tools {
 
 struct TrialRequest {
   SolidOptions options;
-  std::uint64_t boardTrials = 10'000;  ///< Of the solid hand, in all.
-  std::uint64_t engineTrials = 200;    ///< Of each other hand and each cell of the board.
+  std::uint64_t boardTrials = 10'000;  ///< For the solid hand, in all.
+  std::uint64_t engineTrials = 200;    ///< For each other hand and each cell of the board.
   int goals = 1000;                    ///< Among clutter.
   std::uint64_t seed = 1;
 };
@@ -25,7 +25,7 @@ struct TrialRequest {
 [[nodiscard]] Result<JudgedTable> pressTable(const TrialRequest& request);
 [[nodiscard]] Result<JudgedTable> fingersTable(const TrialRequest& request);
 
-/// In one scene at one rate; tables of several of them have the same columns.
+/// Figures for one scene at one rate; tables of several of them have the same columns.
 struct SceneRow {
   std::string scene;
   double rateHz = 0.0;

@@ -31,11 +31,11 @@ struct WayTally {
 /// Judges tick by tick. The scene must outlive it.
 class WayAudit {
  public:
-  /// `ownPairs`: of links that must not meet.
+  /// `ownPairs`: links that must not meet.
   WayAudit(const oracle::Scene& scene, const Avatar& avatar,
            const std::vector<std::array<int, 2>>& ownPairs = {});
 
-  /// `name`: of the run, for findings. The next tick is the first.
+  /// `name`: the run's, for findings. The next tick is the first.
   void begin(std::string name);
   void look(const SolidTick& tick);
   [[nodiscard]] const WayTally& tally() const { return tally_; }
@@ -56,7 +56,7 @@ class WayAudit {
   std::string name_;
   std::uint64_t tickOfRun_ = 0;
   oracle::PlainPose shown_;
-  double leastOfTick_ = 0.0;  // of its way (m); infinite beyond kLooksFarM
+  double leastOfTick_ = 0.0;  // on its way (m); infinite beyond kLooksFarM
 };
 
 }  // namespace foretouch::tools

@@ -17,13 +17,13 @@ inline constexpr char kForetouchStrategy[] = "Foretouch";
 [[nodiscard]] bool isForetouch(const TradeRow& row);
 /// Missed nothing, and found nothing late.
 [[nodiscard]] bool isSafe(const TradeRow& row);
-/// Both are of the same scene, clip and rate.
+/// True if both are of the same scene, clip and rate.
 [[nodiscard]] bool isSameRun(const TradeRow& x, const TradeRow& y);
 
 struct TradeDominance {
   /// Safe settings of others, in runs with a contact to find.
   std::int64_t rivals = 0;
-  /// Of them: some setting of Foretouch, also safe, was both quicker and closer to touching.
+  /// Those for which some setting of Foretouch, also safe, was both quicker and closer to touching.
   std::int64_t beaten = 0;
   /// A rival's mean time divided by Foretouch's with the same tolerance in the same run, for the
   /// rivals that promise contacts within the tolerance.

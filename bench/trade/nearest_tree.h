@@ -14,7 +14,7 @@ namespace foretouch::tools {
 
 /// Counted work of a strategy, independent of the machine's load.
 struct TradeWork {
-  std::uint64_t nodes = 0;   ///< Of a tree, or cells of a grid, visited.
+  std::uint64_t nodes = 0;   ///< Nodes of a tree, or cells of a grid, visited.
   std::uint64_t pairs = 0;   ///< Distances of a link's part and a triangle (or a cell) evaluated.
   std::uint64_t states = 0;  ///< Link states evaluated (forward kinematics).
 };

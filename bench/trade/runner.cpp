@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 /// The judge examines only links nearer than this (m).
 constexpr double kNearForJudge = 0.1;
 
-/// Of all steps of all windows, in order.
+/// The truths of all steps of all windows, in order.
 struct Truths {
   std::vector<std::vector<LinkTruth>> link, exact;
   std::map<double, std::vector<std::vector<bool>>> within;  ///< By distance (m).

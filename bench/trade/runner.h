@@ -29,7 +29,7 @@ struct TradeContender {
 struct TradeRun {
   std::string scene, clip;  ///< For the rows.
   double rateHz = 5.0;
-  double stepMs = 200.0;  ///< Of a step.
+  double stepMs = 200.0;  ///< Length of a step.
   std::vector<TradeWindow> windows;
   int passes = 3;  ///< Over every window; each step's least time counts.
   int judged = 0;  ///< Links that the judge examines.

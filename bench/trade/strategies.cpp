@@ -127,7 +127,7 @@ class Subdivision : public LssByLss {
   }
 };
 
-/// From `t` on in steps of clearance over speed.
+/// Advances from `t` on in steps of clearance over speed.
 double advance(LinkSweep& sweep, double t, double until, double tolerance) {
   while (t <= until) {
     const double cap = sweep.speed() * (until - t) + tolerance;

@@ -18,12 +18,12 @@ struct TradeScore {
   std::int64_t steps = 0;
   std::int64_t contacts = 0;  ///< Links that touch after t = 0, beyond doubt.
   std::int64_t starts = 0;
-  std::int64_t missed = 0;     ///< Of contacts and starts: not reported.
+  std::int64_t missed = 0;     ///< Contacts and starts that were not reported.
   std::int64_t falseOnes = 0;  ///< Reported, but never nearer than the tolerance.
   std::int64_t late = 0;       ///< Reported, but beyond doubt after it had touched.
   double lateMaxMs = 0.0;
-  double toiErrorMeanMs = 0.0, toiErrorMaxMs = 0.0;  ///< Of found contacts.
-  /// From touching, at the reported instant, of all reports but starts (m).
+  double toiErrorMeanMs = 0.0, toiErrorMaxMs = 0.0;  ///< For found contacts.
+  /// Distance from touching at the reported instant, for all reports but starts (m).
   double distanceErrorMean = 0.0, distanceErrorMax = 0.0;
 };
 
@@ -51,8 +51,8 @@ struct TradeRow {
   double tolerance = 0.0, rateHz = 0.0;
   TradeScore score;
   Percentiles us;
-  TradeWork work;           ///< Of all steps.
-  bool onFrontier = false;  ///< Of its scene, clip and rate.
+  TradeWork work;           ///< For all steps.
+  bool onFrontier = false;  ///< On that of its scene, clip and rate.
 };
 
 /// Pointers to some of the rows, which must outlive them.
@@ -66,7 +66,7 @@ struct TradeChoice {
   bool isSafe = true;
 };
 /// The choices that nothing beats: safe, and no other safe one is better in one and not worse in
-/// the other. Of equal ones the first. O(n^2).
+/// the other. The first of equal ones. O(n^2).
 [[nodiscard]] std::vector<bool> frontierOf(const std::vector<TradeChoice>& choices);
 
 /// Marks the rows on the frontier of their scene, clip and rate: mean microseconds against the mean

@@ -82,7 +82,7 @@ BenchTable leadTable(const Rows& base, double tolerance, double rateHz) {
   return table;
 }
 
-/// Of several runs of one strategy: counts added, means weighted by steps, the worst of the rest.
+/// Several runs of one strategy: counts added, means weighted by steps, the worst of the rest.
 struct Together {
   TradeScore score;
   double us = 0.0, p99Us = 0.0, toiErrorMs = 0.0, distanceError = 0.0;

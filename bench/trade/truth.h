@@ -15,7 +15,7 @@
 
 namespace foretouch::tools {
 
-/// Of the truth (m). Measured tolerances should not be finer.
+/// The tolerance of the truth (m). Measured tolerances should not be finer.
 inline constexpr double kTruthTolerance = 1e-7;
 
 /// Certain facts about one link in one step.

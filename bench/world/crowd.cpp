@@ -23,7 +23,7 @@ CrowdWindows windowsFor(int count) {
   return windows;
 }
 
-/// Around all LSS of a person at both of a window's poses.
+/// The box around all LSS of a person at both of a window's poses.
 internal::BodyBox boxOf(const Person& person, std::int64_t k) {
   constexpr float kSwell = 0.02F;  // for what lies between them
   const Avatar& avatar = person.clip->actor->avatar;

@@ -28,7 +28,7 @@ struct TouchTime {
 };
 using TouchTimes = std::vector<std::vector<TouchTime>>;  // per pair, by time
 
-/// What is true, and between which instants the promise allows it to be told.
+/// What is true, and between which instants the promise allows it to be reported.
 struct TrueEvent {
   std::size_t pair = 0, touch = 0;
   bool isEnter = true;
@@ -54,7 +54,7 @@ class Truth {
   [[nodiscard]] const TouchTimes& touches() const { return touches_; }
   [[nodiscard]] bool isKnown(std::size_t pair) const { return isKnown_[pair]; }
 
-  /// Of touches that begin and end while anybody looks, in order of time.
+  /// The events of touches that begin and end within the meeting, in order of time.
   [[nodiscard]] std::vector<TrueEvent> events() const {
     std::vector<TrueEvent> events;
     for (std::size_t i = 0; i < touches_.size(); ++i) {
@@ -184,7 +184,7 @@ struct EventTally {
   }
 
  private:
-  /// The nearest that overlaps it, or nearly so; null: none.
+  /// The first that overlaps it, or nearly so; null: none.
   static const TouchTime* nearTo(const TouchTime& touch, const std::vector<TouchTime>& others,
                                  double slackUs) {
     for (const TouchTime& other : others) {
@@ -198,7 +198,7 @@ struct EventTally {
     return two.gapAt(pair, 0, stretch.from) <= kBenchWorldTolerance * (1.0 + 1e-9);
   }
 
-  /// When an event is told; not finite: not told.
+  /// When an event is reported; not finite: it is not.
   static double toldAt(const TrueEvent& event, const Truth& truth, const TouchTimes& seen,
                        double slackUs) {
     const TouchTime* const found =
@@ -207,7 +207,7 @@ struct EventTally {
     return event.isEnter ? found->from : found->to;
   }
 
-  /// Of neighbours in time whose order the tolerance leaves no doubt about.
+  /// Adds neighbours in time whose order the tolerance leaves no doubt about.
   void addOrder(const Truth& truth, const TouchTimes& seen, double slackUs) {
     const std::vector<TrueEvent> events = truth.events();
     for (std::size_t i = 0; i < events.size(); ++i) {
@@ -227,7 +227,7 @@ struct EventTally {
   }
 };
 
-/// A world that is asked, and one that is followed, of the same people.
+/// What a world that is asked, and one that is followed, cost for the same people.
 struct CrowdCost {
   double askUs = 0.0, followUs = 0.0;
   EventCounters counters;

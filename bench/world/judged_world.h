@@ -12,7 +12,7 @@
 
 namespace foretouch::tools {
 
-/// There from its first pose on, carried by nobody.
+/// A body that is there from its first pose on, without a carrier.
 inline oracle::OracleBody judgedBody(const Avatar& avatar) {
   oracle::OracleBody body;
   for (LinkId link = 0; link < avatar.numLinks(); ++link) {

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of two segments, in doubles [Ericson05] 5.1.9.
+/// The distance of two segments, in doubles [Ericson05] 5.1.9.
 double segmentDistance(const Vector3d& p1, const Vector3d& q1, const Vector3d& p2,
                        const Vector3d& q2) {
   const Vector3d d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;

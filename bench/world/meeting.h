@@ -1,4 +1,4 @@
-// bench/world/meeting.h: two people, of whom one is tracked 30 times per second and the other one
+// bench/world/meeting.h: two people, one of them tracked 30 times per second and the other one
 // 90 times, walk through each other: for the judge, and for a game that looks at the newest
 // samples.
 #pragma once
@@ -39,7 +39,7 @@ class Meeting {
   [[nodiscard]] const MetWalker& one() const { return one_; }
   [[nodiscard]] const MetWalker& other() const { return other_; }
   [[nodiscard]] const oracle::OracleWorld& judge() const { return judge_; }
-  /// Of a link of the one and of the other: row after row.
+  /// The pairs of a link of the one and a link of the other, row after row.
   [[nodiscard]] std::size_t pairs() const {
     return countOf(one_.avatar().numLinks()) * linksOfOther();
   }
@@ -61,7 +61,7 @@ class Meeting {
   oracle::OracleWorld judge_;
 };
 
-/// The n-th of them; the other one's clock begins within a sample of the one's. For so long.
+/// The n-th of the meetings; the other's clock begins within a sample of the one's. For so long.
 [[nodiscard]] Meeting meetingOf(const std::vector<ClipPoses>& slow,
                                 const std::vector<ClipPoses>& quick, int n, std::int64_t untilUs);
 

@@ -8,7 +8,7 @@
 
 namespace foretouch::tools {
 
-/// A violation is a contact that a world missed or told too late.
+/// A violation is a contact that a world missed or reported too late.
 /// Beside FCL and Bullet where they are built in.
 [[nodiscard]] JudgedTable pairsTable(PairKind kind, int pairs, std::uint64_t seed);
 

@@ -10,7 +10,7 @@ namespace foretouch::tools {
 namespace {
 
 constexpr double kMostSeconds = 8.0;
-/// So that neighbours neither face the same way nor move together.
+/// With these, neighbours neither face the same way nor move together.
 constexpr double kGoldenTurnDeg = 137.508;
 constexpr std::size_t kPhaseStep = 37;
 

@@ -1,5 +1,5 @@
-// bench/world/people.h: who moves in the worlds that are measured: people who go through a clip
-// there and back, for as long as anybody looks. Metres, microseconds.
+// bench/world/people.h: the people who move in the worlds that are measured: they go through a clip
+// there and back, for as long as the measurement takes. Metres, microseconds.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct Person {
   [[nodiscard]] std::int64_t instant(std::int64_t k) const { return offsetUs + clip->periodUs * k; }
 };
 
-/// On a square grid of this spacing, each with a clip, a phase and a direction of his own: the same
+/// People on a square grid of this spacing, each with a clip, a phase and a direction: the same
 /// for the same arguments.
 [[nodiscard]] std::vector<Person> crowdOf(const std::vector<ClipPoses>& clips, int count,
                                           double spacing);

@@ -45,13 +45,13 @@ using PropAt = std::function<foretouch::RigidPose(double s)>;
 struct Stretch {
   Person person;
   double rateHz = 30.0, seconds = kThrowSeconds;
-  PropAt at;            ///< Not for one that is held.
+  PropAt at;            ///< Not for a prop that is held.
   bool isHeld = false;  ///< In the right hand, or in the last link.
   bool hasProp = true;
 };
 
 /// A person and, with it, the prop, again and again in one world, so that what is made once for the
-/// two is there. Long gaps lie between two stretches, of which nothing is asked.
+/// two is there. Long gaps lie between two stretches, and nothing is asked about them.
 class PropStage {
  public:
   PropStage(const Stretch& first, const Scene& prop)
@@ -122,7 +122,7 @@ PropFigures figuresOf(const std::vector<ClipPoses>& clips, double rateHz, const 
   return figures;
 }
 
-/// From one side through the chest to the other, turning.
+/// Throws the prop from one side through the chest to the other, turning.
 void throwIt(int number, Stretch& stretch) {
   PortableRandom random(static_cast<std::uint64_t>(number));
   const double turn = random.uniform(0.0, 6.28), high = random.uniform(0.8, 1.4);

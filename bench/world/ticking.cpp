@@ -24,7 +24,7 @@ struct FirstSeen {
 /// Per link of the one and of the other, row after row.
 using SeenPairs = std::vector<FirstSeen>;
 
-/// A meeting, and a world that is told of it.
+/// A meeting, and a world that gets its poses.
 class SeenMeeting {
  public:
   explicit SeenMeeting(Meeting two) : two_(std::move(two)) {
@@ -37,7 +37,7 @@ class SeenMeeting {
   }
   [[nodiscard]] const Meeting& two() const { return two_; }
 
-  /// Nothing in a pair that touches where the window begins, or that the judge gives up.
+  /// Leaves out a pair that touches where the window begins, or that the judge gives up.
   [[nodiscard]] std::vector<bool> truth(std::int64_t fromUs, SeenPairs& seen) const {
     const std::int64_t toUs = fromUs + kTickingWindowUs;
     const std::vector<bool> may = two_.judge().mayTouch(0, 1, fromUs, toUs);

@@ -1,5 +1,5 @@
 // bench/world/ticking.h: what a game sees that looks 90 times per second at the newest sample of
-// each body, beside a world, and beside the truth: two people, of whom one is tracked 30 times per
+// each body, beside a world, and beside the truth: two people, one of them tracked 30 times per
 // second and the other one 90 times, walk through each other.
 #pragma once
 

@@ -13,8 +13,8 @@ namespace foretouch::tools {
 
 /// Microseconds of the thread's processor time, one per window.
 struct WindowFigures {
-  std::vector<double> pushUs, answerUs;  ///< Of all poses; of the answer.
-  WorldCounters sum;                     ///< Of all windows, as the next four.
+  std::vector<double> pushUs, answerUs;  ///< For all poses; for the answer.
+  WorldCounters sum;                     ///< For all windows, like the next four.
   std::uint64_t contacts = 0, starts = 0, undecided = 0;
 
   [[nodiscard]] std::uint64_t windows() const { return answerUs.size(); }
@@ -31,9 +31,9 @@ class TimedWorld {
   [[nodiscard]] World& world() { return world_; }
   [[nodiscard]] const WorldContacts& answer() const { return answer_; }
 
-  /// Adds a person; `rules`: own links as well, where he has pairs of them.
+  /// Adds a person; `asksSelf`: own links, too, if he has pairs of them.
   [[nodiscard]] BodyId add(const Person& person, bool asksSelf, BodyGroup group = 0);
-  /// As the options say.
+  /// Adds a person as the options say.
   [[nodiscard]] BodyId add(const Person& person, const BodyOptions& options);
   /// A pose whose time counts for the window that is asked next.
   void push(BodyId body, std::int64_t utimeUs, const Pose& pose);
@@ -57,7 +57,7 @@ struct CrowdWindows {
   int warm = 10;  ///< Windows before those that count.
   int counted = 60;
 };
-/// All of them from their first poses on, window after window; bodies 0, 1, ... of the world.
+/// Runs all of them from their first poses on, window after window; bodies 0, 1, ... of the world.
 void runCrowd(const std::vector<Person>& people, const CrowdWindows& windows, TimedWorld& world);
 
 }  // namespace foretouch::tools

@@ -1,7 +1,7 @@
-// A head and two controllers, as OpenXR tells of them: the player stands on a lift that rises,
+// A head and two controllers, as OpenXR reports them: the player stands on a lift that rises,
 // leans with one hand on its rail, catches a ball with the other, and a sliding door pushes that
-// hand. Prints what the hands meet and leave; with an argument, each place on every shown way as
-// well.
+// hand. Prints what the hands meet and leave; with an argument, also each place on every shown
+// way.
 #include <array>
 #include <cmath>
 #include <cstdint>

@@ -57,8 +57,8 @@ void writeObj(const RawScene& scene, const std::string& path) {
   if (!out.flush()) std::cerr << path << ": cannot be written\n";
 }
 
-/// What every joint of the robot does on the path, at 30 rows a second and at most 0.05 rad or m a
-/// row, those that follow others included: what `--motion plan.csv --robot ROBOT` takes.
+/// What every joint of the robot does on the path, at 30 rows per second and at most 0.05 rad or m
+/// per row, those that follow others included: what `--motion plan.csv --robot ROBOT` takes.
 void writeCsv(const Robot& robot, const std::vector<double>& path, const std::string& name) {
   const std::size_t n = robot.numCoordinates();
   std::ofstream out(name);

@@ -23,7 +23,7 @@ constexpr NumberRange kDirections{-1e300, 1e300, "", "", true};
 constexpr NumberRange kRadii{0.0, kMaxCoordinate, "metres", "m", true};
 constexpr NumberRange kHalfExtents{0.0, kMaxCoordinate, "metres", "m", true};
 constexpr NumberRange kTurns{-1.0, 1.0, "", "", true};
-/// How far from 1 the length of a quaternion may be that somebody typed in.
+/// How far from 1 the length of a typed quaternion may be.
 constexpr double kTurnError = 1e-3;
 constexpr NumberRange kReaches{0.0, kMostAskReach, "metres", "m"};
 
@@ -122,7 +122,7 @@ Result<AskInstant> instantOf(const LoadedWorld& world, const std::string& text) 
   return AskInstant{body, {inMicroseconds(seconds), 0.0}};
 }
 
-/// Triggers touch nobody.
+/// Triggers touch nothing.
 void leaveOutTriggers(const LoadedWorld& world, WorldQuestion& question) {
   for (std::size_t body = world.numBodies(); body < world.bodies.size(); ++body) {
     question.without.push_back({static_cast<BodyId>(body)});

@@ -34,8 +34,8 @@ struct AvatarAudit {
   std::vector<std::string> linksWithoutLss;
   Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< Sides of the box around all LSS.
   double smallestRadius = 0.0, largestRadius = 0.0;
-  double volume = 0.0;            ///< Of all LSS, overlaps counted as often as they occur.
-  std::optional<double> stature;  ///< Of a person, by the legs; nothing for everything else.
+  double volume = 0.0;            ///< The volume of all LSS; overlaps count as often as they occur.
+  std::optional<double> stature;  ///< A person's, by the legs; nothing for everything else.
 };
 
 /// Measured in `pose`, a validated pose of the avatar's skeleton. An avatar with a statureOf() is a
@@ -56,7 +56,7 @@ struct AvatarAudit {
 /// One aligned line of an audit.
 [[nodiscard]] std::string auditRow(const char* what, const std::string& value);
 
-/// A line of what the file says of its own unit and axis; empty if it says nothing.
+/// What the file says about its own unit and axis, as one line; empty if it says nothing.
 [[nodiscard]] std::string rowOf(const FileFrame& frame);
 
 /// The ten objects with the most triangles, aligned, the largest first.

@@ -10,11 +10,11 @@ namespace foretouch::tools {
 
 /// The file of the links' triangles: beside the avatar file, under its name.
 [[nodiscard]] std::string meshPathOf(const std::string& avatarPath);
-/// As the avatar file names it: ModelAvatarOptions::meshFile.
+/// The same file as the avatar file names it: ModelAvatarOptions::meshFile.
 [[nodiscard]] std::string meshFileOf(const std::string& avatarPath);
 
-/// The mesh first: an avatar file never refers to a missing one. Made with
-/// ModelAvatarOptions::meshFile of the same path.
+/// Writes the mesh first, so that an avatar file never refers to a missing one. `made` was made
+/// with ModelAvatarOptions::meshFile of the same path.
 [[nodiscard]] Result<Done> writeModelAvatar(const ModelAvatar& made, const std::string& avatarPath);
 
 }  // namespace foretouch::tools

@@ -69,12 +69,12 @@ Result<Avatar> readAvatar(const AskedPairs& asked) {
   return inFile(avatarFromClip(clip, asked.making), asked.source);
 }
 
-/// A robot says by its limits which poses it takes: unless clips do.
+/// A robot's limits say which poses it takes, unless clips do.
 bool isSampled(const AskedPairs& asked) {
   return asked.clips.empty() && !asked.reading.robotPath.empty();
 }
 
-/// Of all clips; of the robot, or of the clip that the avatar is made of, if none is given.
+/// The poses of all clips; if none is given, of the robot or of the clip that makes the avatar.
 Result<std::vector<Pose>> usualPoses(const AskedPairs& asked, const Avatar& avatar) {
   std::vector<std::string> clips = asked.clips;
   if (clips.empty() && isBvh(asked.source)) clips.push_back(asked.source);
@@ -192,7 +192,7 @@ std::string pairsJson(const AskedPairs& asked, const Avatar& avatar, const PairR
   return text + "\n";
 }
 
-/// Where the rules themselves take standard output, what is said of them goes to stderr.
+/// Where the rules themselves take standard output, the report on them goes to stderr.
 void tellOfPairs(const AskedPairs& asked, const Avatar& avatar, const PairRules& rules,
                  std::size_t poses) {
   const std::string text =

@@ -16,9 +16,9 @@ struct SurfaceAudit {
   std::size_t outside = 0;                 ///< Triangles that stick out of every LSS of their link.
   double worstOutside = 0.0;               ///< How far the worst sticks out.
   std::string worstLink;                   ///< Its link; empty if none does.
-  double lssVolume = 0.0;                  ///< Of the LSS that contain triangles.
-  double hullVolume = 0.0;                 ///< Of the hulls of their triangles (lss/hull_volume.h).
-  std::vector<std::string> ofOneTriangle;  ///< Links: most likely a mistake.
+  double lssVolume = 0.0;                  ///< The volume of the LSS that contain triangles.
+  double hullVolume = 0.0;                 ///< Hull volume of these triangles (lss/hull_volume.h).
+  std::vector<std::string> ofOneTriangle;  ///< Links with a single triangle: most likely a mistake.
   std::vector<std::string> withoutLss;     ///< Links with triangles but without LSS.
 };
 

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Errors are lines for people: of a thousand, they read the first.
+/// Errors are lines for people: of a thousand, people read the first ones.
 constexpr std::size_t kMostErrorsTold = 20;
 
 /// A replay says what the system says.
@@ -86,7 +86,7 @@ class BatchRun {
   const std::string& scratch_;
   const std::function<bool()>& stop_;
   FileMarks marks_;
-  std::mutex mutex_;  // of all below
+  std::mutex mutex_;  // for all below
   std::size_t next_;
   std::set<std::string> begun_;
   std::optional<Error> error_;
@@ -150,7 +150,7 @@ ChildPlan BatchRun::childFor(const BatchJob& job, const std::string& name) const
   return child;
 }
 
-/// Another worker may have done it meanwhile.
+/// Another worker may have done the job meanwhile.
 JobEnd BatchRun::put(const JobRecord& record, JobEnd end, const std::vector<const char*>& endings) {
   const auto put = folder_.put(record, scratch_, endings);
   if (put.ok()) return put.value() ? end : JobEnd::Kept;

@@ -12,34 +12,34 @@
 
 namespace foretouch::tools {
 
-/// Of n workers, the i-th, from 1: jobs i, i + n, i + 2 n...
+/// The jobs of the i-th of n workers, counted from 1: jobs i, i + n, i + 2 n...
 struct BatchShard {
   std::size_t index = 1, count = 1;
 };
 
 struct BatchPlan {
-  std::string program;  ///< Does the jobs.
-  std::string version;  ///< Its own (versionOf()).
+  std::string program;  ///< The program that does the jobs.
+  std::string version;  ///< The program's version (versionOf()).
   std::string results;  ///< A folder that exists; absolute.
   BatchShard shard;
-  int threads = 1;          ///< Jobs at a time, each of one thread.
+  int threads = 1;          ///< Jobs at a time; each runs one thread.
   double jobSeconds = 0.0;  ///< A job that takes longer fails; 0: none does.
   bool makesReports = false;
 };
 
 struct BatchTally {
-  std::size_t jobs = 0;      ///< Of the shard.
-  std::size_t done = 0;      ///< By this run.
-  std::size_t kept = 0;      ///< Had been done before.
-  std::size_t repeated = 0;  ///< The same as another one.
+  std::size_t jobs = 0;      ///< Jobs of the shard.
+  std::size_t done = 0;      ///< Done by this run.
+  std::size_t kept = 0;      ///< Done before this run.
+  std::size_t repeated = 0;  ///< The same as another job.
   std::size_t failed = 0;
   std::size_t left = 0;  ///< Not begun: the run was stopped.
 };
 
-/// What the program says of itself. Errors: it does not start, or says nothing.
+/// The version that the program reports. Errors: it does not start, or says nothing.
 [[nodiscard]] Result<std::string> versionOf(const std::string& program);
 
-/// Tells of each job that fails, as an error on stderr. `stop`: asked often; true ends the run
+/// Reports each job that fails as an error on stderr. `stop`: asked often; true ends the run
 /// early. Errors: a result that cannot be written, which ends the run.
 [[nodiscard]] Result<BatchTally> runBatch(const BatchManifest& manifest, const BatchPlan& plan,
                                           const std::function<bool()>& stop);

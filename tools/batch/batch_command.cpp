@@ -109,7 +109,7 @@ Settings batchSettings(AskedBatch& asked) {
   return settings;
 }
 
-/// How whoever merges sees the folder from where the report will be.
+/// The path of the folder from where the report will be, as its reader sees it.
 std::string folderSeenFrom(const std::string& report, const std::string& results) {
   std::error_code unknown;
   const fs::path from = fs::absolute(report, unknown).parent_path();
@@ -174,7 +174,7 @@ ExitCode list(const BatchManifest& manifest, const BatchPlan& plan) {
 
 ExitCode doJobs(const AskedBatch& asked, const BatchManifest& manifest, const BatchPlan& plan) {
   const InterruptGuard guard;  // built first, destroyed last: workers end before the signal
-  // Whoever started us may ignore the ends of its children, which we would inherit: ours count.
+  // Our parent may ignore the ends of its children, which we would inherit: ours count.
   std::signal(SIGCHLD, SIG_DFL);
   FORETOUCH_TRY_OR(failed, const auto tally,
                    runBatch(manifest, plan, [&] { return guard.requested(); }));

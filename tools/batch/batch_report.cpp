@@ -27,7 +27,7 @@ tr.failed td {{ background: #4a2020; }} tr.absent td {{ background: #26292f; }} 
 <p>{1} jobs: {2} done, {3} failed, {4} not done.</p>
 )";
 
-/// On one line.
+/// The text on one line.
 std::string forPage(std::string_view text) {
   std::string safe = inHtml(text);
   std::replace_if(
@@ -57,7 +57,7 @@ auto rankOf(const BatchRow& row, BatchKind kind) {
 /// A column of numbers: what it is called, and where it is in the summary.
 struct Column {
   const char *title, *key;
-  double factor = 1.0;  ///< Other than 1: metres, told in millimetres.
+  double factor = 1.0;  ///< Other than 1: metres, shown in millimetres.
 };
 
 const std::vector<Column>& columnsOf(BatchKind kind) {

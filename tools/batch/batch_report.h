@@ -14,7 +14,7 @@ struct BatchReportPlaces {
 
 /// A page that needs no script, no network and no other file; it links to the results, and to the
 /// reports of single jobs where they have been made. First what failed, then by touches, by the
-/// share of steps with contact, and by number; of feet by the greatest slide or depth. Pure.
+/// share of steps with contact, and by number; feet by the greatest slide or depth. Pure.
 [[nodiscard]] std::string batchReport(const BatchTable& table, const BatchReportPlaces& places,
                                       BatchKind kind = BatchKind::Replays);
 

@@ -1,5 +1,5 @@
 // tools/batch/batch_table.h: the results of all jobs in one table, in the manifest's order. Pure:
-// the same results give the same bytes, in whatever order and by whomever they came about.
+// the same results give the same bytes, in whatever order and whichever worker made them.
 #pragma once
 
 #include <cstddef>
@@ -19,15 +19,15 @@ struct BatchRow {
   std::size_t number = 0;  ///< From 1, in the manifest's order.
   const BatchJob* job = nullptr;
   std::string name;
-  std::optional<JobRecord> record;  ///< Nothing: not done yet.
+  std::optional<JobRecord> record;  ///< Nothing: the job is not done yet.
   bool hasReport = false;
-  /// The summary's numbers and words by name, "rigid.late" for one of an object.
+  /// The summary's numbers and words by name; "rigid.late" is a value inside an object.
   std::vector<std::pair<std::string, std::string>> values;
 
   [[nodiscard]] const char* state() const;
-  /// The value as text; empty: there is none.
+  /// The value as text; empty if there is none.
   [[nodiscard]] std::string_view value(std::string_view name) const;
-  /// The same as a number; 0: there is none.
+  /// The same as a number; 0 if there is none.
   [[nodiscard]] double numberOf(std::string_view name) const;
 };
 
@@ -36,13 +36,13 @@ struct BatchTable {
   std::size_t done = 0, failed = 0, absent = 0;
 };
 
-/// Reads the records of all jobs. `version`: of the program whose results they are.
+/// Reads the records of all jobs. `version`: that of the program whose results they are.
 [[nodiscard]] BatchTable gatherBatch(const BatchManifest& manifest, const std::string& version,
                                      const ResultFolder& folder);
 
-/// As RFC 4180 has it, with a first line of names.
+/// The table as RFC 4180 has it, with a first line of names.
 [[nodiscard]] std::string csvOf(const BatchTable& table);
-/// A line of JSON per job.
+/// The table as a line of JSON per job.
 [[nodiscard]] std::string jsonLinesOf(const BatchTable& table);
 
 }  // namespace foretouch::tools

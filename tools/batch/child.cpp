@@ -47,7 +47,7 @@ class ChildPipe {
   bool isOpen_;
 };
 
-/// Made before vfork(): behind it only calls of the system, as the memory is shared until exec.
+/// Made before vfork(): after it come only calls of the system, as the memory is shared until exec.
 struct Prepared {
   const char* program;
   char* const* words;
@@ -157,7 +157,7 @@ std::string whyFailed(const ChildEnd& end, double seconds) {
   constexpr std::string_view kLead = "foretouch: ";
   std::string said = end.err;
   while (!said.empty() && said.back() == '\n') said.pop_back();
-  said = said.substr(said.rfind('\n') + 1);  // of all: of one line
+  said = said.substr(said.rfind('\n') + 1);  // the last line of all
   if (said.rfind(kLead, 0) == 0) said.erase(0, kLead.size());
   return said.empty() ? fmt::format("ended with exit code {}", end.code) : said;
 }

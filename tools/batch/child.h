@@ -1,4 +1,4 @@
-// tools/batch/child.h: one replay as a process of its own, so that its end is nobody else's.
+// tools/batch/child.h: runs one replay as its own process, so that its end ends nothing else.
 #pragma once
 
 #include <functional>
@@ -9,15 +9,15 @@ namespace foretouch::tools {
 
 struct ChildPlan {
   std::string program;
-  std::vector<std::string> words;  ///< Behind the program's name.
-  std::string folder;              ///< In which it runs.
-  double seconds = 0.0;            ///< Killed when they are over; 0: never.
+  std::vector<std::string> words;  ///< The words behind the program's name.
+  std::string folder;              ///< The folder in which it runs.
+  double seconds = 0.0;            ///< It is killed after so long; 0: never.
 };
 
 struct ChildEnd {
   bool isStopped = false;  ///< Killed because `stop` said so.
   bool isLate = false;     ///< Killed because its time was over.
-  int signal = 0;          ///< That ended it, otherwise; 0: none.
+  int signal = 0;          ///< The signal that ended it otherwise; 0: none.
   int code = -1;           ///< Its exit code; -1: none.
   std::string failure;     ///< Why it could not be started; empty: it was.
   std::string out, err;    ///< The ends of what it wrote, at most 16 MiB and 4 KiB.
@@ -29,7 +29,7 @@ struct ChildEnd {
 /// thread that called. May be called from several threads.
 [[nodiscard]] ChildEnd runChild(const ChildPlan& plan, const std::function<bool()>& stop);
 
-/// Why it is not done, in one line: what it said itself if it said something.
+/// Why the process failed, in one line: what it said itself if it said something.
 [[nodiscard]] std::string whyFailed(const ChildEnd& end, double seconds);
 
 }  // namespace foretouch::tools

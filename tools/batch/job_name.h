@@ -11,15 +11,15 @@
 
 namespace foretouch::tools {
 
-/// Files and what is in them; reads each once, however many jobs name it, and again where it has
-/// changed since. May be used from several threads.
+/// The marks of files, by their content; reads each file once, however many jobs name it, and
+/// again if it has changed since. May be used from several threads.
 class FileMarks {
  public:
-  /// `folder`: to which paths are relative.
+  /// `folder`: the folder to which paths are relative.
   explicit FileMarks(std::string folder) : folder_(std::move(folder)) {}
 
-  /// Of the file and of all files that it names (namesIn()), and those that these name. A file that
-  /// is not there has a mark, too.
+  /// The mark of the file, all files that it names (namesIn()), and those that these name. A file
+  /// that is not there has a mark, too.
   [[nodiscard]] std::string of(const std::string& path);
 
  private:
@@ -31,7 +31,7 @@ class FileMarks {
   struct Known {
     Stamp stamp;
     std::string mark;
-    std::vector<std::string> names;  ///< Of files that it names, absolute or relative to ours.
+    std::vector<std::string> names;  ///< Files that it names, absolute or relative to our folder.
   };
 
   [[nodiscard]] static Stamp stampOf(const std::string& path);
@@ -45,13 +45,13 @@ class FileMarks {
 };
 
 /// Texts in double quotes that are names of files beside a file: the buffers of a glTF, the meshes
-/// of an avatar or a URDF. Without the file's own folder, as the text has them; "package://name/"
+/// of an avatar or a URDF. As the text has them, without the file's own folder; "package://name/"
 /// left out.
 [[nodiscard]] std::vector<std::string> namesIn(const std::string& text);
 
-/// Thirty-two hexadecimal digits: of the program's version, of the options that are not as by
-/// default, and of the files' names (without folders) and contents. Not of the manifest, of where
-/// the files lie, or of how the job runs.
+/// Thirty-two hexadecimal digits: a hash of the program's version, the options that differ from
+/// their defaults, and the files' names (without folders) and contents. It does not depend on the
+/// manifest, on where the files lie, or on how the job runs.
 [[nodiscard]] std::string jobName(const BatchJob& job, const std::string& version,
                                   FileMarks& marks);
 

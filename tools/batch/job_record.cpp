@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 constexpr char kCheck[] = ",\"check\":\"";
 constexpr std::size_t kMostRecordBytes = std::size_t{16} << 20;
 
-/// One worker's turn in a folder, from here to its end; without a wait where there are no locks.
+/// One worker's turn in a folder, until it is destroyed; it does not wait if there are no locks.
 class Turn {
  public:
   explicit Turn(const fs::path& folder)

@@ -14,23 +14,23 @@ namespace foretouch::tools {
 struct JobRecord {
   std::string name;
   bool isDone = false;
-  std::string error;    ///< Of one that failed.
-  std::string mark;     ///< Of the file of its results (file_mark.h).
+  std::string error;    ///< Why the job failed, if it did.
+  std::string mark;     ///< The mark of the file of its results (file_mark.h).
   std::string summary;  ///< A JSON object: the replay's, without what no second run would repeat.
 };
 
-/// The replay's summary (its --json) without its paths, latencies and threads. Nothing if it is no
-/// JSON object.
+/// The replay's summary (its --json) without its paths, latencies and threads. Nothing if it is
+/// not a JSON object.
 [[nodiscard]] std::optional<std::string> lastingSummary(std::string_view line);
 
 [[nodiscard]] std::string recordLine(const JobRecord& record);
-/// Nothing unless every byte is as recordLine() wrote it, and it is about this job.
+/// Nothing unless every byte is as recordLine() wrote it and the record is about this job.
 [[nodiscard]] std::optional<JobRecord> parseRecord(std::string_view line, const std::string& name);
 
 /// Where the results of all jobs are.
 class ResultFolder {
  public:
-  /// `ending`: of the files with the results.
+  /// `ending`: that of the files with the results.
   explicit ResultFolder(std::string path, const char* ending = ".jsonl")
       : path_(std::move(path)), ending_(ending) {}
 
@@ -41,15 +41,15 @@ class ResultFolder {
     return path_ + "/" + placeOf(name, ending);
   }
 
-  /// The record, if it is whole and the results are those that it tells of, byte for byte; of a job
-  /// that failed, it alone. Of records of before there were marks, nothing: such a job is done
-  /// again.
+  /// The record, if it is whole and the results are byte for byte those that it names; a failed
+  /// job needs only the record. Records from before there were marks give nothing: such a job is
+  /// done again.
   [[nodiscard]] std::optional<JobRecord> find(const std::string& name) const;
-  /// Results with these endings, then the record that tells of them, from `scratch`, a folder on
-  /// the same file system; the record alone of a job that failed. Each is there whole, or as it was
+  /// Moves results with these endings, then the record that names them, out of `scratch`, a folder
+  /// on the same file system; for a failed job only the record. Each is there whole, or as it was
   /// before. False, and nothing moved, if another worker has done the job meanwhile. Workers on one
-  /// job take turns, so that no record tells of another's results; where the file system has no
-  /// locks, they may, and find() then says that the job is to be done again.
+  /// job take turns, so that no record names another's results; where the file system has no
+  /// locks, that can happen, and find() then says that the job is to be done again.
   [[nodiscard]] Result<bool> put(const JobRecord& record, const std::string& scratch,
                                  const std::vector<const char*>& endings = {}) const;
 

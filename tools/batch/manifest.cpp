@@ -16,7 +16,7 @@ namespace {
 
 constexpr char kBatchFormat[] = "foretouch-batch";
 constexpr char kBatchVersion[] = "1";
-/// What the batch itself says to each job, or takes the place of.
+/// The options that the batch itself gives to each job, or replaces.
 constexpr const char* kOfBatch[] = {"--output", "--report",        "--json",  "--glb",
                                     "--bvh",    "--glb-triangles", "--quiet", "--labels",
                                     "--plot",   "--threads"};
@@ -150,7 +150,7 @@ Result<Done> ManifestReading::take(const Known& option, std::vector<std::string>
   return Done{};
 }
 
-/// A file of this name is no pattern.
+/// A file of this name is not a pattern.
 Result<std::vector<std::string>> ManifestReading::pathsFor(const std::string& option,
                                                            const std::string& text) {
   std::error_code absent;

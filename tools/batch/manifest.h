@@ -1,5 +1,5 @@
 // tools/batch/manifest.h: many replays as a text says them, format "foretouch-batch" version 1
-// (docs/fleets.md). A job's words are those of `foretouch replay`. Nothing of it is loaded.
+// (docs/fleets.md). A job's words are those of `foretouch replay`. No file of a job is loaded.
 #pragma once
 
 #include <cstddef>
@@ -22,24 +22,24 @@ inline constexpr std::size_t kMaxBatchJobs = 1'000'000;
 enum class BatchKind : std::uint8_t { Replays, Feet };
 /// "replay", "feet".
 [[nodiscard]] const char* commandOf(BatchKind kind);
-/// Of the file with a job's results: ".jsonl", ".csv".
+/// The ending of the file with a job's results: ".jsonl", ".csv".
 [[nodiscard]] const char* endingOf(BatchKind kind);
 
 /// An option of that command with its value, legal by itself.
 struct JobOption {
   std::string name;                ///< "--scene"
   std::vector<std::string> texts;  ///< None for a flag; several for an option that is a list.
-  std::string value;               ///< In the form in which any way to write it is the same text.
+  std::string value;               ///< One spelling for all ways to write the same value.
   bool isFile = false;             ///< Each text is the path of a file that the job reads.
-  bool isDefault = false;          ///< As if it were not given.
+  bool isDefault = false;          ///< The job is as if it were not given.
 };
 
 /// One replay. Options are shared among the jobs that have them, in the order of replay's help.
 struct BatchJob {
-  std::int64_t line = -1;  ///< Of the manifest.
+  std::int64_t line = -1;  ///< Its line in the manifest.
   std::vector<std::shared_ptr<const JobOption>> options;
 
-  /// Nothing: not given.
+  /// Nothing if the option is not given.
   [[nodiscard]] const JobOption* find(std::string_view name) const;
   /// The command line, without the program's and the command's name.
   [[nodiscard]] std::vector<std::string> words() const;
@@ -47,13 +47,13 @@ struct BatchJob {
 
 struct BatchManifest {
   std::string path;
-  std::string folder;  ///< Its own, to which its paths are relative; never empty.
+  std::string folder;  ///< The manifest's folder, to which its paths are relative; never empty.
   std::vector<BatchJob> jobs;
   BatchKind kind = BatchKind::Replays;
 };
 
-/// `settings`: of the command that the jobs are of, whose values change. Expands patterns of files
-/// and lists, so it looks into folders; files that are named need not exist. Errors name the line.
+/// `settings`: those of the jobs' command; their values change. Expands patterns of files and
+/// lists, so it looks into folders; files that are named need not exist. Errors name the line.
 [[nodiscard]] Result<BatchManifest> parseManifest(std::string_view text, const std::string& path,
                                                   Settings& settings,
                                                   BatchKind kind = BatchKind::Replays);

@@ -35,7 +35,7 @@ Result<std::string> nextWord(std::string_view line, std::size_t& at) {
                    std::string("expected a second ") + quote + " before the line's end");
 }
 
-/// So that the folder's own name is no pattern.
+/// Escapes the folder's own name, so that it is not a pattern.
 std::string escaped(const std::string& path) {
   std::string text;
   for (const char c : path) {

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr char kScratchLead[] = ".work-";
 constexpr char kLockName[] = "/lock";
 
-/// False if somebody else holds it, or the folder is gone.
+/// False if another worker holds it, or the folder is gone.
 bool isLocked(int lock, const std::string& path) {
   struct stat held {
   }, there{};
@@ -26,7 +26,7 @@ bool isLocked(int lock, const std::string& path) {
          ::stat(path.c_str(), &there) == 0 && held.st_ino == there.st_ino;
 }
 
-/// Of workers that are no more. Where the file system has no locks, they stay.
+/// Removes the folders of workers that are gone. Where the file system has no locks, they stay.
 void removeLeftovers(const std::string& results) {
   std::error_code failure;
   for (fs::directory_iterator entry(results, failure), end; !failure && entry != end;

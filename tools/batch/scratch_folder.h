@@ -7,8 +7,8 @@
 
 namespace foretouch::tools {
 
-/// A folder that only this worker uses, inside that of the results; gone at its end. That of a
-/// worker that was killed is removed by the next one: its lock is free, as the kernel gave it back.
+/// A folder that only this worker uses, inside the folder of results; its destructor removes it. If
+/// a worker was killed, the next one removes its folder: the kernel has freed the lock.
 class ScratchFolder {
  public:
   static Result<ScratchFolder> create(const std::string& results);

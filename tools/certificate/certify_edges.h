@@ -11,14 +11,14 @@
 namespace foretouch::tools {
 
 struct AskedEdges {
-  std::string path;  ///< Empty: none are asked.
+  std::string path;  ///< Empty if no edges are asked.
   double clearance = 0.0;
 };
 
-/// --edges and what it alone takes.
+/// --edges, and the options that only it takes.
 void addEdgeSettings(Settings& settings, AskedEdges& asked, WorldRequest& request);
 
-/// Writes the files into `folder`. `settings`: the command's; those of clips are refused.
+/// Writes the files into `folder`. `settings`: the command's; refuses those of clips.
 ExitCode certifyEdgesOf(const Settings& settings, const AskedEdges& asked,
                         const ReplayRequest& request, const std::string& folder, bool asJson);
 

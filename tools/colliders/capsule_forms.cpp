@@ -11,11 +11,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Covers what computing an end or a radius here errs by, as a share of the largest length in it:
+/// Covers the error of computing an end or a radius here, as a share of the largest length in it:
 /// a product by a matrix and a sum round less than 16 times, an angle and its sine and cosine
 /// (URDF) less than 16 more.
 constexpr double kOwnRounding = 64.0 * kUnitRoundoff;
-/// What a tool errs by that computes height / 2 - radius in floats, as a share of the result,
+/// The error of a tool that computes height / 2 - radius in floats, as a share of the result,
 /// twice.
 constexpr double kToolsRounding = 4.0 * 0x1p-24;
 

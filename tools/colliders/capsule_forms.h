@@ -12,7 +12,7 @@
 
 namespace foretouch::tools {
 
-/// What the tools that read a file compute with: its numbers are of that precision.
+/// The precision with which the tools that read a file compute; its numbers have that precision.
 enum class HeldAs : std::uint8_t { Floats, Doubles };
 
 /// An axis shorter than this is a sphere's (m): below it tools take a capsule for a broken one
@@ -25,10 +25,10 @@ inline constexpr double kLeastRadius = 1e-6;
 /// kLeastRadius. Holds the LSS.
 [[nodiscard]] Lss asCollider(const Lss& lss);
 
-/// By its ends. Holds `lss`: the radius makes up for what the ends are rounded by.
+/// The capsule by its ends. Holds `lss`: a larger radius makes up for the rounding of the ends.
 [[nodiscard]] Lss byEnds(const Lss& lss, HeldAs held);
 
-/// By its middle and its turn: of the axis +Y or +Z, as tools have it. A sphere has halfLength 0.
+/// A capsule by its middle and the turn of the tool's axis, +Y or +Z. A sphere has halfLength 0.
 struct StandingCapsule {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   Quaternion turn = Quaternion::Identity();  ///< Brings the tool's axis to the LSS'.
@@ -40,13 +40,13 @@ struct StandingCapsule {
 /// whose elements are rounded in the same way (turnMatrix()). `axis` is a unit vector.
 [[nodiscard]] StandingCapsule standing(const Lss& lss, const Eigen::Vector3d& axis, HeldAs held);
 
-/// The turn as a matrix of such numbers.
+/// The turn as a matrix of numbers of that precision.
 [[nodiscard]] Eigen::Matrix3d turnMatrix(const Quaternion& turn, HeldAs held);
 
 /// The whole height of a capsule, so that height / 2 - radius is no less than its half length.
 [[nodiscard]] double wholeHeight(const StandingCapsule& capsule, HeldAs held);
 
-/// A number of such a file: the nearest, and the least one that is not below.
+/// The nearest number that such a file can hold, and the least one that is not below `number`.
 [[nodiscard]] double heldNumber(double number, HeldAs held);
 [[nodiscard]] double heldAbove(double number, HeldAs held);
 

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 /// String::invalid_node_name_characters).
 constexpr std::string_view kNotInBones = ":/", kNotInNodes = ".:@/\"%";
 
-/// Names of which each is another one, with '_' for what may not be in them.
+/// Makes names differ from each other, with '_' for what may not be in them.
 class GodotNames {
  public:
   explicit GodotNames(std::string_view illegal) : illegal_(illegal) {}

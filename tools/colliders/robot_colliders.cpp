@@ -123,7 +123,7 @@ std::string collisionOf(const Lss& lss, UrdfCapsules capsules) {
   return isWhole ? tube : tube + sphere(lss.a, c.radius) + sphere(lss.b, c.radius);
 }
 
-/// What no link of the avatar is called.
+/// A name that no link of the avatar has.
 std::string worldNameFor(const Skeleton& skeleton) {
   std::string name = "world";
   while (skeleton.find(name)) name += '_';

@@ -1,5 +1,5 @@
 // Spring bones' colliders of VRM avatars: tools/colliders/collider_writers.h. The importer's own
-// process reads and checks the file first; here its JSON is changed, and nothing of it believed.
+// process reads and checks the file first; here its JSON is changed, and none of it is trusted.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -53,7 +53,7 @@ Error refusal(const std::string& path, std::string message) {
 struct Place {
   std::size_t node = 0;  ///< In the file.
   Matrix3d shape;        ///< The node's frame is the link's, times this (scale).
-  double scale = 1.0;    ///< The least of it along any direction.
+  double scale = 1.0;    ///< The least scale along any direction.
 };
 
 /// A collider of the file.
@@ -165,7 +165,7 @@ Json& listIn(Json& object, const char* key) {
   return list;
 }
 
-/// Of a list that may not be there.
+/// The objects of a list that may not be there.
 std::vector<Json*> objectsIn(Json& object, const char* key) {
   std::vector<Json*> found;
   if (!object.contains(key) || !object[key].is_array()) return found;

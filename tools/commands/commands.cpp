@@ -31,7 +31,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// The benchmarks moved to another program: tells users where.
+/// The benchmarks moved to another program: shows users where.
 Command movedCommand(const std::string& name, const std::string& now) {
   Command moved;
   moved.name = name;

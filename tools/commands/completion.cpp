@@ -26,7 +26,7 @@ std::vector<std::string> split(const std::string& text, char between) {
   return parts;
 }
 
-/// In single quotes, for all three shells.
+/// The text in single quotes, for all three shells.
 std::string shellQuoted(const std::string& text, const char* quote) {
   std::string told = "'";
   for (const char c : text) told += c == '\'' ? std::string(quote) : std::string(1, c);

@@ -17,7 +17,7 @@ struct Completable {
   std::vector<std::string> names;  ///< "-o", "--output"; none: an argument.
   std::string help;
   std::vector<std::string> words;  ///< All legal values, where these are few.
-  std::string endings;             ///< Of files: "bvh glb"; empty: any.
+  std::string endings;             ///< The endings of files: "bvh glb"; empty: any.
   bool takesValue = false, takesFiles = false;
 };
 
@@ -28,7 +28,7 @@ struct CompletableCommand {
   std::vector<Completable> options, arguments;
 };
 
-/// The program first, then its commands, each before its own ones, then what every program has:
+/// The program first, then its commands, each before its subcommands, then what every program has:
 /// `help`, `man` and `version`.
 [[nodiscard]] std::vector<CompletableCommand> completableCommands(
     const std::vector<Command>& commands);

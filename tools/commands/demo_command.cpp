@@ -27,7 +27,7 @@ struct AskedDemo {
   bool details = false, isSolid = false;
 };
 
-/// What everybody wants to know.
+/// What every user wants to know.
 std::string inWords(const ReplaySummary& summary) {
   // Touches of the room, and of its ground; --details has the rest.
   const std::string headline = summary.headline();
@@ -37,7 +37,7 @@ std::string inWords(const ReplaySummary& summary) {
       kDemoRateHz, headline.substr(0, headline[second - 1] == '\n' ? second : second + 1));
 }
 
-/// The first of those that a check of the poses misses.
+/// The first of the contacts that a check of the poses misses.
 std::string missedOnes(const ReplaySummary& summary) {
   const ReplayInputs& inputs = summary.inputs();
   std::string text = "\n";
@@ -63,7 +63,7 @@ std::string details(const ReplayJob& job, const ReplaySummary& summary) {
          summary.text(job.threads) + missedOnes(summary);
 }
 
-/// Beside the results, if they go to a file.
+/// The report's path beside the results, if they go to a file.
 std::string defaultReport(const std::string& output) {
   namespace fs = std::filesystem;
   std::error_code absent;
@@ -73,7 +73,7 @@ std::string defaultReport(const std::string& output) {
       .string();
 }
 
-/// What everybody wants to know of a solid dancer.
+/// What every user wants to know about a solid dancer.
 std::string inWords(const SolidSummary& summary) {
   constexpr double kMmPerM = 1e3;
   return fmt::format(
@@ -91,7 +91,7 @@ ExitCode runSolidDemo(const AskedDemo& asked, const std::string& folder) {
   job.request.scenePath = folder + "/room.obj";
   job.request.avatarPath = folder + "/dancer.avatar.json";
   job.request.motionPath = folder + "/dancer.bvh";
-  // Whoever enters a room pushes its string curtain and leaves aside.
+  // People who enter a room push its string curtain and leaves aside.
   job.request.ignore = {"*:string_curtain,*:plant"};
   job.solid.isAsked = true;
   job.outputPath = asked.output;

@@ -15,7 +15,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Nothing if there is no path.
+/// Writes nothing if there is no path.
 Result<Done> writeGlb(const ReplayGlb& glb, const ReplayTouches& touches, const std::string& path) {
   if (path.empty()) return Done{};
   FORETOUCH_TRY(const auto notes, glb.write(touches.listed()));

@@ -24,9 +24,9 @@ struct ReplayJob {
 };
 
 /// Runs a job: remarks on stderr, results to the output file, the report to its own, and the
-/// summary to `tell`. Each file appears once it is complete; after an error or a signal, which ends
-/// the program, not at all. `tell` is also given what the person touched, for people; empty if that
-/// is not asked.
+/// summary to `tell`. Each file appears once it is complete, and not at all after an error or a
+/// signal, which ends the program. `tell` also gets what the person touched, for people; empty if
+/// the job does not ask for that.
 [[nodiscard]] Result<Done> runReplay(
     const ReplayJob& job,
     const std::function<void(const ReplaySummary&, const std::string& person)>& tell);

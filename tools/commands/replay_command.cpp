@@ -30,7 +30,7 @@ struct AskedReplay {
   StreamPolicy stream;
   std::string suffix;
   StreamSolidRequest solid;
-  std::string bvhPath;  ///< Of what a solid avatar shows; empty: none.
+  std::string bvhPath;  ///< For what a solid avatar shows; empty: none.
   int threads = 0;      ///< 0: one per processor.
   bool asJson = false;  ///< The summary.
 };
@@ -78,7 +78,7 @@ void addOutputSettings(Settings& settings, AskedReplay& asked) {
   settings.of("--json").help = "Print the summary as one line of JSON (docs/formats.md)";
 }
 
-/// What only compares is a benchmark's.
+/// What only compares belongs to the benchmarks.
 void addGoneSettings(Settings& settings) {
   for (const char* const option : {"--compare-rigid", "--compare-link"}) {
     settings.gone(option, "is gone: foretouch-bench compare counts that");
@@ -146,7 +146,7 @@ Settings replaySettings(AskedReplay& asked) {
   return settings;
 }
 
-/// What link and exact fidelity alone can answer.
+/// What only link and exact fidelity can answer.
 Result<Done> checkFidelity(const char* option, const WorldRequest& request) {
   const Fidelity fidelity = request.query.fidelity;
   if (fidelity == Fidelity::Link || fidelity == Fidelity::Exact) return Done{};
@@ -203,7 +203,7 @@ Result<Done> checkOptions(const Settings& settings, const AskedReplay& asked, bo
   return Done{};
 }
 
-/// A cubic without bounds is of clips whose plain answers are asked.
+/// A cubic without bounds is only for clips, and for their plain answers.
 Result<Done> checkBetween(const AskedReplay& asked, bool isLog) {
   const PersonRequest& person = asked.job.person;
   const bool isPlain = !isLog && !asked.solid.solid.isAsked;

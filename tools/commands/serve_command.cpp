@@ -38,7 +38,7 @@ using std::chrono::milliseconds;
 /// Notices a failure of the service after this long.
 constexpr milliseconds kLookEvery{500};
 
-/// A burst that does not fit is lost: better said at the start than counted later.
+/// A burst that does not fit is lost: better reported at the start than counted later.
 void tellReceiveBuffer(std::size_t asked, std::size_t given) {
   if (given == 0 || given >= asked) return;
   printNote(
@@ -98,7 +98,7 @@ Result<Done> openVmc(const ServeConfig& config, std::vector<VmcPort> ports, Serv
   return Done{};
 }
 
-/// All that is served.
+/// Loads all that is served.
 Result<ServedWorld> loadAll(ServeConfig& config) {
   if (config.worldPath.empty()) return loadServedWorld(config);
   FORETOUCH_TRY(auto world,
@@ -190,7 +190,7 @@ class JournalWatch {
   bool hasTold_ = false;
 };
 
-/// Names each body of which no pose is accepted, once until one is.
+/// Names each body whose poses are all refused, once until one is accepted.
 class RefusedWatch {
  public:
   void look(const Service& service) {
@@ -276,7 +276,7 @@ ExitCode run(const Settings& settings, ServeConfig& config) {
   return served.ok() ? ExitCode::Done : failed(served.error());
 }
 
-/// First of all: options override the file.
+/// Comes first: options override the file.
 void addConfigSetting(Settings& settings, ServeConfig& config) {
   settings
       .parsed(

@@ -38,7 +38,7 @@ constexpr RefusedOption kRefused[] = {
     {"--ground-height", "it is about touches of tracked poses"},
 };
 
-/// Of poses as they are at each tick.
+/// Writes the poses as they are at each tick.
 Result<Done> writeBvh(const ReplayInputs& inputs, const ShownTrack& track,
                       const std::string& path) {
   const Skeleton& skeleton = inputs.avatar.skeleton();

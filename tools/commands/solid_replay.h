@@ -17,19 +17,19 @@ namespace foretouch::tools {
 struct SolidReplayJob {
   ReplayRequest request;
   SolidRequest solid;
-  bool hasTolerance = false;  ///< Somebody has asked for the request's; else it follows the skin.
+  bool hasTolerance = false;  ///< The request's tolerance was asked for; else it follows the skin.
   std::string outputPath, bvhPath;
   ReportOptions report;
   GlbRequest glb;
 };
 
 /// Runs a job: remarks on stderr, shown poses to the output file, page, GLB and BVH to their own,
-/// and the summary to `tell`. Each file appears once it is complete; after an error or a signal,
-/// which ends the program, not at all.
+/// and the summary to `tell`. Each file appears once it is complete, and not at all after an error
+/// or a signal, which ends the program.
 [[nodiscard]] Result<Done> runSolidReplay(const SolidReplayJob& job,
                                           const std::function<void(const SolidSummary&)>& tell);
 
-/// Refuses what a solid avatar cannot honour of a replay's settings.
+/// Refuses those of a replay's settings that a solid avatar cannot honour.
 [[nodiscard]] Result<Done> checkSolidTogether(const Settings& settings,
                                               const WorldRequest& request);
 

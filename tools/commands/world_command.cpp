@@ -31,7 +31,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Windows per second: from one an hour to one a microsecond.
+/// Windows per second: from one per hour to one per microsecond.
 constexpr NumberRange kWindowRate{1.0 / 3600.0, 1e6};
 
 /// The values of all options.
@@ -104,7 +104,7 @@ class WorldReplay {
   WorldReplay(const AskedWorld& asked, LoadedWorld& world, std::vector<std::int64_t> cuts)
       : asked_(asked), world_(world), cuts_(std::move(cuts)), intervals_(world), summary_(world) {}
 
-  /// All of it, into its files; nothing of them if it is interrupted. `guard`: older than this.
+  /// Writes all into its files; none of them if it is interrupted. `guard`: older than this.
   Result<Done> run(const InterruptGuard& guard) {
     FORETOUCH_TRY(auto results, PendingFile::create(asked_.outputPath));
     std::optional<PendingFile> events;
@@ -147,13 +147,13 @@ class WorldReplay {
   }
 
   [[nodiscard]] const WorldSummary& summary() const { return summary_; }
-  /// Of the persons; empty if there are none.
+  /// The text about the persons; empty if there are none.
   [[nodiscard]] std::string text() const { return persons_ ? personText(world_, *persons_) : ""; }
 
  private:
   [[nodiscard]] std::string header() const { return worldHeader(world_, asked_.windows, cuts_); }
 
-  /// From enter to leave, into the file of events if there is one.
+  /// Follows from enter to leave, into the file of events if there is one.
   Result<Done> follow(const InterruptGuard& guard, PendingFile* events) {
     if (events != nullptr) events->write(eventsHeader(world_, cuts_.front(), cuts_.back()));
     ProgressBar progress("follow", cuts_.back() - cuts_.front());

@@ -29,7 +29,7 @@ struct FeetJob {
   bool asJson = false;
 };
 
-/// Before any work.
+/// Checks the job before any work.
 Result<Done> check(const FeetJob& job) {
   const FeetRequest& request = job.request;
   if (!job.labels.empty()) FORETOUCH_CHECK(labelFormatOf(job.labels));
@@ -48,7 +48,7 @@ Result<Done> check(const FeetJob& job) {
   return Done{};
 }
 
-/// Nothing if there is no path.
+/// Writes nothing if there is no path.
 Result<Done> writeWhole(const std::string& path, const std::string& text) {
   if (path.empty()) return Done{};
   FORETOUCH_TRY(auto file, PendingFile::create(path));

@@ -29,7 +29,7 @@ constexpr double kLookFrom = 0.25;
 /// A body farther than this above everything (m) stands on nothing.
 constexpr double kLookDown = 3.0;
 /// Where a body is below a board, the floor is at most so far below its foot (m): no storey is as
-/// low, so that who lies below a thin floor is not taken to be in the room underneath.
+/// low, so that a person who lies below a thin floor is not taken to be in the room underneath.
 constexpr double kRoomBelow = 1.2;
 /// Below a surface, the next one is looked for from here on (m): beyond the cast's tolerance.
 constexpr double kNextSurface = 0.003;
@@ -62,7 +62,7 @@ Result<Level> plainFloor(const Eigen::AlignedBox3d& around) {
   return Level::build({{Triangle{{a, b, c}}, Triangle{{a, c, d}}}, {0, 0}, {"floor"}});
 }
 
-/// Around the clip's roots and what floats, wherever its placement and a fit turn them.
+/// The box around the clip's roots and what floats, wherever its placement and a fit turn them.
 Eigen::AlignedBox3d boxOf(const FeetInputs& inputs) {
   const Clip& clip = inputs.played.clip;
   double reach = 0.0;
@@ -107,7 +107,7 @@ RestingPoses restPoses(const FeetInputs& inputs) {
   };
 }
 
-/// Of the clip's begin, at most so long (s).
+/// The rests in the clip's begin, at most so long (s).
 Result<std::vector<FootRest>> restsOf(const FeetInputs& inputs,
                                       double mostS = std::numeric_limits<double>::infinity()) {
   const std::int64_t stride = restStride(inputs);
@@ -118,7 +118,7 @@ Result<std::vector<FootRest>> restsOf(const FeetInputs& inputs,
 
 /// A body that is made of the clip's bones gets heels; an avatar that was given stays as it is.
 Result<Done> addHeels(FeetInputs& inputs) {
-  constexpr double kUsualWayS = 600.0;  // how somebody stands shows in ten minutes
+  constexpr double kUsualWayS = 600.0;  // how a person stands shows in ten minutes
   FORETOUCH_TRY(const auto rests, restsOf(inputs, kUsualWayS));
   std::size_t lowered = 0;
   FORETOUCH_TRY(auto body, withHeelsDown(inputs.body, rests, restPoses(inputs), &lowered));
@@ -159,7 +159,7 @@ Result<Done> fitGround(FeetInputs& inputs) {
   return Done{};
 }
 
-/// The first surface from a point straight down to another one, if it is no wall.
+/// The first surface from a point straight down to another one, if it is not a wall.
 std::optional<GroundSurface> surfaceFrom(const Level& level, const Vector3d& from,
                                          const Vector3d& to) {
   if (to.y() >= from.y()) return std::nullopt;

@@ -1,4 +1,4 @@
-// tools/feet/feet_inputs.h: a clip, its body and what it stands on, ready to be asked how feet
+// tools/feet/feet_inputs.h: a clip, its body and what it stands on, ready for questions on how feet
 // rest. World W: metres, +Y up.
 #pragma once
 
@@ -33,9 +33,9 @@ struct FeetRequest : ClipRequest, WorldRequest {
   double tolerance = 0.005;
   std::vector<std::string> feet;  ///< Links that are feet; empty: those that are called so.
 
-  /// The body is made of a BVH clip's bones.
+  /// True if the body is made of a BVH clip's bones.
   [[nodiscard]] bool isMadeOfBones() const { return avatarPath.empty() && robotPath.empty(); }
-  /// Whose names its links have.
+  /// The file whose names the body's links have.
   [[nodiscard]] const std::string& bodyPath() const {
     if (!avatarPath.empty()) return avatarPath;
     return robotPath.empty() ? motionPath : robotPath;
@@ -45,7 +45,7 @@ struct FeetRequest : ClipRequest, WorldRequest {
 /// What is this near to a plane (m) is on it.
 inline constexpr double kSameSurface = 0.01;
 
-/// A surface to stand on, flat around the point that asked.
+/// A surface to stand on, flat around the point of the question.
 struct GroundSurface {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal_W = Eigen::Vector3d::UnitY();  ///< Unit, up.
@@ -59,11 +59,11 @@ struct FeetInputs {
   RestingBody body;
   Level level;  ///< The scene; without one, a floor at y = 0.
   bool isPlain = false;
-  std::size_t heelsMade = 0;     ///< Of a body that is made of bones (tools/floor/heels.h).
-  std::size_t heelsMissing = 0;  ///< Of an avatar that was given: bones without a heel below them.
-  std::optional<FloorFit> fit;   ///< Of GroundFrom::Fit.
-  double fitShift = 0.0;         ///< What the fit raised the clip by, at the fit's middle (m).
-  Eigen::Isometry3d correction = Eigen::Isometry3d::Identity();  ///< The fit's, of W.
+  std::size_t heelsMade = 0;     ///< For a body that is made of bones (tools/floor/heels.h).
+  std::size_t heelsMissing = 0;  ///< For an avatar that was given: bones without a heel below them.
+  std::optional<FloorFit> fit;   ///< For GroundFrom::Fit.
+  double fitShift = 0.0;         ///< How far the fit raised the clip, at the fit's middle (m).
+  Eigen::Isometry3d correction = Eigen::Isometry3d::Identity();  ///< The fit's motion of W.
   bool keepsLooks = false;  ///< Stances keep where they were looked at (FootStance::looks).
 
   [[nodiscard]] std::int64_t steps() const { return played.steps.count; }
@@ -73,24 +73,24 @@ struct FeetInputs {
   [[nodiscard]] double timeOf(std::int64_t step) const {
     return static_cast<double>(played.steps.frameOf(step)) * played.clip.frameTimeS;
   }
-  /// Of body.avatar, where the fit has it.
+  /// A pose of body.avatar, where the fit has it.
   [[nodiscard]] Result<Pose> poseAt(std::int64_t step) const;
   /// What `p_W` stands on, or sank through by at most a quarter of a metre; nothing: a void.
   [[nodiscard]] std::optional<GroundSurface> groundBelow(const Eigen::Vector3d& p_W) const;
-  /// The same of a point of a foot. Who is below a table top or a board that none of its bones goes
-  /// through did not sink through it: the ground is the next surface below. `states`: of
+  /// The same for a point of a foot. A foot below a table top or board that none of its bones goes
+  /// through did not sink through it: the ground is the next surface below. `states`: those of
   /// body.avatar, or of the one that it is made of.
   [[nodiscard]] std::optional<GroundSurface> groundOf(const RestingLimb& limb,
                                                       const std::vector<LinkState>& states,
                                                       const Eigen::Vector3d& p_W) const;
 };
 
-/// Errors name the file or the option; of GroundFrom::Fit also as fitFloor().
+/// Errors name the file or the option; with GroundFrom::Fit, also those of fitFloor().
 [[nodiscard]] Result<FeetInputs> loadFeetInputs(const FeetRequest& request);
 
-/// That the body is no person's size, and in which unit it were one.
+/// A doubt if the body is not of a person's size, with the unit in which it would be.
 [[nodiscard]] std::optional<std::string> doubtOfStature(const FeetInputs& inputs);
-/// As remarksOnClip(), and what the body is.
+/// The remarks of remarksOnClip(), and what the body is.
 [[nodiscard]] std::vector<std::string> remarksOn(const FeetInputs& inputs);
 
 }  // namespace foretouch::tools

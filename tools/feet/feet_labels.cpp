@@ -110,7 +110,7 @@ void writeJsonLines(const FeetInputs& inputs, const FeetAnswer& answer, const Pa
   });
 }
 
-/// Of all samples, pose by pose.
+/// A column over all samples, pose by pose.
 template <typename Value, typename Of>
 std::vector<Value> columnOf(const FeetAnswer& answer, const Of& of) {
   std::vector<Value> column;

@@ -14,7 +14,7 @@ namespace foretouch::tools {
 /// docs/formats.md, "Labels of feet".
 enum class LabelFormat : std::uint8_t { Csv, JsonLines, Npz };
 
-/// By the ending: .csv, .jsonl or .npz. Errors: another one.
+/// The format by the ending: .csv, .jsonl or .npz. Errors: another ending.
 [[nodiscard]] Result<LabelFormat> labelFormatOf(const std::string& path);
 
 /// Hands the text on, piece by piece. Errors: an .npz of 4 GiB or more.

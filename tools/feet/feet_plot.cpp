@@ -147,7 +147,7 @@ void Lanes::addDepth(std::size_t part, double top) {
   std::string points;
   bool isDeep = false;
   for (std::int64_t step = 0; step <= inputs_.steps(); step += every) {
-    double depth = 0.0;  // the greatest of those that one point stands for
+    double depth = 0.0;  // the greatest of the depths that one point stands for
     for (std::int64_t i = step; i < std::min(step + every, inputs_.steps() + 1); ++i) {
       depth = std::max<double>(depth, answer_.sample(i, part, inputs_.body.parts.size()).depth);
     }
@@ -183,7 +183,7 @@ class SlideMap {
     const double wide = isTurned_ ? size.y() : size.x(), high = isTurned_ ? size.x() : size.y();
     scale_ = std::min((kMapWidth - 4.0 * kMapMargin) / wide, (kMapMost - 2.0 * kMapMargin) / high);
     height_ = std::max(kMapLeast, high * scale_ + 2.0 * kMapMargin);
-    constexpr double kLongest = 100.0;  // of the page's units
+    constexpr double kLongest = 100.0;  // in the page's units
     const double longest = slides_.front()->moved * scale_;
     while (longest > 0.0 && stretch_ * longest * 10.0 <= kLongest) stretch_ *= 10.0;
   }
@@ -236,7 +236,7 @@ void SlideMap::add(const FootStance& slide) {
       inHtml(titleOf(inputs_, slide)), points, at.x(), at.y());
 }
 
-/// Beside its begin, below those that stand there.
+/// Adds the number beside the slide's begin, below those that stand there.
 void SlideMap::addNumber(std::size_t rank) {
   const FootStance& slide = *slides_[rank];
   constexpr double kWide = 24.0, kHigh = 16.0;

@@ -8,8 +8,8 @@
 
 namespace foretouch::tools {
 
-/// Over time a lane per part with what it touches, hovers over and sinks into; and the slides as
-/// traces on the ground, seen from above.
+/// A lane over time for each part, with what it touches, hovers over and sinks into; and the
+/// slides as traces on the ground, seen from above.
 [[nodiscard]] std::string feetPage(const FeetInputs& inputs, const FeetAnswer& answer);
 
 }  // namespace foretouch::tools

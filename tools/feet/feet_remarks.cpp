@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 /// People of this height (m) are believed.
 constexpr double kShortest = 0.5, kTallest = 3.0;
 
-/// Nobody moves by more than this (m) and faster than this (m/s).
+/// People do not move by more than this (m) and faster than this (m/s).
 constexpr double kFarJump = 1.0, kFastJump = 100.0;
 
 std::optional<std::string> remarkOnScene(const FeetInputs& inputs) {
@@ -88,7 +88,7 @@ std::optional<std::string> remarkOnPlace(const FeetInputs& inputs) {
       inputs.request.motionPath, *speed);
 }
 
-/// Of an avatar that was given.
+/// For an avatar that was given.
 std::optional<std::string> remarkOnHeels(const FeetInputs& inputs) {
   if (inputs.heelsMissing == 0) return std::nullopt;
   return fmt::format(

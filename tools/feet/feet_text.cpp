@@ -33,21 +33,21 @@ std::string objectOf(const FeetInputs& inputs, const FootStance& stance) {
   return inputs.level.scene().objectNames()[slotOf(stance.object)];
 }
 
-/// What says when it begins, or ends: "proven", "pose", or that the clip does.
+/// The word for what shows its begin, or end: "proven", "pose", or "clip" if the clip does.
 const char* saidBy(const FootStance& stance, bool isClips) {
   if (isClips) return "clip";
   return stance.kind == StanceKind::Hovers ? "pose" : "proven";
 }
 
 /// How bad it is (m). What slides or sinks in comes before all that hovers: a heel that is carried
-/// low through a step hovers as well.
+/// low through a step hovers, too.
 double badness(const FootStance& stance) {
   constexpr double kBeforeHovers = 1e3;
   const double fault = std::max(stance.slide, stance.depth);
   return fault >= kSlides ? kBeforeHovers + fault : std::max(fault, stance.hover);
 }
 
-/// Worst first; as they come where two are as bad.
+/// Worst first; equally bad ones stay in their order.
 std::vector<const FootStance*> worstOf(const FeetAnswer& answer) {
   std::vector<const FootStance*> worst;
   for (const FootStance& stance : answer.stances) worst.push_back(&stance);
@@ -72,7 +72,7 @@ std::string millimetres(double metres, bool isTold = true) {
   return isTold ? fmt::format("{:.1f}", kFeetMm * metres) : "-";
 }
 
-/// Of the column with the names of feet and hands.
+/// The width of the column with the names of feet and hands.
 std::size_t nameWidth(const FeetInputs& inputs) {
   std::size_t width = 20;
   for (const RestingLimb& limb : inputs.body.limbs) width = std::max(width, limb.name.size());
@@ -107,7 +107,7 @@ std::string table(const FeetInputs& inputs, const FeetAnswer& answer) {
   return text + "slide, moved, deep and above are millimetres\n";
 }
 
-/// Of one foot or hand, by its touches.
+/// The totals of one foot or hand, by its touches.
 struct LimbTotals {
   std::size_t touches = 0, slides = 0, sinks = 0;
   double hoverS = 0.0, underS = 0.0;
@@ -193,7 +193,7 @@ std::string curveText(const FeetInputs& inputs, const FeetAnswer& answer) {
   return raised + "\n" + touches + "\n" + seconds + "\n";
 }
 
-/// Of metres, seconds and shares: measured in floats, which know no more digits.
+/// Writes metres, seconds and shares: measured in floats, which have no more digits.
 void writeShort(const char* name, double value, JsonWriter& out) {
   constexpr double kDigits = 1e7;
   out.field(name, std::round(value * kDigits) / kDigits);
@@ -212,7 +212,7 @@ void writeLimb(const FeetInputs& inputs, std::size_t limb, const LimbTotals& of,
   out.endObject();
 }
 
-/// Of all feet together, without hands.
+/// Writes the totals of all feet together, without hands.
 void writeFeet(const FeetInputs& inputs, const std::vector<LimbTotals>& totals, JsonWriter& out) {
   std::size_t touches = 0, slides = 0, sinks = 0;
   double worstSlide = 0.0, deepest = 0.0;

@@ -18,16 +18,16 @@ namespace foretouch::tools {
 /// The tables of feetText(), in fixed columns.
 [[nodiscard]] std::string feetTables(const FeetInputs& inputs, const FeetAnswer& answer);
 
-/// One line per stance, in time's order of each part: docs/formats.md, "How feet rest".
+/// One line per stance, part by part, in the order of time: docs/formats.md, "How feet rest".
 [[nodiscard]] std::string feetCsv(const FeetInputs& inputs, const FeetAnswer& answer);
 
-/// --json.
+/// The line of --json.
 [[nodiscard]] std::string feetJson(const FeetInputs& inputs, const FeetAnswer& answer);
 
-/// `ground_fit` of --json; nothing without one.
+/// Writes `ground_fit` of --json; nothing without a fit.
 void writeFit(const FeetInputs& inputs, JsonWriter& out);
 
-/// What the fit found, in one sentence; empty without one.
+/// What the fit found, in one sentence; empty without a fit.
 [[nodiscard]] std::string fitText(const FeetInputs& inputs);
 
 }  // namespace foretouch::tools

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// At 20 Hz, or as they are if they are slower.
+/// Places at 20 Hz, or as they are if they are slower.
 std::vector<Vector3d> resampled(const std::vector<Vector3d>& places, double poseS) {
   const double stride = std::max(1.0, 1.0 / (kSkateHz * poseS));
   std::vector<Vector3d> taken;

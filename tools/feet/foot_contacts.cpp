@@ -54,7 +54,7 @@ class Collector {
   PartContacts found_;
 };
 
-/// The plane of the triangle that is met, turned towards the part; up, for who stands.
+/// The plane of the triangle that is met, turned towards the part; up, for what stands.
 GroundSurface Collector::surfaceOf(const WorldEvent& event) const {
   const Vector3d front = inputs_.level.normal(event.b.triangle);
   const Vector3d normal = front.isZero(0.0) ? event.nhat_BA_W : front;

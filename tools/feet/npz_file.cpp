@@ -114,7 +114,7 @@ std::string NpzFile::bytes() const {
     appendBytes(out, std::uint16_t{20});  // made by: as it needs
     appendCommon(entry, out);
     appendBytes(out, std::uint16_t{0});  // no comment
-    appendBytes(out, std::uint16_t{0});  // of the first disk
+    appendBytes(out, std::uint16_t{0});  // on the first disk
     appendBytes(out, std::uint16_t{0});
     appendBytes(out, std::uint32_t{0});
     appendBytes(out, static_cast<std::uint32_t>(entry.offset));

@@ -11,7 +11,7 @@ namespace foretouch::tools {
 /// Rows before columns (C order), little-endian.
 class NpzFile {
  public:
-  /// `shape`: as many as `values` in all.
+  /// `shape`: has as many elements as `values`.
   void add(const std::string& name, const std::vector<float>& values,
            const std::vector<std::size_t>& shape);
   void add(const std::string& name, const std::vector<double>& values);
@@ -19,13 +19,13 @@ class NpzFile {
   /// 0 or 1.
   void addBools(const std::string& name, const std::vector<std::uint8_t>& values,
                 const std::vector<std::size_t>& shape);
-  /// UTF-8, as numpy's bytes: of fixed length, padded by zeros.
+  /// UTF-8 texts as numpy's bytes: of fixed length, padded by zeros.
   void add(const std::string& name, const std::vector<std::string>& texts);
 
   /// An array's file as it is, header and values.
   void addContent(const std::string& name, const std::string& content);
 
-  /// The whole file. Below 4 GiB: a larger one needs zip64, and is refused (empty).
+  /// The whole file. It must be below 4 GiB: a larger one needs zip64, and is refused (empty).
   [[nodiscard]] std::string bytes() const;
 
  private:

@@ -93,7 +93,7 @@ std::vector<FootStance> restRunsOf(const FeetInputs& inputs, const FeetAnswer& a
 
 namespace {
 
-/// As contacts: it begins within the tolerance, and ends beyond twice that.
+/// Counts touches like contacts: one begins within the tolerance, and ends beyond twice that.
 class RaisedFoot {
  public:
   RaisedFoot(const FeetInputs& inputs, const FeetAnswer& answer, std::size_t limb)

@@ -1,5 +1,5 @@
-// tools/feet/rest_runs.h: what poses alone say of rest: feet that hover, and how much touches hang
-// on the height of the ground.
+// tools/feet/rest_runs.h: what poses alone say about rest: feet that hover, and how much touches
+// depend on the height of the ground.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace foretouch::tools {
 
-/// No part of the foot touches, its lowest one is above the ground by more than the tolerance and
-/// at most kHighestHover, and slower than kRestSpeed, for at least kRestTimeS. Uses the samples of
-/// `answer`.
+/// Runs in which no part of the foot touches, and its lowest part is above the ground by more than
+/// the tolerance and at most kHighestHover, and slower than kRestSpeed, for at least kRestTimeS.
+/// Uses the samples of `answer`.
 [[nodiscard]] std::vector<FootStance> restRunsOf(const FeetInputs& inputs,
                                                  const FeetAnswer& answer);
 
@@ -22,7 +22,7 @@ struct Sensitivity {
   std::int64_t touches = 0;
   double touchS = 0.0;
 };
-/// Of some heights from 30 mm lower to 30 mm higher, by poses; of the body as it is, the proven
+/// For some heights from 30 mm lower to 30 mm higher, by poses; for the body as it is, the proven
 /// touches (foot_touches.h).
 [[nodiscard]] std::vector<Sensitivity> sensitivityOf(const FeetInputs& inputs,
                                                      const FeetAnswer& answer);

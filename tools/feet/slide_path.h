@@ -1,4 +1,4 @@
-// tools/feet/slide_path.h: the length of a way, as somebody measures it with a divider.
+// tools/feet/slide_path.h: the length of a way, as a divider measures it.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ class SlidePath {
   /// `opening` in metres, > 0.
   explicit SlidePath(double opening) : opening_(opening) {}
 
-  /// Goes on by `way`; true: by the divider, too.
+  /// Goes on by `way`; true: the divider goes on, too.
   bool add(const Eigen::Vector3d& way) {
     at_ += way;
     farthest_ = std::max(farthest_, at_.norm());
@@ -24,13 +24,13 @@ class SlidePath {
     return true;
   }
 
-  /// Where the divider stands, from where the way began.
+  /// Where the divider stands, relative to where the way began.
   [[nodiscard]] const Eigen::Vector3d& needle() const { return needle_; }
-  /// What is left below the opening counts where there was more before it.
+  /// The remainder below the opening counts only where there was more before it.
   [[nodiscard]] double length() const {
     return length_ > 0.0 ? length_ + (at_ - needle_).norm() : 0.0;
   }
-  /// The farthest from where it began.
+  /// The greatest distance from where the way began.
   [[nodiscard]] double farthest() const { return farthest_; }
 
  private:

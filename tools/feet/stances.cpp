@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 /// Between poses, motion is looked at this often (Hz).
 constexpr double kLooksHz = 240.0;
-/// Spheres this near to a part's lowest one (m) rest as well: the slowest of them says whether it
+/// Spheres this near to a part's lowest one (m) rest, too: the slowest of them says whether it
 /// slides.
 constexpr double kAsLow = 0.001;
 
@@ -38,7 +38,7 @@ struct CornerMotion {
   double normalSpeed = 0.0;             ///< m/s.
   Vector3d slide_W = Vector3d::Zero();  ///< m/s along the surface.
   Vector3d p_W = Vector3d::Zero();      ///< Its lowest point.
-  double share = 0.0;  ///< Of the way from there to its centre: where the slowest point is.
+  double share = 0.0;  ///< Share of the way from there to its centre: where the slowest point is.
   std::size_t corner = 0;
 };
 
@@ -133,7 +133,7 @@ OpenStance* Walk::openAt(std::size_t part, double timeS) {
   return holds ? &open_[at] : nullptr;
 }
 
-/// Of a foot what is below it; of a hand what it met.
+/// What is below a foot; what a hand met.
 std::optional<GroundSurface> Walk::surfaceBelow(const RestingPart& part,
                                                 const OpenStance* open) const {
   if (part.isHand()) {
@@ -247,9 +247,9 @@ double leastBetween(const Vector3d& a, const Vector3d& b) {
   return square > 0.0 ? std::clamp(-a.dot(way) / square, 0.0, 1.0) : 0.0;
 }
 
-/// Of the spheres that are about as low, the one that moves least along the surface; and of it the
-/// slowest of the points between its touch and its centre: what rolls slides not, nor what turns in
-/// place, and soles give.
+/// Takes the sphere that moves least along the surface, of those that are about as low, and on it
+/// the slowest of the points between its touch and its centre: what rolls does not slide, nor what
+/// turns in place, and soles give.
 CornerMotion Walk::motionOf(const RestingPart& part, const GroundSurface& surface) const {
   const Vector3d& up = surface.normal_W;
   const LowestCorner lowest = lowestOf(part, states_, up);
@@ -272,7 +272,7 @@ CornerMotion Walk::motionOf(const RestingPart& part, const GroundSurface& surfac
   return *slowest;
 }
 
-/// Of the stance that is open there.
+/// Keeps the look for the stance that is open there.
 void Walk::keepLook(std::int64_t step, std::size_t part, const CornerMotion& motion,
                     const Vector3d& normal_W, double lengthS) {
   const PartCorner& corner = parts_[part].corners[motion.corner];
@@ -308,7 +308,7 @@ void Walk::lookBetween(std::int64_t step, double t, double lengthS) {
   }
 }
 
-/// Of the last pose's samples, in the middle of the step from it.
+/// Fills in the speeds of the last pose's samples, in the middle of the step from it.
 void Walk::sampleSpeeds() {
   const double perS = 1.0 / inputs_.stepS();
   for (std::size_t part = 0; part < parts_.size(); ++part) {

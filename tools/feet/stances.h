@@ -11,7 +11,7 @@
 namespace foretouch::tools {
 
 /// Calls `progress(done)` after each step; false stops, and the answer is then of no use. Errors:
-/// as partContactsOf().
+/// those of partContactsOf().
 [[nodiscard]] Result<FeetAnswer> stancesOf(const FeetInputs& inputs,
                                            const std::function<bool(std::int64_t)>& progress);
 

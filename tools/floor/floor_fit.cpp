@@ -26,8 +26,8 @@ constexpr int kTriples = 300;
 /// Least time at rest on the floor (s), and share of all rests' time, that makes it one.
 constexpr double kLeastOnFloorS = 0.2, kLeastShare = 0.3;
 /// How level floors are, before anything is seen (radians; half a degree), how far one foot's rests
-/// are from the other's by their markers (m), and how far on a good day. So a walk straight on says
-/// nothing of the floor's tilt across it.
+/// are from the other's by their markers (m), and how far on a good day. So a straight walk says
+/// nothing about the floor's tilt across it.
 constexpr double kUsualTilt = 0.0087, kMarkers = 0.004, kLeastSpread = 0.0015;
 /// Spread of rests that are too few to show one (m).
 constexpr double kUnknownSpread = 0.01;
@@ -47,7 +47,7 @@ double weightOf(const FootRest& rest) {
   return std::min(rest.durationS, kMostWeightS);
 }
 
-/// Of a rest this far from the floor: 1 on it, 0 where it lies on something else.
+/// The weight of a rest this far from the floor: 1 on it, 0 where it lies on something else.
 double onFloor(double above) {
   const double share = above / kOnFloor;
   const double left = 1.0 - share * share;
@@ -63,7 +63,7 @@ double scoreOf(const Plane& plane, const std::vector<FootRest>& rests) {
   return score;
 }
 
-/// Nothing worth trying: steeper than a floor, or through points of one line.
+/// False for planes that are not worth a try: steeper than a floor, or through points of one line.
 bool isFloor(const Plane& plane) {
   return std::isfinite(plane.height) && plane.slope() <= std::tan(kMostTilt);
 }
@@ -95,7 +95,7 @@ Plane bestPlane(const std::vector<FootRest>& rests) {
   double bestScore = -1e300;
   const auto consider = [&](const Plane& plane) {
     if (!isFloor(plane)) return;
-    // Of two that are as good, the leveller one.
+    // The leveller one of two that are equally good.
     const double score = scoreOf(plane, rests) * (1.0 - 0.5 * plane.slope());
     if (score > bestScore) best = plane, bestScore = score;
   };
@@ -113,8 +113,8 @@ Plane bestPlane(const std::vector<FootRest>& rests) {
 /// The mean of the rests on the floor, by weight, and their spread about it.
 struct Cloud {
   Vector3d center = Vector3d::Zero();
-  double weight = 0.0;  ///< Of the mean.
-  /// Of all on the floor alike, by their time.
+  double weight = 0.0;  ///< The weight of the mean.
+  /// Sums over all rests on the floor alike, by their time.
   double times = 0.0, timesSquared = 0.0, squares = 0.0;
   std::size_t count = 0;
 

@@ -33,9 +33,9 @@ struct FootRest {
 };
 
 struct FloorFit {
-  double height = 0.0;  ///< At `center_W`.
+  double height = 0.0;  ///< The floor's height at `center_W`.
   Eigen::Vector3d normal_W = Eigen::Vector3d::UnitY();
-  Eigen::Vector3d center_W = Eigen::Vector3d::Zero();  ///< Of the rests on it, and on the floor.
+  Eigen::Vector3d center_W = Eigen::Vector3d::Zero();  ///< Centre of the rests on it, on the floor.
   double tilt = 0.0;                                   ///< Radians.
   /// Half of the interval in which the height lies with 95 % (m), by how far rests differ.
   double uncertainty = 0.0;
@@ -43,7 +43,7 @@ struct FloorFit {
   std::size_t rests = 0, onFloor = 0;
   double restS = 0.0, onFloorS = 0.0;  ///< Their durations together.
 
-  /// Of a point above the floor, along its normal.
+  /// The height of a point above the floor, along its normal.
   [[nodiscard]] double heightOf(const Eigen::Vector3d& p_W) const {
     return normal_W.dot(p_W - center_W);
   }
@@ -51,16 +51,16 @@ struct FloorFit {
   [[nodiscard]] Eigen::Isometry3d levelledTo(double target) const;
 };
 
-/// The body's pose `step`, as one of RestingBody::avatar.
+/// The body's pose at `step`, as one of RestingBody::avatar.
 using RestingPoses = std::function<Result<Pose>(std::int64_t step)>;
 
-/// All rests of feet in poses 0 to `steps`, `stepS` apart. Errors: as `poses`.
+/// All rests of feet in poses 0 to `steps`, `stepS` apart. Errors: those of `poses`.
 [[nodiscard]] Result<std::vector<FootRest>> footRestsOf(const RestingBody& body, std::int64_t steps,
                                                         double stepS, const RestingPoses& poses);
 
 /// The plane that most rests lie on and hardly one lies below; level unless the rests say
-/// otherwise. The same for the same rests. Errors (Empty): feet do not rest at all, or on no one
-/// floor; the message says which.
+/// otherwise. The same rests give the same floor. Errors (Empty): feet do not rest at all, or on no
+/// single floor; the message says which.
 [[nodiscard]] Result<FloorFit> fitFloor(const std::vector<FootRest>& rests);
 
 }  // namespace foretouch::tools

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Up in a foot's frame differs by less than this between its rests (cosine of 15 degrees, of the
-/// mean): who walks on tiptoe and on the heels has no usual way to stand.
+/// mean): a person who walks on tiptoe and on the heels has no usual way to stand.
 constexpr double kAlike = 0.966;
 /// A bone begins at its joint, up to rounding (m).
 constexpr double kAtAnkle = 1e-9;
@@ -76,7 +76,7 @@ Result<RestingBody> withHeelsDown(RestingBody body, const std::vector<FootRest>&
                        lss[slotOf(heel->links.front())].size() == 1;
     if (!isOne) continue;
     Lss& only = lss[slotOf(heel->links.front())].front();
-    if (!only.a.isZero(kAtAnkle)) continue;  // no bone: it has a heel already
+    if (!only.a.isZero(kAtAnkle)) continue;  // not a bone: it has a heel already
     FORETOUCH_TRY(const auto up_L, usualUp(body, limb, rests, poses));
     if (!up_L || !letDown(only, bottomOf(*ball, *up_L), *up_L)) continue;
     body.parts[static_cast<std::size_t>(heel - body.parts.data())].corners = {

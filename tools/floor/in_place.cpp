@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Nobody walks more slowly (m/s).
+/// People do not walk more slowly (m/s).
 constexpr double kSlowestWalk = 0.3;
 /// What bears goes one way: its mean velocity is at least this share of its mean speed. The body
 /// comes by no more than the other share of that way.

@@ -1,5 +1,5 @@
-// tools/floor/in_place.h: a walk without way, as libraries of clips for games have it: the engine
-// is to move the body, and until then each foot that bears slides.
+// tools/floor/in_place.h: detects a walk that stays in place, as libraries of clips for games have
+// it: the engine is to move the body, and until then each foot that bears slides.
 #pragma once
 
 #include <cstdint>

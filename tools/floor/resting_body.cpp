@@ -22,7 +22,7 @@ using internal::BodyRole;
 /// A foot shorter than this (m) has no heel and no ball of its own.
 constexpr double kShortestFoot = 0.02;
 
-/// Along which a foot is long; zero if it is a sphere.
+/// The direction along which a foot is long; zero if it is a sphere.
 Vector3d lengthOf(const std::vector<Lss>& foot) {
   if (foot.size() == 1) return foot.front().b - foot.front().a;
   Vector3d mean = Vector3d::Zero();

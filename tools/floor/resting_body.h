@@ -19,9 +19,9 @@ enum class PartOfLimb : std::uint8_t { Foot, Heel, Ball, Toe, Hand };
 /// "foot", "heel", "ball", "toe", "hand".
 [[nodiscard]] const char* toString(PartOfLimb part);
 
-/// The sphere at one end of an LSS: what of a part is lowest is always one of these.
+/// The sphere at one end of an LSS: the lowest point of a part always lies on one of these.
 struct PartCorner {
-  LinkId link = 0;  ///< Of RestingBody::avatar.
+  LinkId link = 0;  ///< A link of RestingBody::avatar.
   Eigen::Vector3d center_L = Eigen::Vector3d::Zero();
   double radius = 0.0;
 };
@@ -29,8 +29,8 @@ struct PartCorner {
 struct RestingPart {
   PartOfLimb part = PartOfLimb::Foot;
   std::size_t limb = 0;             ///< Index of RestingBody::limbs.
-  JointId joint = 0;                ///< Of the avatar: the one that it moves with.
-  std::vector<LinkId> links;        ///< Of RestingBody::avatar.
+  JointId joint = 0;                ///< The avatar's joint that it moves with.
+  std::vector<LinkId> links;        ///< Links of RestingBody::avatar.
   std::vector<PartCorner> corners;  ///< At least one.
 
   [[nodiscard]] bool isHand() const { return part == PartOfLimb::Hand; }
@@ -38,9 +38,9 @@ struct RestingPart {
 
 /// A foot, or a hand.
 struct RestingLimb {
-  std::string name;  ///< Of its first joint.
+  std::string name;  ///< The name of its first joint.
   bool isHand = false;
-  JointId ankle = 0;           ///< Of the avatar; of a hand, its joint.
+  JointId ankle = 0;           ///< A joint of the avatar; of a hand, its joint.
   std::optional<JointId> toe;  ///< The first joint of its toes.
 };
 
@@ -52,7 +52,7 @@ struct RestingBody {
   Avatar avatar;  ///< The joints of the avatar that it is made of, then those of heels and balls.
   std::vector<RestingLimb> limbs;
   std::vector<RestingPart> parts;  ///< By limb, heels first.
-  std::int32_t jointsBefore = 0;   ///< Of the avatar that it is made of.
+  std::int32_t jointsBefore = 0;   ///< Joints of the avatar that it is made of.
 
   /// "LeftFoot heel".
   [[nodiscard]] std::string nameOf(const RestingPart& part) const;
@@ -61,17 +61,17 @@ struct RestingBody {
 };
 
 /// `feet`: names of links that are feet, or patterns of them (tools/inputs/name_pattern.h), in
-/// place of those that are called so. Errors: no joint is called a foot, a name that is no link's;
+/// place of those whose names say so. Errors: no joint is called a foot; a name is not a link's;
 /// no foot has an LSS.
 [[nodiscard]] Result<RestingBody> restingBodyOf(const Avatar& avatar,
                                                 const std::vector<std::string>& feet = {});
 
-/// The lowest of a part along `up` (unit).
+/// The lowest corner of a part along `up` (unit).
 struct LowestCorner {
-  double height = 0.0;     ///< Of its sphere's lowest point along `up`.
+  double height = 0.0;     ///< Height of its sphere's lowest point along `up`.
   std::size_t corner = 0;  ///< Index of RestingPart::corners.
 };
-/// `states`: of RestingBody::avatar, one per link.
+/// `states`: those of RestingBody::avatar, one per link.
 [[nodiscard]] LowestCorner lowestOf(const RestingPart& part, const std::vector<LinkState>& states,
                                     const Eigen::Vector3d& up);
 

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::json;
 
-/// As the motion's definition computes it: in the order w, x, y, z.
+/// The dot product as the motion's definition computes it: in the order w, x, y, z.
 double dotOf(const Quaternion& p, const Quaternion& q) {
   return p.w() * q.w() + p.x() * q.x() + p.y() * q.y() + p.z() * q.z();
 }
@@ -114,7 +114,7 @@ RotationKeys rotationKeys(const std::vector<Pose>& poses, JointId joint) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Quaternion& next = poses[i].rotations[index];
     if (i > 0) {
-      // Of the original poses: negated ones would turn a zero into the other arc.
+      // By the original poses: negated ones would turn a zero into the other arc.
       const double dot = dotOf(poses[i - 1].rotations[index], next);
       keys.haveMiddles = keys.haveMiddles || std::abs(dot) < kLeastDot;
       isNegative = isNegative != (dot < 0.0);

@@ -36,7 +36,7 @@ class GlbAnimation {
   /// `path` is glTF's ("rotation", ...), `input` and `output` are accessors.
   void add(std::size_t node, const char* path, std::size_t input, std::size_t output,
            const char* interpolation);
-  /// Adds it to the document if it moves anything.
+  /// Adds the animation to the document if it moves anything.
   void finish(GltfDocument& document);
 
  private:
@@ -51,7 +51,7 @@ struct AvatarTrack {
   std::vector<double> timesS;      ///< One per pose.
 };
 
-/// Error if times are so close, or so late, that floats do not tell them apart.
+/// Error if times are so close, or so late, that floats cannot distinguish them.
 [[nodiscard]] Result<Done> checkTimes(const std::vector<double>& timesS);
 
 /// Adds one node per link, with its name, in the first pose; roots become children of `parent`,

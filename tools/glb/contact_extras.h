@@ -10,12 +10,12 @@
 
 namespace foretouch::tools {
 
-/// "LeftHand at table, 1.003 s". Precondition of both: with the scene (it has a triangle).
+/// "LeftHand at table, 1.003 s". Precondition of both: a touch of the scene (with a triangle).
 [[nodiscard]] std::string contactTitle(const ShownTouch& shown, const Skeleton& skeleton,
                                        const Scene& scene);
 
 /// The fields of the first contact as in a results file (docs/formats.md, "Results"), `step`,
-/// `missed_by_poses` (of a solid avatar `push` instead), and the touch's own as `touch`.
+/// `missed_by_poses` (for a solid avatar `push` instead), and the touch's own as `touch`.
 [[nodiscard]] nlohmann::json contactExtras(const ShownTouch& shown, const Skeleton& skeleton,
                                            const Scene& scene);
 

@@ -18,7 +18,7 @@ using nlohmann::json;
 constexpr GlbMaterial kRed{"contact", {0.80, 0.05, 0.03, 1.0}};
 constexpr GlbMaterial kAmber{"starts in contact", {0.90, 0.50, 0.02, 1.0}};
 
-/// How long (s) a touch stays visible at least: a tap is over before anybody sees it.
+/// How long (s) a touch stays visible at least: a tap is over before people see it.
 constexpr double kHoldS = 1.0;
 
 double endOf(const ShownTouch& shown, const Stage& stage) {

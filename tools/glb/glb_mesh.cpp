@@ -17,7 +17,7 @@ using Eigen::Vector3f;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kSectors = 16;  ///< Around an axis.
-constexpr int kRings = 4;     ///< Of half a ball, from pole to equator.
+constexpr int kRings = 4;     ///< For half a ball, from pole to equator.
 
 /// A circle of a surface of revolution: its place along the axis, its width and its slope.
 struct Ring {
@@ -64,7 +64,7 @@ void appendRings(const Frame& frame, const std::vector<Ring>& rings, GlbMesh& me
   }
 }
 
-/// From one pole to the other; the equator twice, `length` apart.
+/// The rings from one pole to the other; the equator twice, `length` apart.
 std::vector<Ring> capsuleRings(double length, double radius) {
   std::vector<Ring> rings;
   for (const int half : {-1, 1}) {

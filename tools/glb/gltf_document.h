@@ -35,8 +35,8 @@ class GltfDocument {
  public:
   explicit GltfDocument(const std::string& generator);
 
-  /// At the buffer's end. `byteLength` is a multiple of four (asserted), so that all views are
-  /// aligned. Returns the view's index.
+  /// Adds a view at the buffer's end. `byteLength` is a multiple of four (asserted), so that all
+  /// views are aligned. Returns the view's index.
   std::size_t addView(std::size_t byteLength, ViewTarget target, std::size_t byteStride = 0);
   std::size_t addAccessor(const Accessor& accessor);
   /// Adds to one of the document's lists ("nodes", "meshes", "materials", ...); returns its index.
@@ -61,7 +61,7 @@ class GltfDocument {
   std::size_t binaryBytes_ = 0;
 };
 
-/// As glTF writes a vector.
+/// A vector as glTF writes it.
 [[nodiscard]] nlohmann::json gltfVector(const Eigen::Vector3d& v);
 
 /// Appends a number's bytes. Little-endian, like every supported machine.

@@ -17,7 +17,7 @@ namespace foretouch::tools {
 
 struct GlbRequest {
   std::string path;                       ///< Empty: none.
-  std::size_t mostTriangles = 1'000'000;  ///< Of scene, avatar and swept surfaces together.
+  std::size_t mostTriangles = 1'000'000;  ///< Scene, avatar and swept surfaces together.
 };
 
 /// Collects the answers of a replay, in bounded memory.
@@ -32,8 +32,8 @@ class ReplayGlb {
   /// Contacts that begin touches, in order.
   void add(const std::vector<ReportedContact>& begun);
 
-  /// `touches`: of all steps. Writes the file; returns what it leaves out, one sentence each.
-  /// Errors: an unwritable file, times that floats do not tell apart, more than a GLB can hold.
+  /// `touches`: those of all steps. Writes the file; returns what it leaves out, one sentence each.
+  /// Errors: an unwritable file, times that floats cannot distinguish, more than a GLB can hold.
   [[nodiscard]] Result<std::vector<std::string>> write(const std::vector<Touch>& touches) const;
 
  private:

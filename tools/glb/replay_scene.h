@@ -21,20 +21,20 @@ struct Stage {
   const ReplayInputs& inputs;
   std::vector<Pose> poses;
   std::vector<double> timesS;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Of the world's node.
-  double extent = 1.0;  ///< Of the avatar in the first pose: the diagonal of its box (m).
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Origin of the world's node.
+  double extent = 1.0;  ///< The diagonal of the avatar's box in the first pose (m).
 };
 
-/// Computes every pose; error if one is out of range or floats do not tell its time.
+/// Computes every pose; error if one is out of range or floats cannot distinguish its time.
 [[nodiscard]] Result<Stage> stageOf(const ReplayInputs& inputs);
-/// Of other poses than the clip's, at least two, with their times.
+/// With other poses than the clip's, at least two, and their times.
 [[nodiscard]] Result<Stage> stageOf(const ReplayInputs& inputs, std::vector<Pose> poses,
                                     std::vector<double> timesS);
 
-/// What positions between these two corners are best given relative to: zero near the origin.
+/// The origin that positions between these two corners are best relative to: zero near W's origin.
 [[nodiscard]] Eigen::Vector3d originFor(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
-/// The node of the world W, whose own origin is at `origin`; `extras` are its own.
+/// The node of the world W, with W's origin at `origin`; `extras` belong to the node.
 [[nodiscard]] std::size_t addWorld(const Eigen::Vector3d& origin, nlohmann::json extras,
                                    GltfDocument& document);
 /// A node below `parent` that only holds others.
@@ -63,7 +63,7 @@ class TriangleBudget {
                                                      TriangleBudget& budget,
                                                      std::vector<std::string>& notes);
 
-/// The same of a body that is only hinted at: the LSS of every link, transparent, in the colour of
+/// The same for a body that is only hinted at: the LSS of every link, transparent, in the colour of
 /// what was tracked.
 [[nodiscard]] std::vector<std::size_t> addGhostMeshes(const Stage& stage, GlbContent& content,
                                                       TriangleBudget& budget,
@@ -76,11 +76,11 @@ class TriangleBudget {
                                                     TriangleBudget& budget, std::size_t& leftOut);
 
 /// A node below `parent` for every object of the scene, preferring triangles near `places` (at
-/// least one) and including those of `touched`. `origin`: of the world's node.
+/// least one) and including those of `touched`. `origin`: that of the world's node.
 void addScene(const Scene& scene, const std::vector<Eigen::Vector3d>& places,
               std::vector<TriangleId> touched, const Eigen::Vector3d& origin, std::size_t parent,
               GlbContent& content, TriangleBudget& budget, std::vector<std::string>& notes);
-/// The same of a replay: near the avatar's path, including where touches begin.
+/// The same for a replay: near the avatar's path, including where touches begin.
 void addScene(const Stage& stage, const std::vector<ShownTouch>& touches, std::size_t parent,
               GlbContent& content, TriangleBudget& budget, std::vector<std::string>& notes);
 

@@ -11,8 +11,8 @@ namespace foretouch::tools {
 struct ShownTouch {
   ReportedContact first;
   Touch touch;
-  std::optional<double> untilS;  ///< When it ends to be shown; else by its steps.
-  std::optional<double> push;    ///< Of a solid avatar (m).
+  std::optional<double> untilS;  ///< When it is no longer shown; else by its steps.
+  std::optional<double> push;    ///< The push of a solid avatar (m).
 };
 
 }  // namespace foretouch::tools

@@ -15,7 +15,7 @@ using nlohmann::json;
 /// Markers are costly to viewers, each an animated node.
 constexpr std::size_t kMostPushes = 5000;
 
-/// Those with the scene: own links have no place in it.
+/// The touches with the scene: own links have no place in it.
 std::vector<ShownTouch> pushesOf(const ShownTrack& track, std::vector<std::string>& notes) {
   std::vector<ShownTouch> shown;
   std::size_t leftOut = 0;

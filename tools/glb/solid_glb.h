@@ -13,7 +13,7 @@
 namespace foretouch::tools {
 
 /// `track`: finished, with at least two ticks; `header`: the first line of its file. Returns what
-/// it leaves out, one sentence each. Errors: as ReplayGlb::write().
+/// it leaves out, one sentence each. Errors: those of ReplayGlb::write().
 [[nodiscard]] Result<std::vector<std::string>> writeSolidGlb(const ReplayInputs& inputs,
                                                              const ShownTrack& track,
                                                              const std::string& header,

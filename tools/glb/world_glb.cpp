@@ -28,7 +28,7 @@ constexpr GlbMaterial kMetRed{"contact", {0.80, 0.05, 0.03, 1.0}};
 constexpr GlbMaterial kInsideAmber{"starts in contact", {0.90, 0.50, 0.02, 1.0}};
 /// How long (s) a touch stays visible at least.
 constexpr double kShownS = 1.0;
-/// Of the arrow of a touch, by how fast the two approach where it begins, each a level: m/s, m.
+/// The arrow of a touch, by how fast the two approach where it begins, each a level: m/s, m.
 struct ArrowOfSpeed {
   double fromSpeed, length;
 };
@@ -36,14 +36,14 @@ constexpr ArrowOfSpeed kArrows[] = {{0.0, 0.12}, {0.25, 0.18}, {1.0, 0.27}, {4.0
 constexpr double kArrowOfUnknown = 0.18;
 constexpr GlbMaterial kTriggerGreen{"trigger", {0.0, 0.34, 0.17, 1.0}};
 
-/// The nodes of a body between two instants, in which nobody above it changes.
+/// The nodes of a body between two instants, in which nothing above it changes.
 struct BodyPiece {
   std::int64_t fromUs = 0, untilUs = 0;
-  std::size_t firstNode = 0;  ///< Of its links, in order.
+  std::size_t firstNode = 0;  ///< The node of its first link; the others follow in order.
 };
 
-/// Adds the bodies of a world, each below who carries it. glTF has no other parents over time: a
-/// body has nodes for each of its carriers, which are visible while that one carries it.
+/// Adds the bodies of a world, each below its carrier. In glTF a node's parent cannot change over
+/// time: a body has nodes for each of its carriers, visible while that one carries it.
 class BodyNodes {
  public:
   BodyNodes(const LoadedWorld& world, const Vector3d& origin, std::size_t parent,
@@ -74,7 +74,7 @@ class BodyNodes {
     return Done{};
   }
 
-  /// On the animation's clock, which begins where the world does.
+  /// Seconds on the animation's clock, which begins where the world does.
   [[nodiscard]] double seconds(std::int64_t utimeUs) const {
     return static_cast<double>(utimeUs - world_.beginUs) / kUsPerS;
   }
@@ -124,7 +124,7 @@ class BodyNodes {
     }
   }
 
-  /// A stretch's nodes, below those of who carries it, which come first.
+  /// Adds a stretch's nodes, below those of its carrier, which come first.
   Result<Done> add(BodyId body, std::size_t index) {
     if (isMade_[slotOf(body)][index]) return Done{};
     isMade_[slotOf(body)][index] = true;

@@ -16,7 +16,7 @@
 namespace foretouch::tools {
 
 /// `touches`: after finish(). `header`: the results' first line. Writes the file; returns what it
-/// leaves out, one sentence each. Errors: an unwritable file, times that floats do not tell apart,
+/// leaves out, one sentence each. Errors: an unwritable file, times that floats cannot distinguish,
 /// more than a GLB can hold.
 [[nodiscard]] Result<std::vector<std::string>> writeWorldGlb(const LoadedWorld& world,
                                                              const WorldTouches& touches,

@@ -25,7 +25,7 @@ std::vector<LinkPair> leftOutByLss(const QueryOptions& query) {
   return pairs;
 }
 
-/// Takes away those whose meshes touch at this pose.
+/// Takes away the pairs whose meshes touch at this pose.
 void dropTouching(const Query& query, const Pose& pose, std::vector<LinkPair>& pairs) {
   Scratch scratch;
   const ChainMotion still(query.avatar().skeleton(), pose, pose);
@@ -37,7 +37,7 @@ void dropTouching(const Query& query, const Pose& pose, std::vector<LinkPair>& p
   }
 }
 
-/// Those of the pairs whose meshes are apart at every pose; none if they cannot be asked.
+/// The pairs whose meshes are apart at every pose; none if they cannot be asked.
 std::vector<LinkPair> apartAt(const std::vector<Pose>& poses, const Avatar& avatar,
                               const Scene& scene, const AvatarSurface& surface,
                               std::vector<LinkPair> pairs) {

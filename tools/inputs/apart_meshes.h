@@ -1,5 +1,5 @@
 // tools/inputs/apart_meshes.h: own links whose LSS always touch, though their meshes do not: those
-// that nobody asks about for it, and those that flood an answer.
+// that are not asked about because of it, and those that flood an answer.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace foretouch::tools {
 
-/// Of a query at exact fidelity with derived pair rules: which pairs these are, by `poses` of the
-/// avatar, and how to ask about them. Nothing if there are none, or if it is no such query.
+/// For a query at exact fidelity with derived pair rules: which pairs these are, by `poses` of the
+/// avatar, and how to ask about them. Nothing if there are none, or if it is not such a query.
 [[nodiscard]] std::optional<std::string> remarkOnApartMeshes(const Avatar& avatar,
                                                              const Scene& scene,
                                                              const QueryOptions& query,
@@ -28,9 +28,9 @@ struct StartingPair {
   std::int64_t starts = 0;
 };
 
-/// Of an answer at link fidelity: which of these pairs, that start in contact in nearly all of
-/// `steps`, have meshes that are apart at each of `poses`. `meshes`: per link; empty: it has none.
-/// `rules`: the command that writes pair rules for it, without what they leave out.
+/// For an answer at link fidelity: which of these pairs, that start in contact in nearly all of
+/// `steps`, have meshes that are apart at each of `poses`. `meshes`: per link; empty if it has
+/// none. `rules`: the command that writes pair rules for it, without what they leave out.
 [[nodiscard]] std::optional<std::string> hintOnThickPairs(const Avatar& avatar, const Scene& scene,
                                                           std::vector<std::vector<Triangle>> meshes,
                                                           const std::vector<StartingPair>& pairs,

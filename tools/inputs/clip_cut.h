@@ -15,7 +15,7 @@ namespace foretouch::tools {
 /// Frames from `first` to `last`, both of them played.
 struct FrameRange {
   std::int64_t first = 0, last = 0;
-  std::int64_t tPose = 0;  ///< Frames that were left out as a T-pose, before `first`.
+  std::int64_t tPose = 0;  ///< Frames before `first` that were left out as a T-pose.
 
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(last - first + 1); }
 };

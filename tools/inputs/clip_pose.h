@@ -17,7 +17,7 @@ struct PlacedClip {
   const Clip& clip;
   const JointMatch& match;
   Placement placement;
-  bool isUpright = false;   ///< As Motion::isUpright: the placement does not turn it again.
+  bool isUpright = false;   ///< As in Motion::isUpright: the placement does not turn it again.
   const std::string& path;  ///< For errors.
 };
 

@@ -30,7 +30,7 @@ std::string lowerExtensionOf(const std::string& path) {
   return extension;
 }
 
-/// Nothing of a pipe, whose first bytes its reader needs.
+/// The first bytes of a file; none of a pipe, whose first bytes its reader needs.
 std::string beginningOf(const std::string& path) {
   std::error_code problem;
   if (!std::filesystem::is_regular_file(path, problem)) return "";
@@ -41,7 +41,7 @@ std::string beginningOf(const std::string& path) {
               : "";
 }
 
-/// Of files whose readers do not go by the name.
+/// The role of a file whose readers do not go by the name.
 FileRole roleByContent(const std::string& path) {
   const std::string text = beginningOf(path);
   if (text.rfind(kLogMagic, 0) == 0) return FileRole::Clip;
@@ -55,7 +55,7 @@ FileRole roleByContent(const std::string& path) {
   return isRobot ? FileRole::Robot : FileRole::Unknown;
 }
 
-/// One that holds neither animation nor triangles is left to the reader of scenes, which says so.
+/// A model with neither animation nor triangles is left to the reader of scenes, which says so.
 Result<FileRole> roleOfModel(const std::string& path) {
   FORETOUCH_TRY(const auto model, importModel(path));
   if (!model.animations.empty()) return FileRole::Clip;

@@ -12,7 +12,7 @@
 
 namespace foretouch::tools {
 
-/// Around all LSS, in the world; empty if the avatar has none. `pose`: a validated one.
+/// The box around all LSS, in the world; empty if the avatar has none. `pose`: a validated one.
 [[nodiscard]] Eigen::AlignedBox3d boxInPose(const Avatar& avatar, const Pose& pose);
 
 /// How a person's head is above the feet, by the joints' names.
@@ -41,7 +41,7 @@ struct FrameOptions {
   const char* up;
 };
 
-/// Says so if an option repeats what the file says of itself, or stands in place of it.
+/// Says so if an option repeats what the file says about itself, or stands in place of it.
 [[nodiscard]] std::optional<std::string> remarkOnFrame(const FileFrame& frame,
                                                        const FrameOptions& options,
                                                        const std::string& path);

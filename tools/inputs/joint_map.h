@@ -26,8 +26,8 @@ inline constexpr std::size_t kMaxJointMapBytes = 16u << 20;
                                               const std::string& mapPath,
                                               const std::string& motionPath);
 
-/// The clip of one humanoid becomes one of `avatar`, another humanoid, by the parts of the body
-/// (assets/avatar/humanoid_clip.h); true if it did. A map says itself what belongs together, so
+/// Makes the clip of one humanoid a clip of `avatar`, another humanoid, by the parts of the body
+/// (assets/avatar/humanoid_clip.h); true if it did. A map itself says what belongs together, so
 /// with one the clip stays as it is. Errors name the clip.
 [[nodiscard]] Result<bool> followByParts(const Skeleton& avatar, const std::string& mapPath,
                                          const std::string& motionPath, Clip& clip);

@@ -1,5 +1,5 @@
-// tools/inputs/lost_frames.h: which links of an avatar the frames of its clip do not know, as the
-// clip has gaps.
+// tools/inputs/lost_frames.h: which links of an avatar the frames of its clip do not know, because
+// the clip has gaps.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class LostFrames {
  public:
   LostFrames(const Avatar& avatar, const Clip& clip, const JointMatch& match);
 
-  /// The frame's pose of the link is made up. O(log gaps).
+  /// True if the frame's pose of the link is made up. O(log gaps).
   [[nodiscard]] bool isLost(LinkId link, std::int64_t frame) const;
   [[nodiscard]] bool isAllLost(std::int64_t frame) const;
   [[nodiscard]] std::vector<LinkId> linksAt(std::int64_t frame) const;

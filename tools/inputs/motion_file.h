@@ -14,8 +14,8 @@ namespace foretouch::tools {
 struct MotionRequest {
   std::string path;
   std::optional<double> scale;            ///< Metres per unit, in place of what the file says.
-  std::optional<UpAxis> up;               ///< The same. Tables of joint positions ignore it.
-  std::string animation;                  ///< Of a model; empty: its first.
+  std::optional<UpAxis> up;               ///< Up, likewise. Tables of joint positions ignore it.
+  std::string animation;                  ///< A model's animation; empty: its first.
   double rateHz = 30.0;                   ///< Sampling rate of a model's animation.
   std::string robot;                      ///< The URDF whose joints a table is about.
   std::string skeleton;                   ///< The ASF of an AMC, or SMPL's body model.

@@ -17,11 +17,11 @@
 namespace foretouch::tools {
 namespace {
 
-/// Of an array's file: its header is short, and its values are those of a table.
+/// Limits for an array's file: its header is short, and its values are those of a table.
 constexpr std::size_t kMaxHeader = std::size_t{64} << 10;
 constexpr std::size_t kMaxUnpacked = internal::kMaxTableValues * 8 + kMaxHeader;
 constexpr std::size_t kMaxEntries = 4096;
-/// Of one text: numpy makes all as long as the longest.
+/// The limit for one text: numpy makes all as long as the longest.
 constexpr std::size_t kMaxTextBytes = 4096;
 
 Error damaged(const std::string& what) {
@@ -58,7 +58,7 @@ struct Header {
   std::string type;  ///< "<f8"
   bool isColumnMajor = false;
   std::vector<std::size_t> shape;
-  std::size_t begin = 0;  ///< Of the values.
+  std::size_t begin = 0;  ///< Where the values begin.
 };
 
 /// What stands behind `'key':` in the header's dictionary.
@@ -120,7 +120,7 @@ std::optional<std::size_t> countIn(const std::vector<std::size_t>& shape) {
   return count;
 }
 
-/// Where value `i` of C order lies in a file of Fortran's: of two dimensions.
+/// Where value `i` in C order lies in a file in Fortran's order, of two dimensions.
 std::size_t placeOf(std::size_t i, const Header& header) {
   if (!header.isColumnMajor || header.shape.size() < 2) return i;
   return (i % header.shape[1]) * header.shape[0] + i / header.shape[1];
@@ -135,7 +135,7 @@ std::vector<double> numbersIn(std::string_view data, const Header& header, std::
   return numbers;
 }
 
-/// UTF-8 of a code point; a question mark where it is none.
+/// Appends a code point as UTF-8; a question mark if it is not one.
 void appendCodePoint(std::uint32_t c, std::string& out) {
   if (c > 0x10FFFF || (c >= 0xD800 && c < 0xE000)) c = '?';
   const auto put = [&](std::uint32_t byte) { out += static_cast<char>(byte); };

@@ -21,7 +21,7 @@ struct NpzArray {
 /// What is in a file. It decodes an array only when asked for it.
 class NpzArrays {
  public:
-  /// Errors say what is not as in a zip; they name no file.
+  /// Errors say what a zip should not have; they name no file.
   static Result<NpzArrays> of(std::string bytes);
 
   [[nodiscard]] bool has(const std::string& name) const { return find(name) != nullptr; }
@@ -30,10 +30,10 @@ class NpzArrays {
   /// of 4 or 8 bytes, integers of 4 or 8 or texts, in the byte order of other machines, not finite,
   /// or larger than kMaxTableValues.
   [[nodiscard]] Result<NpzArray> array(const std::string& name) const;
-  /// An array's file, header and values. Errors as array(), of the zip.
+  /// An array's file, header and values. Errors: those of array() that are about the zip.
   [[nodiscard]] Result<std::string> content(const std::string& name) const;
   /// Writes numbers, in C order, in place of those of an array's file, in its own type and order.
-  /// Errors: its type is no float.
+  /// Errors: its type is not a float.
   [[nodiscard]] static Result<Done> replaceNumbers(const std::vector<double>& numbers,
                                                    std::string& content);
 

@@ -92,7 +92,7 @@ Result<Done> takeNames(const NpzArrays& arrays, const JointTableOptions& options
                    "expected an array 'joint_names', or to be told the names (--columns)");
 }
 
-/// Of a rotation's array: by the end of its name, or as the options say.
+/// The order in a rotation's array: by the end of its name, or as the options say.
 Result<QuaternionOrder> orderOf(const std::string& name, const JointTableOptions& options) {
   const auto endsWith = [&](const std::string& end) {
     return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;

@@ -26,7 +26,7 @@ struct LeftOutReading {
   std::vector<LinkId> a, b;
 };
 
-/// Of links without LSS no pair is asked.
+/// Reads the pairs to leave out. No pair with a link without LSS is asked.
 class LeftOutReader {
  public:
   LeftOutReader(const std::string& option, const Avatar& avatar) : option_(option) {
@@ -75,7 +75,7 @@ class LeftOutReader {
 
   const std::string& option_;
   std::vector<LinkId> links_;
-  std::vector<std::string> names_;  // of these
+  std::vector<std::string> names_;  // of these links
 };
 
 Result<Done> addPoses(const Avatar& avatar, const Clip& clip, const JointMatch& match,

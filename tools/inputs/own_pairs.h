@@ -16,8 +16,8 @@
 
 namespace foretouch::tools {
 
-/// Poses of one clip that are looked at. They are spread evenly; more of them say hardly more, and
-/// each costs all pairs of LSS.
+/// At most so many poses of one clip are looked at, spread evenly; more of them say hardly more,
+/// and each costs all pairs of LSS.
 inline constexpr std::size_t kMostUsualPoses = 2000;
 
 /// Adds the avatar's poses in a clip. Errors name `path` and the frame.
@@ -39,7 +39,7 @@ inline constexpr std::size_t kMostUsualPoses = 2000;
                                            std::vector<Pose>& poses);
 
 /// The rules for `request`, which asks for own links: those of its file, or derived from the avatar
-/// and the clip's poses, of a robot from sampled ones. Errors name the file or the option.
+/// and the clip's poses, for a robot from sampled ones. Errors name the file or the option.
 [[nodiscard]] Result<PairRules> pairRulesFor(const WorldRequest& request, const ClipRequest& motion,
                                              const Avatar& avatar, const Clip& clip,
                                              const JointMatch& match);

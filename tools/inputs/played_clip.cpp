@@ -19,7 +19,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Of the part of the clip that the request cuts out.
+/// The steps of the part of the clip that the request cuts out.
 Result<StepSelection> stepsOf(const ClipRequest& request, const Clip& clip, bool isUpright) {
   FORETOUCH_TRY(const auto cut, framesOf(request, clip, isUpright));
   if (const auto remark = remarkOnTPose(request, cut, clip)) printNote(*remark);
@@ -111,7 +111,7 @@ std::optional<std::string> remarkOnUnit(const Avatar& avatar, const Clip& clip,
   const std::size_t matched = match.clipJointOf.size() - match.unmatchedAvatar.size();
   const std::string lead =
       fmt::format("{}: its bones are {:.4g} times as long as the avatar's", motionPath, *ratio);
-  // Bones between matched joints skip the others, so their lengths say little of the unit.
+  // Bones between matched joints skip the others, so their lengths say little about the unit.
   if (2 * matched < match.clipJointOf.size()) {
     return lead + fmt::format(
                       ", by the {} of {} joints that match; does --map say which belong "

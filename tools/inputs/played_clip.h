@@ -20,14 +20,14 @@ struct PlayedClip {
   Clip clip;
   JointMatch match;
   StepSelection steps;
-  bool isUpright = false;  ///< As Motion::isUpright.
-  FileFrame frame{};       ///< Of the clip's file.
+  bool isUpright = false;  ///< As in Motion::isUpright.
+  FileFrame frame{};       ///< The frame of the clip's file.
   bool isByParts = false;  ///< The clip is no longer the file's: followByParts().
 };
 
 /// Errors name the file or option.
 [[nodiscard]] Result<PlayedClip> loadPlayedClip(const ClipRequest& request);
-/// With a body that is made of the clip's own skeleton; of a table, with the robot's.
+/// The same with a body that is made of the clip's own skeleton; for a table, with the robot's.
 [[nodiscard]] Result<PlayedClip> loadClipAlone(const ClipRequest& request);
 
 /// Tolerated faults, joints without a match and signs of a wrong unit: one sentence each, bounded
@@ -37,13 +37,13 @@ struct PlayedClip {
                                                      const std::string& avatarPath,
                                                      const std::string& motionPath);
 
-/// Links without any LSS: of a robot; of a body only if they are half of all, as its root and its
-/// tips have none anyway.
+/// Links without any LSS: all of a robot's; a body's only if they are half of all links, as its
+/// root and its tips have none anyway.
 [[nodiscard]] std::optional<std::string> remarkOnVolume(const Avatar& avatar,
                                                         const std::string& avatarPath,
                                                         bool isRobot);
 
-/// Only the last of these: the clip's bones are twice as long as the avatar's, or half.
+/// Only the last of these: the clip's bones are over twice as long as the avatar's, or under half.
 [[nodiscard]] std::optional<std::string> remarkOnUnit(const Avatar& avatar, const Clip& clip,
                                                       const JointMatch& match,
                                                       const std::string& motionPath);

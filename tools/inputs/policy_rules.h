@@ -16,8 +16,8 @@
 
 namespace foretouch::tools {
 
-/// The [[policy]] tables of a file, at least one and at most kMaxPolicyRules; of other tables, the
-/// file has none but those of a project. `file`: the path of `text`. Errors name the line. Never
+/// The [[policy]] tables of a file, at least one and at most kMaxPolicyRules; the only other tables
+/// of the file are those of a project. `file`: the path of `text`. Errors name the line. Never
 /// throws.
 [[nodiscard]] Result<std::vector<PolicyRule>> parsePolicyFile(std::string_view text,
                                                               const std::string& file);

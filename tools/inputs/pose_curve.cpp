@@ -12,7 +12,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Per step, and of a whole clip, times its joints.
+/// The most pieces per step, and in a whole clip, times its joints.
 constexpr std::int64_t kMostPieces = 1024, kMostJoints = 50'000'000;
 
 class CurveCutter {

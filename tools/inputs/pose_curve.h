@@ -20,12 +20,12 @@ struct PoseCurve {
   std::vector<Pose> poses;  ///< As many pieces of constant rate as `pieces` per given step.
   std::int64_t pieces = 1;  ///< A multiple of the given stride.
   double offM = 0.0;        ///< No point of a link is farther from the cubic.
-  StepSelection given;      ///< Of the clip's own frames.
-  double frameTimeS = 0.0;  ///< Between those.
+  StepSelection given;      ///< In the clip's own frames.
+  double frameTimeS = 0.0;  ///< Seconds between those frames.
 };
 
-/// `poses`: of all steps and the last one's end, `seconds` apart. Errors: pieces enough to stay
-/// within `mostOffM` would be too many.
+/// `poses`: those at all steps and at the last one's end, `seconds` apart. Errors: too many pieces
+/// are needed to stay within `mostOffM`.
 [[nodiscard]] Result<PoseCurve> poseCurve(const Avatar& avatar, const std::vector<Pose>& poses,
                                           double seconds, MotionModel model, std::int64_t stride,
                                           double mostOffM);

@@ -69,7 +69,7 @@ Result<Done> checkRadii(const QueryOptions& query, const std::string& pairsPath)
       "expected rules without pair radii at exact fidelity, found some in " + inQuotes(pairsPath));
 }
 
-/// The request with what its files say of themselves, which whoever repeats it can then give.
+/// The request with what its files say about themselves, so that users can repeat it.
 ReplayRequest asRead(ReplayRequest request, const FileFrame& scene, const FileFrame& clip) {
   request.sceneImport.scale = scene.metresPerUnit;
   request.sceneImport.up = scene.up;
@@ -78,7 +78,7 @@ ReplayRequest asRead(ReplayRequest request, const FileFrame& scene, const FileFr
   return request;
 }
 
-/// That lists the pair rules of a replay, or writes them.
+/// The command that lists the pair rules of a replay, or writes them.
 std::string pairsCommand(const ReplayRequest& request) {
   const bool isRobot = !request.robotPath.empty();
   std::string command =
@@ -89,7 +89,7 @@ std::string pairsCommand(const ReplayRequest& request) {
   return command;
 }
 
-/// What nobody asks, and how to see it.
+/// The pairs that are not asked, and how to see them.
 std::string remarkOnPairs(const ReplayRequest& request, const PairRules& rules) {
   return fmt::format(
       "--self: {} of {} pairs of own links are left out, so nothing is said of them ({}); list "
@@ -200,7 +200,7 @@ std::optional<std::string> remarkOnMeshes(const QueryOptions& query,
 
 namespace {
 
-/// What the options and the files say of units and axes, and whether the body stands then.
+/// Adds what the options and the files say about units and axes, and whether the body then stands.
 void addFrameRemarks(const ReplayInputs& inputs, std::vector<std::string>& remarks) {
   const ReplayRequest& request = inputs.request;
   for (const auto& remark :

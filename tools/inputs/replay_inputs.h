@@ -44,7 +44,7 @@ struct ReplayInputs {
   [[nodiscard]] double timeOfStep(std::int64_t step) const {
     return static_cast<double>(steps.frameOf(step)) * clip.frameTimeS;
   }
-  /// Of a table of joint positions, from 0: the one that the step begins at, or comes from.
+  /// For a table of joint positions: the row, from 0, that the step begins at, or comes from.
   [[nodiscard]] std::int64_t rowOfStep(std::int64_t step) const {
     return steps.frameOf(step) / clip.framesPerRow;
   }

@@ -31,7 +31,7 @@ const std::array<const char*, 22> kBody{
     "neck",       "left_collar", "right_collar", "head",       "left_shoulder", "right_shoulder",
     "left_elbow", "right_elbow", "left_wrist",   "right_wrist"};
 
-/// Of SMPL (24), SMPL-H (52) or SMPL-X (55); of other counts by number.
+/// The names for SMPL (24), SMPL-H (52) or SMPL-X (55); numbers for other counts.
 std::vector<std::string> namesOf(std::size_t joints) {
   constexpr std::size_t kSmpl = 24, kSmplH = 52, kSmplX = 55;
   std::vector<std::string> names(kBody.begin(), kBody.end());
@@ -109,7 +109,7 @@ Result<SmplBody> bodyOf(const NpzArrays& model, const std::vector<double>& betas
     const Eigen::Map<const Eigen::VectorXd> weights(&regressor.numbers[j * numVertices],
                                                     static_cast<Eigen::Index>(numVertices));
     body.joints.col(static_cast<Eigen::Index>(j)) = shaped * weights;
-    const double parent = tree.numbers[j];  // of the root whatever the file says: -1, or 2^32 - 1
+    const double parent = tree.numbers[j];  // the root's, whatever the file says: -1, or 2^32 - 1
     if (j > 0 &&
         !(parent >= 0.0 && parent < static_cast<double>(j) && parent == std::floor(parent))) {
       return misfit("kintree_table", "parents before their children");

@@ -25,16 +25,16 @@ struct StepSelection {
 /// printed with few digits is off by about as much. Beyond it, we would have to invent poses.
 inline constexpr double kRateSlack = 0.01;
 
-/// Poses per second that the steps take, of a clip with this frame time.
+/// The poses per second that the steps take, for a clip with this frame time.
 [[nodiscard]] double rateTaken(const StepSelection& steps, double frameTimeS);
 
-/// Frames that one step may leave out: as many as keep every joint's turn by its coordinate below
-/// Robot::kMostTurn, as the shorter arc would be another way. Of poses, which know no coordinates,
-/// any number.
+/// The most frames from one pose to the next: as many as keep every joint's turn by its coordinate
+/// within Robot::kMostTurn, as the shorter arc would be another way. For poses, which know no
+/// coordinates, any number.
 [[nodiscard]] std::int64_t mostStride(const Clip& clip);
 inline constexpr std::int64_t kAnyStride = std::numeric_limits<std::int64_t>::max();
 
-/// What a rate asks for that no whole number of frames gives: which one it gets, and how many more
+/// The rate that a request gets where no whole number of frames gives it, and how many more
 /// or fewer poses these are. Nothing for a rate that it gets, within kRateSlack.
 [[nodiscard]] std::optional<std::string> remarkOnRate(const StepSelection& steps, double frameTimeS,
                                                       std::optional<double> rateHz,

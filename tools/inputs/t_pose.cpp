@@ -23,7 +23,7 @@ constexpr double kStraight = 0.95, kMostRise = 0.342, kOpposite = -0.866;
 /// The joints of one arm, from the hand up to the shoulder.
 using Arm = std::vector<JointId>;
 
-/// Nothing if what is above the hand is no arm.
+/// The arm's joints; nothing if what is above the hand is not an arm.
 std::optional<Arm> armAbove(JointId hand, const Skeleton& skeleton,
                             const std::vector<BodyRole>& roles) {
   Arm arm{hand};

@@ -17,7 +17,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// What people read in place of a name in lines of JSON, whose "_" are blanks for them.
+/// What people read in place of a name in lines of JSON; they read blanks in place of "_".
 std::string wordsOf(std::string_view name) {
   static const std::map<std::string_view, const char*> kWords = {
       {"ahead_us", "horizon"},
@@ -57,7 +57,7 @@ std::string wordsOf(std::string_view name) {
   return words;
 }
 
-/// Not in JSON's words: a depth may be NaN, which stands for unknown.
+/// The text of a number; not in JSON's words: a depth may be NaN, which stands for unknown.
 std::string textOf(double value) {
   return std::isnan(value) ? "unknown" : fmt::format("{}", value);
 }
@@ -105,7 +105,7 @@ class SaidFields {
   /// What comes now is the answer.
   void endOptions() { numOptions_ = fields_.size(); }
 
-  /// Both have the same fields up to the first that differs. `where`: of what is no option.
+  /// Both have the same fields up to the first that differs. `where`: for what is not an option.
   [[nodiscard]] std::string differenceTo(const SaidFields& replayed,
                                          const std::string& where) const {
     for (std::size_t i = 0; i < std::min(fields_.size(), replayed.fields_.size()); ++i) {

@@ -13,17 +13,17 @@ namespace foretouch::tools {
 /// them differs, reports that instead of a verdict, without the step.
 [[nodiscard]] std::string firstDifference(const ContactsMessage& recorded,
                                           const ContactsMessage& replayed);
-/// The same of what a solid avatar shows.
+/// The same for what a solid avatar shows.
 [[nodiscard]] std::string firstDifference(const SolidMessage& recorded,
                                           const SolidMessage& replayed);
 
-/// The same of what is known of a person.
+/// The same for what is known of a person.
 [[nodiscard]] std::string firstDifference(const PersonMessage& recorded,
                                           const PersonMessage& replayed);
-/// The same of what moves and presses against a solid body.
+/// The same for what moves and presses against a solid body.
 [[nodiscard]] std::string firstDifference(const PushesMessage& recorded,
                                           const PushesMessage& replayed);
-/// The same of what a moving world tells.
+/// The same for what a moving world reports.
 [[nodiscard]] std::string firstDifference(const EventsMessage& recorded,
                                           const EventsMessage& replayed);
 

@@ -18,7 +18,7 @@ namespace foretouch::tools {
                                           const std::vector<bool>& hasTranslation,
                                           const std::vector<Pose>& poses, double frameTimeS);
 
-/// Radians: the largest change of a rotation through a BVH file.
+/// The largest change of a rotation through a BVH file (radians).
 inline constexpr double kBvhTurn = 1e-9;
 
 }  // namespace foretouch::tools

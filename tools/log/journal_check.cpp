@@ -15,7 +15,7 @@ bool sameBytes(ByteView a, ByteView b) {
   return a.size == b.size && std::equal(a.data, a.data + a.size, b.data);
 }
 
-/// What is said of answers that differ, or that one of the two lacks.
+/// The words for answers that differ, or that one of the two lacks.
 struct Sayings {
   const char *differs, *isMissingHere, *isMissingThere;
 };

@@ -15,10 +15,10 @@
 
 namespace foretouch::tools {
 
-/// What is compared.
+/// The kind of the answers that are compared.
 enum class AnswerKind : std::uint8_t { Contacts, Solid, Person, Events, Pushes };
 
-/// Compares verdictBytes() by avatar, session and sequence, of events by timeline and sequence;
+/// Compares verdictBytes() by avatar, session and sequence, for events by timeline and sequence;
 /// several answers to one sequence (a sender without sessions) in their order. Keeps answers
 /// without a counterpart so far.
 class JournalCheck {

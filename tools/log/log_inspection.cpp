@@ -12,7 +12,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// With a point, whole or not.
+/// The rate with a point, whole or not.
 std::string rateText(double rateHz) {
   std::string text = numberText(rateHz);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";

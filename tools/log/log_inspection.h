@@ -31,7 +31,7 @@ struct LogInspection {
   LogCounts counts;
   ChannelFacts all;
   std::map<std::string, ChannelFacts> channels;
-  ChannelFacts otherChannels;         ///< Of channels beyond kMaxListedChannels.
+  ChannelFacts otherChannels;         ///< Facts on the channels beyond kMaxListedChannels.
   std::uint64_t stampsBackwards = 0;  ///< Events with an earlier stamp than the one before.
   std::vector<LogFinding> findings;
   std::uint64_t unlistedFindings = 0;

@@ -46,7 +46,7 @@ Result<Done> writeTo(EventLogWriter& writer, const LogEvent& event) {
   return writer.write(event.utimeUs, event.channel, event.payload);
 }
 
-/// By their stamps; those of one stamp by their numbers, if these still say anything.
+/// Copies events by stamps, those with one stamp by their numbers, if these still mean anything.
 Result<Done> copySorted(EventLogReader& reader, EventLogWriter& writer) {
   std::vector<LogEvent> events;
   std::size_t bytes = 0;
@@ -141,7 +141,7 @@ void dropOutput(const Recovery& asked) {
   std::filesystem::remove(asked.output, ignored);
 }
 
-/// An empty log is of no use to anybody.
+/// An empty log is of no use.
 ExitCode nothingToRecover(const Recovery& asked, const LogCounts& counts) {
   dropOutput(asked);
   printError(asked.log + ": no event of it can be trusted" +

@@ -12,8 +12,8 @@ namespace foretouch::tools {
 
 struct LogToBvhRequest {
   std::string logPath;
-  std::string suffix;       ///< Of the channels.
-  std::int32_t avatar = 1;  ///< Whose poses.
+  std::string suffix;       ///< The suffix of the channels.
+  std::int32_t avatar = 1;  ///< The avatar whose poses are taken.
 };
 
 struct BvhOfLog {

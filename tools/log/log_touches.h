@@ -17,14 +17,14 @@ class LogTouches {
   /// `inputs` must outlive it.
   explicit LogTouches(const LogReplayInputs& inputs);
 
-  /// In the order of the log.
+  /// Answers in the order of the log.
   void add(const AnsweredPose& answered);
-  /// After the last answer.
+  /// Call after the last answer.
   void finish();
 
   [[nodiscard]] const TouchCounts& counts() const { return counts_; }
-  /// After finish(): the last lines of the results, one a touch, and the counts. Without touches of
-  /// the ground if they are ignored.
+  /// After finish(): the last lines of the results, one per touch, and the counts. Without touches
+  /// of the ground if they are ignored.
   [[nodiscard]] std::string lines() const;
 
  private:

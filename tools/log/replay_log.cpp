@@ -41,7 +41,7 @@ Result<std::vector<StreamSolver>> solversFor(const LogReplayInputs& inputs) {
   return solvers;
 }
 
-/// Which answers a log has at all. Only then do those of the replay wait for theirs.
+/// Which answers a log has at all. Only then do those of the replay wait for them.
 struct HeldAnswers {
   bool contacts = false, solids = false, persons = false, events = false;
 };
@@ -231,7 +231,7 @@ class LogReplay {
     static_cast<void>(solver->take(skeleton_));  // counted by the stream
   }
 
-  /// An unreadable one shows where an answer then differs.
+  /// If one is unreadable, a later answer that differs shows it.
   void takeSpeaker(const LogEvent& event) {
     SpeakerMessage message;
     if (decode(event.payload, message) != Reject::None) return;
@@ -267,7 +267,7 @@ class LogReplay {
     } else if (decode(event.payload, recordedPerson_) != Reject::None) {
       ++report_.unreadableAnswers;
     } else if (solverOf(recordedPerson_.avatar) != nullptr) {
-      // When a wait ended the clock said, and only the log knows.
+      // The clock decided when a wait ended, and only the log knows that.
       PersonStream& person = persons_[indexOf_.at(recordedPerson_.avatar)];
       if (person.isEndOfWait(recordedPerson_)) endWait(person);
       report_.persons.addRecorded(recordedPerson_, event.payload);

@@ -47,26 +47,26 @@ struct LogReplayInputs {
 [[nodiscard]] Result<LogReplayInputs> loadLogReplayInputs(const LogReplayRequest& request);
 
 struct LogReplayReport {
-  std::vector<std::string> remarks;  ///< What is not as it was asked for: one sentence each.
+  std::vector<std::string> remarks;  ///< What differs from the request: one sentence each.
   LogCounts log;
-  std::int64_t poses = 0, skeletons = 0;  ///< Of the replayed avatars, or unreadable.
+  std::int64_t poses = 0, skeletons = 0;  ///< For the replayed avatars, or unreadable.
   std::int64_t answers = 0;
-  std::int64_t lost = 0, gaps = 0, timelines = 0;  ///< As StreamCounts, of all avatars together.
-  RejectCounts rejects{};  ///< Of poses and skeletons, unreadable ones included.
-  /// Avatars with poses in the log that are not replayed; how many poses.
+  std::int64_t lost = 0, gaps = 0, timelines = 0;  ///< As in StreamCounts, for all avatars.
+  RejectCounts rejects{};  ///< Poses and skeletons, unreadable ones included.
+  /// Avatars whose poses in the log are not replayed, with the number of these poses.
   std::map<std::int32_t, std::int64_t> others;
   std::int64_t unreadableAnswers = 0;  ///< In the log: nothing can be equal to them.
-  std::int64_t shown = 0;              ///< Poses that avatars showed that are solid by themselves.
+  std::int64_t shown = 0;              ///< Poses shown by avatars that are solid by themselves.
   JournalCheck journal;
-  JournalCheck solids{AnswerKind::Solid};  ///< Of the shown poses, if solid avatars are asked for.
-  std::int64_t solidsNotAsked = 0;         ///< Shown poses in the log otherwise.
-  std::int64_t said = 0;                   ///< Messages about persons.
-  std::vector<PersonMessage> ended;        ///< Of these, last steps whose next pose did not come.
-  JournalCheck persons{AnswerKind::Person};  ///< Of these, if they are asked for.
-  std::int64_t personsNotAsked = 0;          ///< In the log otherwise.
-  std::int64_t eventsNotAsked = 0;           ///< Of a moving world, in the log; without one.
+  JournalCheck solids{AnswerKind::Solid};    ///< The shown poses, if solid avatars are asked for.
+  std::int64_t solidsNotAsked = 0;           ///< Shown poses in the log, if they are not.
+  std::int64_t said = 0;                     ///< Messages about persons.
+  std::vector<PersonMessage> ended;          ///< Of these, last steps whose next pose did not come.
+  JournalCheck persons{AnswerKind::Person};  ///< These messages, if they are asked for.
+  std::int64_t personsNotAsked = 0;          ///< Such messages in the log, if they are not.
+  std::int64_t eventsNotAsked = 0;           ///< A moving world's, in the log; without one.
 
-  /// Nothing at all was answered: that says nothing of what the avatars touch.
+  /// Nothing at all was answered: that says nothing about what the avatars touch.
   [[nodiscard]] bool isEmpty() const { return answers == 0; }
   /// The replay contradicts nothing in the log.
   [[nodiscard]] bool agrees() const {
@@ -79,11 +79,11 @@ struct LogReplayReport {
 struct AnsweredPose {
   const ContactsMessage& answer;
   const SolidMessage* solid;              ///< What is shown; null: the avatar is not solid.
-  const PersonStream* person;             ///< What it says now; null: is not asked.
+  const PersonStream* person;             ///< What is known of the person now; null: not asked.
   std::size_t avatar;                     ///< Its index in the request.
   const StreamStep& step;                 ///< The step that the pose ended.
   const QueryOptions& query;              ///< The options of the query.
-  std::uint64_t positionBytes, logBytes;  ///< Bytes of the log read so far, of all.
+  std::uint64_t positionBytes, logBytes;  ///< Bytes of the log: read so far, and all.
 };
 
 /// Takes the answers in the order of the log; false ends the replay early.
@@ -91,7 +91,7 @@ using AnswerSink = std::function<bool(const AnsweredPose& answered)>;
 
 /// Answers every pose that a service with the same options would answer, as fast as possible and in
 /// this thread. The answers' stamps of receiving and sending are 0.
-/// `world`: of the service, if it had one that moves.
+/// `world`: the moving world of the service, if it had one.
 [[nodiscard]] Result<LogReplayReport> replayLog(const LogReplayInputs& inputs,
                                                 const AnswerSink& sink,
                                                 ReplayedWorld* world = nullptr);

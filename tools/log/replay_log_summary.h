@@ -21,7 +21,7 @@ class LogReplaySummary {
 
   /// `avatar` is its index in the request.
   void add(const ContactsMessage& answer, std::size_t avatar);
-  /// Of all answers, after the last one.
+  /// The touches of all answers, after the last one.
   void add(const TouchCounts& touches) { touches_ = touches; }
 
   [[nodiscard]] std::string text(const LogReplayReport& report) const;
@@ -29,8 +29,8 @@ class LogReplaySummary {
   /// "N of N verdicts equal the journal's, byte for byte", and the first difference; empty if the
   /// log has no verdicts.
   [[nodiscard]] static std::string comparison(const LogReplayReport& report);
-  /// "N of N ... equal the journal's, byte for byte"; empty if the log has none. `answers`: of the
-  /// replay.
+  /// "N of N ... equal the journal's, byte for byte"; empty if the log has none. `answers`: the
+  /// replay's.
   [[nodiscard]] static std::string compared(const JournalCheck& journal, const char* what,
                                             std::int64_t answers);
 

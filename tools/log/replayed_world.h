@@ -1,5 +1,5 @@
-// tools/log/replayed_world.h: what a log told a service's moving world, told again in its order;
-// what the world answers is compared with what the log has, byte for byte.
+// tools/log/replayed_world.h: gives a moving world again, in its order, what a log has for a
+// service's; compares what the world answers with what the log has, byte for byte.
 #pragma once
 
 #include <cstdint>
@@ -24,13 +24,13 @@ class ReplayedWorld {
 
   /// Whether the log has answers, for which those of the replay wait.
   void compare(bool hasRecord) { compares_ = hasRecord; }
-  /// An event about bodies, or a recorded answer; no other changes anything.
+  /// Takes an event about bodies, or a recorded answer; other events change nothing.
   void take(const LogEvent& event, const ChannelNames& channels);
-  /// A recorded solid_t; false if it is not of a solid body of the world.
+  /// Takes a recorded solid_t; false if it is not about a solid body of the world.
   [[nodiscard]] bool takeShown(const LogEvent& event);
-  /// The step that an accepted pose of an avatar ended.
+  /// Takes the step that an accepted pose of an avatar ended.
   void take(BodyNumber avatar, const StreamStep& step, std::int64_t receiveUtimeUs);
-  /// Another sender speaks of a body that is no avatar.
+  /// Another sender speaks for a body that is not an avatar.
   void changeSpeaker(BodyNumber body) { solver_.changeSpeaker(body); }
   /// The log was cut off.
   void endIsOpen() {
@@ -38,14 +38,14 @@ class ReplayedWorld {
   }
 
   [[nodiscard]] const JournalCheck& journal() const { return journal_; }
-  /// Of what solid bodies show, and of what presses against them.
+  /// The comparisons of what solid bodies show, and of what presses against them.
   [[nodiscard]] const JournalCheck& solids() const { return solids_; }
   [[nodiscard]] const JournalCheck& pushes() const { return pushes_; }
   [[nodiscard]] WorldCounts counts() const { return solver_.counts(); }
   [[nodiscard]] std::int64_t answers() const { return numAnswers_; }
-  /// solid_t, and as many pushes_t.
+  /// The number of solid_t; there are as many pushes_t.
   [[nodiscard]] std::int64_t shown() const { return numShown_; }
-  /// In the log: of bodies, or answers.
+  /// Unreadable events in the log: about bodies, or answers.
   [[nodiscard]] std::int64_t unreadable() const { return unreadable_; }
   [[nodiscard]] bool agrees() const {
     const auto isEqual = [](const JournalCheck& check) {

@@ -14,13 +14,13 @@ namespace foretouch::tools {
 
 class BoundCheck {
  public:
-  /// Objects that it refers to outlive it.
+  /// The objects that it refers to outlive it.
   BoundCheck(const Avatar& avatar, const std::vector<LinkBound>& bounds)
       : avatar_(avatar), bounds_(bounds), placer_(avatar) {}
 
-  /// From here on the step that these brackets are of.
+  /// Begins the step that the next brackets are about.
   void begin(const PosedStep& step, MotionModel model);
-  /// A pose of the person at `u` of the step, which was not given. `isKnown`: of a link, it is one.
+  /// Takes a left-out pose of the person at `u` of the step. `isKnown`: whether a link's is known.
   template <typename IsKnown>
   void leftOut(const Pose& truth, double u, double timeS, const StepBrackets& brackets,
                const IsKnown& isKnown, PersonCounts& counts) {

@@ -24,7 +24,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// A person whose clip does not say how long its units are is so tall (m).
+/// The height (m) of a person whose clip does not say how long its units are.
 constexpr double kUsualStature = 1.7;
 
 struct BoundsJob {
@@ -55,7 +55,7 @@ void learnFrom(const Clip& clip, const Avatar& avatar, const std::string& path,
                         1.0 / clip.frameTimeS));
 }
 
-/// Of a body that is made for the clip.
+/// Learns from a body that is made for the clip.
 Result<Done> learnFrom(const std::string& path, double scale, BoundsLearner& learner) {
   FORETOUCH_TRY(const Clip clip, readAtSize(path, scale));
   FORETOUCH_TRY(const Avatar avatar, inFile(avatarFromClip(clip), path));
@@ -63,7 +63,7 @@ Result<Done> learnFrom(const std::string& path, double scale, BoundsLearner& lea
   return Done{};
 }
 
-/// Of the axes that `replay` asks about, moved as it moves them.
+/// Learns from the axes that `replay` asks about, moved as it moves them.
 Result<Done> learnFrom(const std::string& path, const BoundsJob& job, BoundsLearner& learner) {
   ClipRequest request;
   request.avatarPath = job.avatar;

@@ -19,14 +19,14 @@ namespace foretouch::tools {
 /// beginsS[1] and had not ended before endsS[0].
 struct PersonTouch {
   LinkId link = 0, other = kNoParent;
-  TriangleId triangle = -1;  ///< Of the scene, that was, or may have been, touched first.
+  TriangleId triangle = -1;  ///< The scene's one that was, or may have been, touched first.
   bool isCertain = false;
   double beginsS[2] = {0.0, 0.0}, endsS[2] = {0.0, 0.0};
   bool beginsBefore = false, endsAfter = false;  ///< What is known begins, or ends, in it.
   double growth = 0.0;  ///< The largest distance between person and model in it (m).
 };
 
-/// Who is in a touch, in a line of results; empty: is not told.
+/// The names of what is in a touch, for a line of results; an empty one is left out.
 struct PersonNames {
   std::string body, link, otherBody, other, object;
 };
@@ -39,13 +39,13 @@ void writeShownTouch(const PersonTouch& touch, const std::string& object, JsonWr
 /// {"person_touch": {...}} (docs/formats.md).
 [[nodiscard]] std::string personTouchLine(const PersonNames& names, const PersonTouch& touch);
 
-/// The two sides' touches, of one question.
+/// Joins the touches of both sides, for one question.
 class BracketJoiner {
  public:
-  /// The brackets of [beginS, endS], which is not before that of the last call; nothing is known of
-  /// what lies between.
+  /// Takes the brackets of [beginS, endS], which is not before that of the last call; nothing is
+  /// known of what lies between.
   void add(double beginS, double endS, const StepBrackets& brackets);
-  /// In the order of their begins. Call once.
+  /// The touches in the order of their begins. Call once.
   [[nodiscard]] std::vector<PersonTouch> finish();
 
  private:

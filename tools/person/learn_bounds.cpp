@@ -102,7 +102,7 @@ class HeldBackClip {
   }
 
  private:
-  /// By where the person was at a frame and where pose_ has them.
+  /// Raises by where the person was at a frame and where pose_ has them.
   void raise(std::size_t frame, double share, std::vector<double>& most) {
     placer_.place(frames_[frame], one_);
     placer_.place(pose_, other_);
@@ -127,7 +127,7 @@ class HeldBackClip {
   std::vector<double> own_;
 };
 
-/// Poses that nobody recorded teach nothing.
+/// Poses that were not recorded teach nothing.
 bool hasGapIn(const Clip& clip, std::int64_t first, std::int64_t last) {
   return std::any_of(clip.gaps.begin(), clip.gaps.end(),
                      [&](const ClipGap& gap) { return gap.first <= last && gap.last >= first; });

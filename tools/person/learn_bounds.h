@@ -16,13 +16,13 @@ namespace foretouch::tools {
 
 struct LearnRequest {
   std::vector<MotionModel> models{MotionModel::CubicLate};
-  std::vector<double> ratesHz{30.0};  ///< Of given poses; the nearest whole number of frames.
-  double quantile = 0.999;            ///< Of steps, in (0,1].
-  double errorM = 0.0;                ///< Of a pose: what the tracker is off by.
-  bool isByLink = false;              ///< By name, of clips of one skeleton; else by part.
+  std::vector<double> ratesHz{30.0};  ///< Of the given poses; the nearest whole number of frames.
+  double quantile = 0.999;            ///< The share of steps, in (0,1].
+  double errorM = 0.0;                ///< How far the tracker is off in a pose.
+  bool isByLink = false;              ///< By name, for clips of one skeleton; else by part.
 };
 
-/// Clips one after the other; then the file. For one thread.
+/// Takes clips one after the other, then gives the file. For one thread.
 class BoundsLearner {
  public:
   explicit BoundsLearner(const LearnRequest& request) : request_(request) {}
@@ -32,7 +32,7 @@ class BoundsLearner {
   /// One entry per part (or link), model and rate.
   [[nodiscard]] BoundsFile bounds() const;
 
-  /// Of one part, model and rate: what each link needed in each step.
+  /// For one part, model and rate: what each link needed in each step.
   struct Seen {
     std::string part;
     MotionModel model = MotionModel::CubicLate;

@@ -20,7 +20,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// The four poses around a step, of which each is read once.
+/// The four poses around a step; each is read once.
 class PosesAround {
  public:
   PosesAround(const ReplayInputs& inputs, const LostFrames& lost, MotionModel model)
@@ -32,7 +32,7 @@ class PosesAround {
                     poseAtFrame(inputs_, inputs_.steps.frameOf(next_)));
     }
     const auto poseOf = [&](std::int64_t i) { return &poses_[slotOf(i % kKept)]; };
-    // Without a neighbour of which no link is known.
+    // Not a neighbour in which no link is known.
     const auto besideOf = [&](std::int64_t i) -> const Pose* {
       const bool isThere = i >= 0 && i <= inputs_.steps.count;
       return isThere && !lost_.isAllLost(inputs_.steps.frameOf(i)) ? poseOf(i) : nullptr;
@@ -105,7 +105,7 @@ class PersonTracker {
     for (PersonTouch& touch : joiner.finish()) answer_.touches.push_back(touch);
   }
 
-  /// Where only speeds say where the person was.
+  /// Asks where only speeds say where the person was.
   Result<Done> askAcross(const std::vector<PoseGap>& gaps) {
     for (const PoseGap& gap : gaps) {
       FORETOUCH_CHECK(askAcross(gap));

@@ -39,15 +39,15 @@ struct PersonAnswer {
 /// Lines of the results (docs/formats.md): one per touch, and one with the counts.
 [[nodiscard]] std::string personLines(const ReplayInputs& inputs, const PersonRequest& request,
                                       const PersonAnswer& answer);
-/// For people.
+/// The touches as text for people.
 [[nodiscard]] std::string personText(const ReplayInputs& inputs, const PersonRequest& request,
                                      const PersonAnswer& answer);
 
-/// What does not hold, or is not claimed: sentences.
+/// What does not hold, or is not claimed, as sentences.
 [[nodiscard]] std::vector<std::string> personNotes(const ReplayInputs& inputs,
                                                    const PersonAnswer& answer);
 
-/// All of it; empty if nothing is asked.
+/// The answer, its lines and its text; empty if nothing is asked.
 struct PersonTold {
   std::optional<PersonAnswer> answer;
   std::string lines, text;

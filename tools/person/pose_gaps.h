@@ -29,14 +29,14 @@ class PoseGaps {
       : lost_(lost), steps_(steps), openSince_(numLinks, kClosed) {}
 
   /// The bounds without those of links that are open in the step. Steps come one after the other;
-  /// `around`: with the poses that bend the step.
+  /// `around`: the step with the poses that bend it.
   const std::vector<LinkBound>& claimed(std::int64_t step, const PosedStep& around,
                                         const std::vector<LinkBound>& bounds);
   [[nodiscard]] bool isOpen(LinkId link) const { return openSince_[slotOf(link)] != kClosed; }
   [[nodiscard]] bool isAllOpen() const;
-  /// Once: the gaps that ended where the last step begins.
+  /// The gaps that ended where the last step begins; each is returned once.
   [[nodiscard]] std::vector<PoseGap> ended();
-  /// All are at an end: the clip is, at this pose.
+  /// Ends all gaps, as the clip ends at this pose.
   [[nodiscard]] std::vector<PoseGap> endAll(std::int64_t pose);
 
   /// The bounds of those links that both poses of a gap know.

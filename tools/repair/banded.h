@@ -1,6 +1,6 @@
 // tools/repair/banded.h: symmetric positive systems whose unknowns come in blocks of one size, each
-// of which is coupled with the next few alone: Cholesky's factor block by block, with Eigen's own
-// of each.
+// of which is coupled only with the next few: Cholesky's factor block by block, with Eigen's own
+// for each block.
 #pragma once
 
 #include <array>
@@ -13,18 +13,18 @@ namespace foretouch::tools {
 
 class BandedSystem {
  public:
-  /// A block is coupled with so many before it.
+  /// A block is coupled with this many blocks before it.
   static constexpr std::size_t kBand = 3;
 
   BandedSystem(std::size_t blocks, Eigen::Index size);
 
-  /// Of rows of block `at` and columns of block `at - back`; of block `at` itself both halves.
+  /// The rows of block `at` and the columns of block `at - back`; of block `at` itself both halves.
   [[nodiscard]] Eigen::MatrixXd& block(std::size_t at, std::size_t back) {
     return blocks_[at][back];
   }
-  /// Precondition: it was not factorized.
+  /// Precondition: the system was not factorized.
   [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& x) const;
-  /// Replaces the system by its factor. False: it is not positive.
+  /// Replaces the system by its factor. False if the system is not positive.
   [[nodiscard]] bool factorize();
   /// Precondition: factorize() was true. `x`: the right side, then the answer.
   void solve(Eigen::VectorXd& x) const;

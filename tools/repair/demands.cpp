@@ -14,15 +14,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Steps before a fault and after it that keep to its side as well.
+/// Steps before a fault and after it that keep to its side, too.
 constexpr std::int32_t kAround = 1;
 /// A later fault within so many steps is the same one.
 constexpr std::int32_t kSame = 3;
 
 }  // namespace
 
-/// The side on which the link was before it touched; where it begins inside, up if it is in what
-/// one stands on, else the way out.
+/// The side on which the link was before it touched; if it begins inside, up if it is in ground to
+/// stand on, else the way out.
 Side Demands::begun(const StepFault& fault) const {
   Side side;
   side.link = fault.link;
@@ -57,7 +57,7 @@ Side Demands::begun(const StepFault& fault) const {
   return side;
 }
 
-/// Of a foot: part of it is below its ground, about then.
+/// True for a foot of which a part is below its ground, about then.
 bool Demands::isUnder(const StepFault& fault) const {
   const auto& parts = stage_.feet().body.parts;
   for (std::size_t part = 0; part < parts.size(); ++part) {
@@ -87,7 +87,7 @@ bool Demands::takeContact(const StepFault& fault) {
   return true;
 }
 
-/// Behind the surface after its last step.
+/// True if the link is behind the surface after its last step.
 bool Demands::endsBehind(const Side& side) const {
   if (side.normal_W.isZero(0.0)) return false;
   std::vector<LinkState> states;
@@ -164,8 +164,8 @@ bool Demands::swings(const RestLook& look) const {
   return wayBefore(look).norm() > kSwingSpeed * stage_.feet().stepS();
 }
 
-/// One look of each step, the one in its middle. What counts may be another corner than in the
-/// round before.
+/// One look of each step: the one that slid farthest. What counts may be another corner than in
+/// the round before.
 bool Demands::takeSlide(const BearingStance& stance) {
   bool isNew = false;
   for (std::size_t i = 0, looks = 1; i < stance.looks.size(); i += looks, looks = 1) {

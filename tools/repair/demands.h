@@ -16,18 +16,18 @@ namespace foretouch::tools {
 
 /// Steps in which a link has to keep to one side of an object, or of another link.
 struct Side {
-  LinkId link = 0, other = -1;  ///< `other`: of own links.
+  LinkId link = 0, other = -1;  ///< `other`: for own links.
   ObjectId object = -1;
   std::int32_t first = 0, last = 0;                    ///< Steps.
   Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();  ///< To that side; zero: not known.
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();       ///< On the surface, where it was met.
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();       ///< On the surface, where the link met it.
   bool isLost = false;  ///< It came through and does not come back: no way is known.
   bool isGivenUp = false;
 };
 
-/// A foot that rests is lifted by no more than this (m) above the gap, or above where it was.
+/// A resting foot is lifted by no more than this (m) above the gap, or above where it was.
 inline constexpr double kRestBand = 0.001;
-/// A foot that goes by this fast (m/s along the ground) is on its way to a step: what it drags is
+/// A foot that moves this fast (m/s along the ground) is on its way to a step: what it drags is
 /// lifted, not held.
 inline constexpr double kSwingSpeed = 0.4;
 
@@ -42,28 +42,28 @@ class Demands {
   void giveUp(const Faults& faults);
 
   [[nodiscard]] const std::vector<Side>& sides() const { return sides_; }
-  /// Part and step: what must not move along the ground.
+  /// By part and step: what must not move along the ground.
   using Holds = std::map<std::pair<std::size_t, std::int64_t>, RestLook>;
   [[nodiscard]] const Holds& holds() const { return holds_; }
-  /// Part and pose: above the ground.
+  /// By part and pose: what must be above the ground.
   [[nodiscard]] const std::set<std::pair<std::size_t, std::int32_t>>& lifts() const {
     return lifts_;
   }
   /// Where the point went along the ground from its step to the next, before anything was changed.
   [[nodiscard]] Eigen::Vector3d wayBefore(const RestLook& look) const;
-  /// Part and pose, and how high it may be: it rested, and is not to be lifted.
+  /// By part and pose: how high the part may be, as it rested and is not to be lifted.
   [[nodiscard]] const std::map<std::pair<std::size_t, std::int32_t>, double>& keeps() const {
     return keeps_;
   }
-  /// Part and pose: off the ground, as it swings.
+  /// By part and pose: what must be off the ground, as it swings.
   [[nodiscard]] const std::set<std::pair<std::size_t, std::int32_t>>& clears() const {
     return clears_;
   }
-  /// Knob and pose: within its limits.
+  /// By knob and pose: what must be within its limits.
   [[nodiscard]] const std::set<std::pair<std::int32_t, std::int32_t>>& limits() const {
     return limits_;
   }
-  /// Instants of a step at which contacts began.
+  /// The instants of each step at which contacts began.
   [[nodiscard]] const std::map<std::int32_t, std::set<double>>& instants() const {
     return instants_;
   }
@@ -76,7 +76,7 @@ class Demands {
   void joinThroughs();
   void findRests(const FeetAnswer& feet);
   bool takeSlide(const BearingStance& stance);
-  /// Whether what was looked at went by, before anything was changed, faster than what slides.
+  /// Whether, before anything was changed, the point moved faster than what slides.
   [[nodiscard]] bool swings(const RestLook& look) const;
 
   const RepairStage& stage_;

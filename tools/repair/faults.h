@@ -26,31 +26,31 @@ enum class FaultKind : std::uint8_t {
 /// "touches", "touches itself", "under the ground", "slides", "beyond its limits".
 [[nodiscard]] const char* toString(FaultKind kind);
 
-/// One interval's, from pose `step` to the next.
+/// A fault of one interval, from pose `step` to the next.
 struct StepFault {
   FaultKind kind = FaultKind::Scene;
-  std::int32_t step = 0;  ///< Of Limit a pose; of Under as well, but for the last one.
-  LinkId link = -1;       ///< Of the body; of Limit the knob's place.
-  LinkId other = -1;      ///< Of Own.
-  ObjectId object = -1;   ///< Of Scene.
-  std::size_t part = 0;   ///< Of Under and Slide: of FeetInputs::body.
-  bool isStart = false;   ///< Of contacts: it touches at the pose already.
+  std::int32_t step = 0;  ///< For Limit a pose; for Under, too, but for the last one.
+  LinkId link = -1;       ///< A link of the body; for Limit the knob's place.
+  LinkId other = -1;      ///< For Own.
+  ObjectId object = -1;   ///< For Scene.
+  std::size_t part = 0;   ///< For Under and Slide: a part of FeetInputs::body.
+  bool isStart = false;   ///< For contacts: it touches at the pose already.
   bool isUndecided = false;
-  double at = 0.0;  ///< Of contacts, in [0,1]: where it is free until.
+  double at = 0.0;  ///< For contacts, in [0,1]: it is free until there.
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();       ///< On what is touched.
   Eigen::Vector3d normal_W = Eigen::Vector3d::Zero();  ///< Unit, towards the link; zero: not known.
   TriangleId triangle = -1;
-  /// By how much (m, or of Limit the knob's unit): depth, the stance's slide, excess; of contacts
+  /// By how much (m, or for Limit the knob's unit): depth, the stance's slide, excess; for contacts
   /// the penetration of an axis' radius, where it is known.
   double by = 0.0;
 };
 
-/// What of a stance bears: the looks at which the part is about the lowest of its foot. A heel that
-/// lifts over a ball that stands does not slide.
+/// The looks of a stance that bear: those at which the part is about the lowest of its foot. A heel
+/// that lifts over a ball that stands does not slide.
 struct BearingStance {
   std::size_t part = 0;
   std::vector<RestLook> looks;
-  double slide = 0.0, moved = 0.0;  ///< As FootStance, of these looks.
+  double slide = 0.0, moved = 0.0;  ///< As in FootStance, for these looks.
   std::int64_t fromFrame = 0, toFrame = 0;
 
   [[nodiscard]] bool isFault(double mostSlide) const {
@@ -66,14 +66,14 @@ inline constexpr double kBears = 0.002;
 struct Faults {
   std::vector<StepFault> all;  ///< By step.
   FeetAnswer feet;
-  std::vector<BearingStance> bearing;  ///< Of feet.
+  std::vector<BearingStance> bearing;  ///< Stances of feet.
   std::vector<std::uint8_t> isFaulty;  ///< Per interval.
-  std::int64_t faulty = 0;             ///< Intervals.
+  std::int64_t faulty = 0;             ///< Number of faulty intervals.
 
-  [[nodiscard]] std::int64_t countOf(FaultKind kind) const;  ///< Intervals.
+  [[nodiscard]] std::int64_t countOf(FaultKind kind) const;  ///< In intervals.
 };
 
-/// Asks the kernel of every interval, and how feet rest. Errors: as stancesOf().
+/// Asks the kernel about every interval, and finds how feet rest. Errors: those of stancesOf().
 [[nodiscard]] Result<Faults> faultsOf(const RepairStage& stage);
 
 /// Depths below this are rounding (m).

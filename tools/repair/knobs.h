@@ -1,4 +1,4 @@
-// tools/repair/knobs.h: what of a clip a repair may change: joints' angles, the root's place, a
+// tools/repair/knobs.h: what a repair may change in a clip: joints' angles, the root's place, a
 // robot's coordinates; each a number that is added, pose by pose. Metres, radians.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace foretouch::tools {
 struct Drive {
   JointId joint = 0;
   bool turns = true;
-  /// Turns: the axis in the joint's own frame, times radians per unit. Several of one joint add up
+  /// Turns: the axis in the joint's own frame, times radians per unit. Those of one joint add up
   /// to one rotation vector, applied after the joint's rotation. Else: the shift in the parent's
   /// frame, m per unit.
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
@@ -26,7 +26,7 @@ struct Drive {
 struct Knob {
   std::string name;
   std::vector<Drive> drives;
-  /// What the knob's number may be, where it has limits; `values`: what it is, per frame of the
+  /// The limits of the knob's number, if it has any; `values`: the number itself, per frame of the
   /// clip.
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -35,10 +35,10 @@ struct Knob {
   [[nodiscard]] bool isLimited() const { return !values.empty(); }
 };
 
-/// Per knob (rows) and pose (columns).
+/// The changes, per knob (rows) and pose (columns).
 using Changes = Eigen::MatrixXd;
 
-/// The rotation vectors that the knobs add, per joint of the clip, of one column.
+/// The rotation vectors that the knobs add, per joint of the clip, for one column.
 [[nodiscard]] std::vector<Eigen::Vector3d> turnsOf(const std::vector<Knob>& knobs,
                                                    const Eigen::VectorXd& change,
                                                    std::size_t joints);

@@ -11,11 +11,11 @@
 namespace foretouch::tools {
 namespace {
 
-/// Cost per square metre (or unit) that a row is missed by, in the first round of multipliers, and
+/// Cost per square metre (or unit) by which a row is missed, in the first round of multipliers, and
 /// by how much it grows from one to the next: in the end above the stiffness of any smooth change,
 /// and no higher, so that rows which contradict each other do not tear at the body.
 constexpr double kFirstStiffness = 1e5, kGrowth = 10.0, kMostStiffness = 1e6;
-/// The same of wishes: a millimetre costs as much as the body's way over some poses.
+/// The same for wishes: a millimetre costs as much as the body's way over some poses.
 constexpr double kWish = 1e3;
 /// Rounds of multipliers, and at most so many choices of the rows that push in each.
 constexpr int kMultiplierRounds = 8, kChoices = 20;
@@ -25,7 +25,7 @@ constexpr double kMet = 1e-6;
 constexpr double kNoWay = 1e-9;
 /// More than this of a way is all of it.
 constexpr double kWhole = 1.0 - 1e-6;
-/// Smoothing over more poses than this is no smoother to the eye, and doubles cannot tell.
+/// Smoothing over more poses than this is no smoother to the eye, and doubles cannot resolve it.
 constexpr double kMostReach = 14.0;
 
 /// Differences of order 0 to 3, and what each counts in (1 - reach^2 d^2)^3: times reach^(2 order).
@@ -57,11 +57,11 @@ class Solver {
   [[nodiscard]] double shareTo(const Eigen::VectorXd& aim, const Eigen::VectorXd& x) const;
   [[nodiscard]] bool solveFor(const std::vector<Pull>& pulls, Eigen::VectorXd& x);
   [[nodiscard]] double valueOf(const Row& row, const Eigen::VectorXd& x) const;
-  /// Among the poses that change, -1: it does not.
+  /// The place among the poses that change; -1 if it does not.
   [[nodiscard]] int placeOf(std::int32_t pose) const {
     return pose < 0 || pose >= poses_ ? -1 : poseAt_[slotOf(pose)];
   }
-  /// Of a number that changes.
+  /// The place of a number that changes.
   [[nodiscard]] int placeOf(const RowTerm& term) const {
     return placeOf(term.pose) * numKnobs_ + knobAt_[slotOf(term.knob)];
   }
@@ -191,11 +191,11 @@ bool Solver::solveFor(const std::vector<Pull>& pulls, Eigen::VectorXd& x) {
   return x.allFinite();
 }
 
-/// How far of the way from x to `aim` the cost falls: between the places at which a row begins to
-/// pull, or ends to, it is a parabola. Whole ways, without this, go round in circles.
+/// How much of the way from x to `aim` the cost falls: between the places at which a row begins or
+/// ends to pull, it is a parabola. Whole ways, without this, go round in circles.
 double Solver::shareTo(const Eigen::VectorXd& aim, const Eigen::VectorXd& x) const {
   const Eigen::VectorXd way = aim - x;
-  // The slope and how it grows: of the change itself,
+  // The slope and how it grows: those of the change itself,
   const Eigen::VectorXd costs = cost_->times(way);
   double slope = x.dot(costs), grows = way.dot(costs);
   // and of each row, from where it begins to pull, or until it ends to.

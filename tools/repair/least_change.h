@@ -19,12 +19,12 @@ struct RowTerm {
   double by = 0.0;
 };
 
-/// What the row asks of the changes, in metres or, of a limit, in the knob's unit.
+/// What the row asks of the changes, in metres or, for a limit, in the knob's unit.
 struct Row {
   std::vector<RowTerm> terms;
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  /// A wish: it pulls as a spring does, and gives way to what others ask.
+  /// A wish: it pulls as a spring does, and gives way to what other rows ask.
   bool isWish = false;
   /// Its push at the answer, in units of the cost per unit of the row: above 0 towards larger
   /// values. Filled in by leastChange().
@@ -46,7 +46,7 @@ struct LeastChange {
   bool isSolved = false;
 };
 
-/// `metric`: of the knobs, symmetric and positive. Rows that contradict each other are met in the
+/// `metric`: the knobs', symmetric and positive. Rows that contradict each other are met in the
 /// least squares, as nearly as can be. Only poses within the margin of a row change, and only knobs
 /// that a row names. O(poses * knobs^3).
 [[nodiscard]] LeastChange leastChange(const Eigen::MatrixXd& metric, std::int32_t poses,

@@ -10,10 +10,10 @@
 namespace foretouch::tools {
 namespace {
 
-/// What turning costs beside what it moves: as if each joint carried something at 10 cm. Without it
-/// fingers and toes, which move little, would turn far.
+/// The cost of turning, beside what it moves: as if each joint carried something at 10 cm. Without
+/// it fingers and toes, which move little, would turn far.
 constexpr double kTurnCost = 0.01;
-/// The same of shifts: the share of the body that they count as at least.
+/// The same for shifts: the share of the body that they count as at least.
 constexpr double kShiftCost = 0.02;
 /// A limb with so many knobs can get out of the way by itself.
 constexpr std::size_t kEnoughKnobs = 3;

@@ -23,7 +23,7 @@ class Levers {
   /// `stage` must outlive it.
   explicit Levers(const RepairStage& stage);
 
-  /// Of the changes that the stage is posed with: the turn of each joint, pose by pose.
+  /// Takes the changes that the stage is posed with: the turn of each joint, pose by pose.
   void setChanges(const Changes& changes);
   /// Where and when a point is seen: the body's links, and the pose whose knobs move it, times
   /// share.
@@ -36,15 +36,15 @@ class Levers {
   void add(const SeenPoint& point, const Sight& sight, std::vector<RowTerm>& terms) const {
     add(levers_[slotOf(point.link)], point, sight, terms);
   }
-  /// The same as seen from another link: what moves both of them moves it not.
+  /// The same as seen from another link: what moves both of them does not move it.
   void addBeside(LinkId other, const SeenPoint& point, const Sight& sight,
                  std::vector<RowTerm>& terms) const;
-  /// The same by the limb alone, if the point is of one: an arm is mended by the arm, while the
+  /// The same by the limb only, if the point is on one: an arm is mended by the arm, while the
   /// rest stands as it did.
   void addOfLimb(const SeenPoint& point, const Sight& sight, std::vector<RowTerm>& terms) const {
     add(limbs_[slotOf(point.link)], point, sight, terms);
   }
-  /// What changes cost (m^2): the mean over the body's joints of how far they move, squared; over
+  /// The cost of changes (m^2): the mean over the body's joints of how far they move, squared; over
   /// some of the poses that the changes are about.
   [[nodiscard]] Eigen::MatrixXd metric() const;
 

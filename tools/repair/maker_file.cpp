@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Bones whose positions the clip changes by less than this (m) have a length that stays.
+/// Bones whose positions the clip changes by less than this (m) have a constant length.
 constexpr double kShifts = 1e-3;
 
 class BvhFile : public MakerFile {

@@ -1,4 +1,4 @@
-// tools/repair/maker_file.h: a clip's file as its maker wrote it: what of it can be changed, and
+// tools/repair/maker_file.h: a clip's file as its maker wrote it: what can be changed in it, and
 // the same file with changes, every other byte as it was.
 #pragma once
 
@@ -17,13 +17,13 @@ class MakerFile {
  public:
   virtual ~MakerFile() = default;
   /// Reads the request's motion again, which `clip` is. Errors name the file: a model (its
-  /// animation is no table of poses); a table whose rows were cut (Clip::framesPerRow).
+  /// animation is not a table of poses); a table whose rows were cut (Clip::framesPerRow).
   [[nodiscard]] static Result<std::unique_ptr<MakerFile>> open(const ClipRequest& request,
                                                                const Clip& clip);
 
-  /// By joint, the root's first.
+  /// The knobs by joint, the root's first.
   [[nodiscard]] const std::vector<Knob>& knobs() const { return knobs_; }
-  /// The file with the changes: a column per frame of the clip. Errors: as its format's.
+  /// The file with the changes: a column per frame of the clip. Errors: those of its format.
   [[nodiscard]] virtual Result<std::string> with(const Changes& changes) const = 0;
   /// Such a file, read as the product reads it.
   [[nodiscard]] virtual Result<Clip> reread(const std::string& bytes) const = 0;
@@ -32,7 +32,7 @@ class MakerFile {
   std::vector<Knob> knobs_;
 };
 
-/// Of a table of joint positions: tools/repair/table_file.cpp.
+/// Opens a table of joint positions: tools/repair/table_file.cpp.
 [[nodiscard]] Result<std::unique_ptr<MakerFile>> openTable(const ClipRequest& request);
 
 }  // namespace foretouch::tools

@@ -25,7 +25,7 @@ Spread spreadOf(std::vector<double> values) {
   return spread;
 }
 
-/// Per pose, per joint.
+/// The places of joints, per pose and joint.
 std::vector<std::vector<Vector3d>> placesOf(const Skeleton& skeleton,
                                             const std::vector<Pose>& poses) {
   std::vector<std::vector<Vector3d>> places;
@@ -38,7 +38,7 @@ std::vector<std::vector<Vector3d>> placesOf(const Skeleton& skeleton,
   return places;
 }
 
-/// About the poses that count: where any of the four does that a jerk is made of.
+/// The jerk about the poses that count: where any of the four does that a jerk is made of.
 double jerkOf(const std::vector<std::vector<Vector3d>>& places, double stepS,
               const std::vector<std::uint8_t>& counts) {
   double sum = 0.0;

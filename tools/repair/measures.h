@@ -10,7 +10,7 @@
 
 namespace foretouch::tools {
 
-/// Over joints and poses.
+/// What values over joints and poses come to.
 struct Spread {
   double mean = 0.0, p99 = 0.0, most = 0.0;
 };
@@ -23,7 +23,7 @@ struct Jerk {
 };
 
 struct JointMoved {
-  JointId joint = 0;           ///< Of the body.
+  JointId joint = 0;           ///< A joint of the body.
   Spread move;                 ///< How far its origin moved in W.
   Spread turn;                 ///< How far its own rotation, in its parent, turned.
   std::int32_t worstPose = 0;  ///< Where it moved most.
@@ -31,10 +31,10 @@ struct JointMoved {
 
 struct Measures {
   std::int32_t changedPoses = 0;
-  Spread move, turn;                ///< Of all joints at all poses.
-  Spread moveChanged, turnChanged;  ///< Of all joints at the poses that changed.
+  Spread move, turn;                ///< For all joints at all poses.
+  Spread moveChanged, turnChanged;  ///< For all joints at the poses that changed.
   std::vector<JointMoved> joints;   ///< Those that changed, the farthest moved first.
-  Jerk jerk;                        ///< Of all poses.
+  Jerk jerk;                        ///< For all poses.
   Jerk jerkChanged;                 ///< About the poses that changed.
 };
 

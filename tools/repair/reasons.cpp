@@ -9,9 +9,9 @@
 namespace foretouch::tools {
 namespace {
 
-/// Faults of one kind within so many steps are one.
+/// Faults of one kind within so many steps are one fault.
 constexpr std::int32_t kTogether = 2;
-/// Rows that push this much less than the strongest one say nothing.
+/// Rows that push this much less than the strongest one do not count.
 constexpr double kWeak = 0.05;
 
 const Side* sideOf(const Demands& demands, const Unmended& fault) {

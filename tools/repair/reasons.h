@@ -16,14 +16,14 @@ struct Unmended {
   LinkId link = -1, other = -1;
   ObjectId object = -1;
   std::int32_t first = 0, last = 0;  ///< Poses between which they lie.
-  double by = 0.0;                   ///< As StepFault::by, the greatest.
+  double by = 0.0;                   ///< As in StepFault::by, the greatest.
   std::string reason;
 };
 
 /// Rounds of asking and changing.
 inline constexpr std::int32_t kMostRounds = 20;
 
-/// `rows`: those that pushed while all was still asked for.
+/// `rows`: those that pushed while everything was still asked for.
 [[nodiscard]] std::vector<Unmended> unmendedOf(const RepairStage& stage, const Faults& after,
                                                const Demands& demands, const Rows& rows);
 

@@ -20,7 +20,7 @@ constexpr double kMostTurnPerRound = 0.2;
 /// Seconds over which a change fades: the shortest that adds no more than kMostJerk, as a longer
 /// one moves more.
 constexpr std::array<double, kMostTries> kReachesS{0.02, 0.035, 0.06};
-/// Of the jerk at the poses that change, as a share of what was there.
+/// The jerk that is added at the poses that change, as a share of what was there.
 constexpr double kMostJerk = 0.04;
 /// Seconds after which a change is over.
 constexpr double kMarginS = 0.6;
@@ -38,7 +38,7 @@ bool isRough(const Measures& measures) {
   return measures.jerkChanged.added() > kMostJerk;
 }
 
-/// From one change towards another one, as far as rows are to be trusted: less about poses that
+/// The changes from one towards another, as far as rows are to be trusted: less about poses that
 /// would be turned far.
 Changes stepped(const Changes& from, const Changes& to, std::int32_t reach) {
   const Changes way = to - from;
@@ -150,7 +150,7 @@ Result<Repair> repaired(RepairStage& stage, const std::function<bool(std::int32_
   std::int32_t asked = 0;
   for (std::size_t i = 0; i < kReachesS.size(); ++i) {
     const bool isLast = i + 1 == kReachesS.size();
-    // Of few poses a second the shorter ones are the same.
+    // At few poses per second the shorter ones are the same.
     if (!isLast && kReachesS[i + 1] <= stage.feet().stepS()) continue;
     Repair repair;
     repair.before = before;

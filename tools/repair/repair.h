@@ -17,7 +17,7 @@
 namespace foretouch::tools {
 
 struct Repair {
-  Faults before, after;  ///< `after`: of the text, as it reads back.
+  Faults before, after;  ///< `after`: those of the text, as it reads back.
   Measures measures;
   std::vector<Unmended> unmended;
   /// Stances that move too far to be a slide: they were left as they are.
@@ -30,7 +30,7 @@ struct Repair {
 inline constexpr std::int32_t kMostTries = 3;
 
 /// `progress(rounds so far)` before each round; false stops, and the answer is then of no use. The
-/// stage is posed as the file reads back. Errors: as faultsOf(), and those of the file's format.
+/// stage is posed as the file reads back. Errors: those of faultsOf(), and of the file's format.
 [[nodiscard]] Result<Repair> repaired(RepairStage& stage,
                                       const std::function<bool(std::int32_t)>& progress);
 

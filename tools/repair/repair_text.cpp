@@ -17,7 +17,7 @@ namespace {
 constexpr double kMm = 1e3, kDegrees = 180.0 / 3.14159265358979323846;
 /// Joints in the table for people.
 constexpr std::size_t kMostJoints = 12;
-/// Lines of what is not mended; JSON has all.
+/// Lines about what is not mended; JSON has all.
 constexpr std::size_t kMostLines = 40;
 
 constexpr std::array kKinds{FaultKind::Scene, FaultKind::Own, FaultKind::Under, FaultKind::Slide,
@@ -108,7 +108,7 @@ void writeFaults(const RepairStage& stage, const Faults& faults, JsonWriter& out
     std::replace(name.begin(), name.end(), ' ', '_');
     out.field(name, faults.countOf(kind));
   }
-  out.key("runs");  // of frames between which each interval is at fault
+  out.key("runs");  // runs of frames between which each interval is at fault
   out.beginArray();
   for (std::size_t i = 0; i < faults.isFaulty.size();) {
     std::size_t end = i;

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Rows of what is within the gap and this much more (m): it may get there by the change.
+/// Rows for what is within the gap and this much more (m): the change may bring it there.
 constexpr double kReach = 0.02;
 /// A feature whose normal is this near (cosine) to a side's is turned to that side.
 constexpr double kAlong = 0.3;
@@ -94,7 +94,7 @@ Placed Builder::placed(LinkId link, const Lss& lss) const {
   return {link, state.pointAt(lss.a), state.pointAt(lss.b), lss.radius};
 }
 
-/// The row's bounds are about what is there now; those of the total change take in the change that
+/// The row's bounds are about what is there now; those for the total change include the change that
 /// is there already.
 void Builder::push(Row row, const RowOwner& owner, double value) {
   double here = 0.0;
@@ -212,7 +212,7 @@ void Builder::addOwn(const Side& side) {
   }
 }
 
-/// Every corner of the part so high above what it stands on.
+/// Demands that every corner of the part is so high above what it stands on.
 void Builder::addLift(std::size_t part, std::int32_t at, double height) {
   const FeetInputs& inputs = stage_.feet();
   const RestingPart& of = inputs.body.parts[part];
@@ -229,7 +229,7 @@ void Builder::addLift(std::size_t part, std::int32_t at, double height) {
   }
 }
 
-/// The lowest corner of the part at most so high.
+/// Wishes that the lowest corner of the part is at most so high.
 void Builder::addKeep(std::size_t part, std::int32_t at, double most) {
   const FeetInputs& inputs = stage_.feet();
   const RestingPart& of = inputs.body.parts[part];
@@ -253,7 +253,7 @@ void Builder::addKeep(std::size_t part, std::int32_t at, double most) {
   push(std::move(row), {FaultKind::Under, link, -1, -1, at}, ground->heightOf(p_W));
 }
 
-/// What counted for a slide does not move from one pose to the next.
+/// Demands that what counted for a slide does not move from one pose to the next.
 void Builder::addHold(const RestLook& look) {
   const auto step = static_cast<std::int32_t>(look.step);
   const LinkId link = stage_.linkOf(look.link);

@@ -1,4 +1,4 @@
-// tools/repair/rows.h: what is demanded, as bounds that are linear around the poses at hand.
+// tools/repair/rows.h: the demands, as bounds that are linear around the poses at hand.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace foretouch::tools {
 
-/// Whose a row is: what cannot be mended is told by those that push against each other.
+/// The owner of a row: rows that push against each other show what cannot be mended.
 struct RowOwner {
   FaultKind kind = FaultKind::Scene;
-  LinkId link = -1, other = -1;  ///< Of Limit the knob.
+  LinkId link = -1, other = -1;  ///< For Limit the knob.
   ObjectId object = -1;
   std::int32_t step = 0;
 };

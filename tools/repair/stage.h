@@ -1,4 +1,4 @@
-// tools/repair/stage.h: a clip that is to be mended: its body, what it is among, and what of it may
+// tools/repair/stage.h: a clip that is to be mended: its body, what it is among, and what in it may
 // change. World W: metres, +Y up. A pose is one that is played: 0 is the first one of the cut.
 #pragma once
 
@@ -21,11 +21,11 @@ struct RepairRequest : FeetRequest {
   /// What is nearer than this to anything (m) is moved so far away, once it touched; feet rest so
   /// far above the ground.
   double gap = 0.0005;
-  /// A foot that moves farther than this while it touches (m) means to: it is no slide.
+  /// A foot that moves farther than this while it touches (m) means to: it does not slide.
   double mostSlide = 0.08;
 };
 
-/// Of the gap: what the kernel counts as contact. The rest is for what rounding and curves take.
+/// The share of the gap that the kernel counts as contact. The rest is for rounding and curves.
 inline constexpr double kToleranceShare = 0.2;
 
 class RepairStage {
@@ -33,7 +33,7 @@ class RepairStage {
   /// Errors name the file or the option.
   [[nodiscard]] static Result<RepairStage> load(const RepairRequest& request);
 
-  /// Poses the clip with changes, a column per pose. Errors: as FeetInputs::poseAt().
+  /// Poses the clip with changes, a column per pose. Errors: those of FeetInputs::poseAt().
   [[nodiscard]] Result<Done> change(const Changes& changes);
   /// The same with the poses of a clip of the same file. Errors: it has another number of frames.
   [[nodiscard]] Result<Done> replaceBy(Clip clip);
@@ -50,7 +50,7 @@ class RepairStage {
   /// What the poses were changed by.
   [[nodiscard]] const Changes& changes() const { return changes_; }
   [[nodiscard]] double secondsOf(std::int64_t pose) const { return feet_.timeOf(pose); }
-  /// Of the pose, in the clip.
+  /// The frame of the pose in the clip.
   [[nodiscard]] std::int64_t frameOf(std::int64_t pose) const {
     return feet_.played.steps.frameOf(pose);
   }

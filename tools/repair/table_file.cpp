@@ -26,12 +26,12 @@ namespace {
 using Eigen::Vector3d;
 using internal::JointTable;
 
-/// A column is tried out by so much of its unit.
+/// A column is tried by changing it by so much of its unit.
 constexpr double kTry = 1e-3;
 /// What a column moves by less than this (rad, m) per unit it does not move.
 constexpr double kMoves = 1e-9;
 
-/// What is common to tables, whatever holds their numbers.
+/// What tables have in common, whatever holds their numbers.
 class TableFile : public MakerFile {
  public:
   [[nodiscard]] Result<std::string> with(const Changes& changes) const override {
@@ -57,7 +57,7 @@ class TableFile : public MakerFile {
  protected:
   /// Where a knob's number stands in a table.
   struct Place {
-    std::int32_t column = -1;  ///< Of JointTable::joints; or of its root:
+    std::int32_t column = -1;  ///< In JointTable::joints; or of its root:
     int shift = -1, turn = -1;
     double unit = 1.0;  ///< Radians or metres per unit of the column.
   };
@@ -75,7 +75,7 @@ class TableFile : public MakerFile {
   void limit(Knob& knob, const Place& place) const;
 };
 
-/// Each column, and each direction of the root, is moved a little, and what moves is seen.
+/// Moves each column, and each direction of the root, a little, and sees what moves.
 Result<Done> TableFile::findKnobs(const ClipRequest& request) {
   request_ = request;
   JointTable tries = table_;
@@ -150,13 +150,13 @@ void TableFile::limit(Knob& knob, const Place& place) const {
   }
 }
 
-/// A column's number in a row, and what it was.
+/// A column's number in a row, and its value before.
 struct Cell {
   std::size_t column = 0;
   double before = 0.0, after = 0.0;
 };
 
-/// The numbers of a root that are not as they were, in the order of the layout's columns.
+/// The numbers of a root that have changed, in the order of the layout's columns.
 void addRootCells(const RigidPose& before, const RigidPose& after, double metresPerUnit,
                   const std::vector<std::size_t>& columns, const std::vector<double>& row,
                   std::vector<Cell>& cells) {
@@ -312,7 +312,7 @@ class NpzTable : public TableFile {
   [[nodiscard]] Result<std::string> write(const JointTable& after) const override;
 
  private:
-  /// The numbers of an array that are not as they were.
+  /// Changes the numbers of an array that are not as they were.
   void changeTurns(const std::string& name, const JointTable& after,
                    std::vector<double>& numbers) const;
 };

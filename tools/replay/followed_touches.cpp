@@ -147,8 +147,8 @@ void FollowedTouches::countRows() {
   rows_.clear();
 }
 
-/// The touch that goes on at its instant. A step and the follower may find the same contact at two
-/// instants of the step: each at one that is proven, and within the tolerance.
+/// The touch that goes on at the row's instant. A step and the follower may find the same contact
+/// at two instants of the step: each at one that is proven, and within the tolerance.
 FollowedTouches::Live* FollowedTouches::liveOf(const Row& row) {
   Live* beginning = nullptr;
   for (Live& live : live_) {
@@ -162,7 +162,7 @@ FollowedTouches::Live* FollowedTouches::liveOf(const Row& row) {
   return beginning;
 }
 
-/// What begins a touch in a step's answer is what begins it in the list.
+/// The row that begins a touch in a step's answer begins it in the list.
 void FollowedTouches::count(const Row& row, double timeS, Live& live) {
   Touch& touch = live.touch;
   if (touch.contacts == 0 && row.step == touch.firstStep &&

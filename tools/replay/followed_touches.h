@@ -1,5 +1,5 @@
 // tools/replay/followed_touches.h: the touches of a replay that is followed: from enter to leave,
-// both proven, each with what the steps' answers say of it.
+// both proven, each with what the steps' answers say about it.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class FollowedTouches {
   /// Steps in order. Appends the contacts that begin touches, and the touches that ended.
   [[nodiscard]] Result<Done> add(const StepAnswer& answer, std::vector<ReportedContact>& begun,
                                  std::vector<Touch>& ended);
-  /// After the last step: nothing is known of what follows it.
+  /// Call after the last step: nothing is known of what follows it.
   [[nodiscard]] Result<Done> finish(std::vector<ReportedContact>& begun, std::vector<Touch>& ended);
 
  private:
@@ -35,7 +35,7 @@ class FollowedTouches {
 
     [[nodiscard]] double at() const { return static_cast<double>(step) + contact.toi; }
   };
-  /// Until it is ended, and what the steps say of it is counted.
+  /// A touch that has not ended, or about which not all is counted that the steps say.
   struct Live {
     Touch touch;
     LinkContact first;

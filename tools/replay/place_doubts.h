@@ -1,5 +1,5 @@
-// tools/replay/place_doubts.h: signs in a replay's answers that the body stands where nobody meant it
-// to.
+// tools/replay/place_doubts.h: signs in a replay's answers that the body stands where it was not
+// meant to stand.
 #pragma once
 
 #include <cstddef>

@@ -24,7 +24,7 @@ constexpr std::int64_t kChunksAhead = 4;
 
 struct Chunk {
   std::vector<ReplayedStep> steps;
-  std::optional<Error> error;  ///< Of the step after `steps`.
+  std::optional<Error> error;  ///< The error of the step after `steps`.
 };
 
 /// Workers fetch the numbers of chunks here and leave their answers; the consumer takes the answers
@@ -136,7 +136,7 @@ Chunk solveChunk(StepSolver& solver, std::int64_t first, std::int64_t end) {
   return chunk;
 }
 
-/// An error about what this avatar cannot be asked is one about the option that asks it.
+/// Turns an error about what this avatar cannot be asked into one about the option that asks it.
 Result<Query> withOptions(Result<Query> built) {
   if (built.ok()) return built;
   Error error = built.error();
@@ -160,8 +160,8 @@ Result<Done> replay(const ReplayInputs& inputs, int threads, const StepSink& sin
   for (int i = 0; i < threads; ++i) {
     solvers.emplace_back(inputs, query, depths ? &*depths : nullptr, format);
   }
-  // What the first query grows must not count in any step's latency. An error here recurs, and is
-  // reported, at step 0.
+  // What the first query allocates must not count in any step's latency. An error here recurs, and
+  // is reported, at step 0.
   static_cast<void>(solvers.front().solve(0));
 
   const std::int64_t steps = inputs.steps.count;

@@ -18,24 +18,24 @@ namespace foretouch::tools {
 /// Collects the touches of a replay. Keeps each: about 150 bytes.
 class ReplayTouches {
  public:
-  /// `inputs` must outlive it. Errors: as World::add() of its body.
+  /// `inputs` must outlive it. Errors: those of World::add() for its body.
   [[nodiscard]] static Result<ReplayTouches> start(const ReplayInputs& inputs);
 
-  /// Steps in order. Errors: as WorldFollower::follow().
+  /// Steps in order. Errors: those of WorldFollower::follow().
   [[nodiscard]] Result<Done> add(const StepAnswer& answer);
-  /// After the last step.
+  /// Call after the last step.
   [[nodiscard]] Result<Done> finish();
 
   /// The contacts that begin touches and that the last call has found: of this step, or of some
   /// before it.
   [[nodiscard]] const std::vector<ReportedContact>& begun() const { return begun_; }
-  /// Begin and end of each touch are proven, and no object hides another.
+  /// True if begin and end of each touch are proven, and no object hides another.
   [[nodiscard]] bool areFollowed() const { return followed_.has_value(); }
-  /// After finish(), in the order of isListedBefore(); without those of the ground if they are
-  /// ignored.
+  /// The touches after finish(), in the order of isListedBefore(); without those of the ground if
+  /// they are ignored.
   [[nodiscard]] const std::vector<Touch>& listed() const { return listed_; }
   [[nodiscard]] const TouchCounts& counts() const { return counts_; }
-  /// The last lines of the results: one a touch, and the counts.
+  /// The last lines of the results: one per touch, and the counts.
   [[nodiscard]] std::string lines() const;
 
  private:
@@ -52,7 +52,7 @@ class ReplayTouches {
   std::int64_t steps_ = 0;
   std::vector<Touch> listed_;
   std::vector<ReportedContact> begun_;
-  // Of the step that is being added.
+  // For the step that is being added.
   TouchStep step_;
   std::vector<Touch> ended_;
   std::vector<std::size_t> begunRows_;

@@ -20,10 +20,10 @@ namespace foretouch::tools {
 struct StepAnswer {
   std::int64_t step = 0;
   double t0S = 0.0, t1S = 0.0;        ///< Seconds from the clip's first frame.
-  std::vector<LinkContact> contacts;  ///< Of the links of reported(), in its order.
+  std::vector<LinkContact> contacts;  ///< Those of the links of reported(), in its order.
   std::vector<LinkContact> objects;   ///< By object (StepContacts::perObject), if asked so.
-  std::vector<PairContact> pairs;     ///< Of own links, if they are asked.
-  /// Of each of `objects` if they are asked, else of `contacts`: is it with the ground?
+  std::vector<PairContact> pairs;     ///< Those of own links, if they are asked.
+  /// For each of `objects` if they are asked, else of `contacts`: is it with the ground?
   std::vector<bool> onGround;
   std::vector<LinkId> missedByPoses;  ///< Links in contact that touch nothing at either pose.
   QueryCounters counters;
@@ -34,10 +34,10 @@ struct StepAnswer {
 // For first lines, also of a log's results. Each writes fields into an open object; beginResults()
 // opens it.
 void beginResults(JsonWriter& out, const char* format = "foretouch-results");
-/// Without the folders.
+/// Writes the file's name without the folders.
 void writeFileName(const char* name, const std::string& path, JsonWriter& out);
 void writeLinkNames(const Avatar& avatar, JsonWriter& out);
-/// Which pairs of own links the results tell of, and of which ones they say nothing: `self`.
+/// Which pairs of own links the results report, and about which ones they say nothing: `self`.
 /// `path`: the file of the rules; empty if they are derived.
 void writeSelf(const PairRules& rules, const Skeleton& skeleton, const std::string& path,
                JsonWriter& out);

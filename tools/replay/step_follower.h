@@ -23,24 +23,24 @@ struct StepInstant {
 
 class StepFollower {
  public:
-  /// Whether a world asks what the replay asks: with one tolerance and fidelity, link or exact, of
-  /// all links, of whatever they touch, as long as it takes.
+  /// Whether a world asks what the replay asks: with one tolerance and fidelity, link or exact, for
+  /// all links, about whatever they touch, as long as it takes.
   [[nodiscard]] static bool canFollow(const ReplayInputs& inputs);
   /// `inputs` must outlive it.
   [[nodiscard]] static Result<StepFollower> start(const ReplayInputs& inputs);
 
-  /// Steps in order. Several are followed in one go: whether those until the end of this one are.
+  /// Steps in order. Follows several in one go; true if it has followed to the end of this one.
   [[nodiscard]] Result<bool> add(std::int64_t step);
-  /// After the last one.
+  /// Call after the last step.
   [[nodiscard]] Result<Done> finish();
 
-  /// Of the steps that were followed last, by time. Without what is ignored.
+  /// The events of the steps that were followed last, by time. Without what is ignored.
   [[nodiscard]] const std::vector<WorldEvent>& events() const { return events_; }
   /// The motion of one of these steps.
   [[nodiscard]] ChainMotion motionOf(std::int64_t step) const;
-  /// Between two of these steps: the later one's begin.
+  /// An instant between two of these steps is the later one's begin.
   [[nodiscard]] StepInstant instantOf(const WorldTime& time) const;
-  /// Of the last one.
+  /// The end of the last one.
   [[nodiscard]] StepInstant end() const { return {lastStep(), 1.0}; }
 
  private:

@@ -79,7 +79,7 @@ std::vector<LinkId> StepSolver::missedByPoses(const ChainMotion& motion,
   return missed;
 }
 
-/// Of own links that begin in each other by their triangles, of which the query does not say it.
+/// Finds the depths of own links that begin in each other by their triangles: the query does not.
 void StepSolver::findDepths(const ChainMotion& motion, StepAnswer& answer) const {
   if (depths_ == nullptr) return;
   for (PairContact& pair : answer.pairs) {

@@ -17,13 +17,13 @@ namespace foretouch::tools {
 
 struct ReplayedStep {
   StepAnswer answer;
-  std::string line;  ///< Of the results file.
+  std::string line;  ///< Its line in the results file.
 };
 
 /// Answers single steps, in any order; one per thread. Its arguments must outlive it.
 class StepSolver {
  public:
-  /// `query`: of the inputs. `depths`: of its surface; null without one.
+  /// `query`: that of the inputs. `depths`: those of its surface; null without one.
   StepSolver(const ReplayInputs& inputs, const Query& query, const LinkDepths* depths,
              const StepFormat& format)
       : inputs_(inputs),

@@ -35,7 +35,7 @@ void addTo(ReplaySummary::Counts& counts, const LinkContact& contact) {
   counts.undecided += contact.verdict == Verdict::Undecided ? 1 : 0;
 }
 
-/// What an undecided link has to do with every object that it has not met yet.
+/// Stands for every object that an undecided link has not met yet.
 constexpr ObjectId kAnyOther = -1;
 constexpr std::size_t kMaxRowsOfTwo = 20;
 
@@ -46,7 +46,7 @@ struct LastColumn {
   std::function<std::string(const std::pair<LinkId, Other>&)> cell;
 };
 
-/// Of two names each: those with the most contacts first.
+/// The rows for two names each: those with the most contacts first.
 template <typename Other, typename NameOf>
 std::string rowsOfTwo(const char* title,
                       const std::map<std::pair<LinkId, Other>, ReplaySummary::Counts>& counts,

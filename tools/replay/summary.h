@@ -23,7 +23,7 @@ class ReplaySummary {
   explicit ReplaySummary(const ReplayInputs& inputs);
 
   void add(const ReplayedStep& step);
-  /// Of all steps, after the last one.
+  /// The touches of all steps, after the last one.
   void add(const ReplayTouches& touches);
 
   /// `threads` shared the machine during the measurements.
@@ -39,17 +39,17 @@ class ReplaySummary {
     std::int64_t contacts = 0, missedByPoses = 0, startsInContact = 0, undecided = 0;
   };
   [[nodiscard]] const TouchCounts& touches() const { return touches_; }
-  /// touchHeadline() of them.
+  /// The touchHeadline() of the touches.
   [[nodiscard]] std::string headline() const { return touchHeadline(inputs_, touches_); }
   /// Contacts as the steps have them, one per link and step.
   [[nodiscard]] const Counts& total() const { return total_; }
   [[nodiscard]] const Counts& ofLink(LinkId link) const { return ofLink_[slotOf(link)]; }
   [[nodiscard]] std::int64_t steps() const { return steps_; }
-  /// Of own links, where they were asked; what the poses miss is not counted.
+  /// Counts of own links, where they were asked; does not count what the poses miss.
   [[nodiscard]] const Counts& totalOfPairs() const { return pairs_; }
-  /// Of every link with every object, where they were asked one by one; likewise.
+  /// The same for every link with every object, where they were asked one by one.
   [[nodiscard]] const Counts& totalOfObjects() const { return objects_; }
-  /// Of these, the pairs that start in contact in nearly every step.
+  /// Of the own links, the pairs that start in contact in nearly every step.
   [[nodiscard]] std::vector<StartingPair> startingPairs() const;
   [[nodiscard]] std::int64_t stepsWithPairs() const { return stepsWithPairs_; }
   [[nodiscard]] std::int64_t stepsWithContact() const { return stepsWithContact_; }

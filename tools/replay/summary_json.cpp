@@ -16,7 +16,7 @@ void writeCounts(const char* name, const ReplaySummary::Counts& counts, JsonWrit
   writeObject(name, out, [&] { writeCounts(counts, out); });
 }
 
-/// Those that met something.
+/// Writes the links that met something.
 void writeByLink(const ReplaySummary& summary, JsonWriter& out) {
   const Avatar& avatar = summary.inputs().avatar;
   out.key("by_link");

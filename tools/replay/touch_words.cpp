@@ -40,7 +40,7 @@ std::string ofPoses(const TouchCounts& counts) {
   return check + fmt::format("miss {} of them.", counts.missed);
 }
 
-/// What one contact per link and step leaves unsaid.
+/// What one contact per link and step does not show.
 std::string onHiddenObjects(const ReplayInputs& inputs, const TouchCounts& counts) {
   const Fidelity fidelity = inputs.query.fidelity;
   const bool mayAsk = fidelity == Fidelity::Link || fidelity == Fidelity::Exact;

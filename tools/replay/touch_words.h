@@ -10,7 +10,7 @@
 
 namespace foretouch::tools {
 
-/// Of the touches of one link.
+/// The touches of one link, counted.
 struct LinkTouches {
   TouchCounts counts;
   double longestS = 0.0;  ///< Between the first and the last instant at which contact is known.

@@ -46,7 +46,7 @@ bool BodyTrack::addStretch(const BodyStretch& stretch, std::int64_t endUs, std::
 
 void BodyTrack::addKnots(BodyId body, std::int64_t fromUs, std::int64_t untilUs, int depth,
                          std::set<std::int64_t>& instants) const {
-  constexpr int kDeepest = 16;  // who is carried by more than so many has longer steps
+  constexpr int kDeepest = 16;  // a body with more carriers above it has longer steps
   const BodyStretches& stretches = world_.bodies[slotOf(body)].stretches;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     const std::int64_t endUs = i + 1 < stretches.size() ? stretches[i + 1].beginUs : untilUs;

@@ -13,8 +13,8 @@
 
 namespace foretouch::tools {
 
-/// What stands for a body of triangles where an avatar is expected: for bounds; nothing of it is
-/// shown. Errors: those of Avatar::build().
+/// Stands for a body of triangles where an avatar is expected: for bounds; it is not shown at
+/// all. Errors: those of Avatar::build().
 [[nodiscard]] Result<Avatar> standInOf(const BodyShape& shape);
 
 /// The poses of a body in time, and between which of them its motion is known or taken to be.
@@ -37,8 +37,8 @@ class BodyTrack {
 
  private:
   bool addStretch(const BodyStretch& stretch, std::int64_t endUs, std::size_t mostPoses);
-  /// The body's own in [fromUs, untilUs]; while it is held fast, those of who holds it: its steps
-  /// are then theirs.
+  /// The body's own in [fromUs, untilUs]; while it is held fast, those of its holder: its steps
+  /// are then the holder's.
   void addKnots(BodyId body, std::int64_t fromUs, std::int64_t untilUs, int depth,
                 std::set<std::int64_t>& instants) const;
 

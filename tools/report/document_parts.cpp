@@ -12,7 +12,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Of all links of an avatar together.
+/// For all links of an avatar together.
 constexpr std::size_t kMaxLinkTriangles = 100'000;
 
 std::size_t numTriangles(const std::vector<std::vector<Triangle>>& trianglesOfLinks) {

@@ -1,4 +1,4 @@
-// tools/report/document_parts.h: shared by the documents of clips, logs and inspections.
+// tools/report/document_parts.h: what the documents of clips, logs and inspections share.
 #pragma once
 
 #include <cstddef>
@@ -46,7 +46,7 @@ struct ReportOptions {
 /// Notes what the page cannot show at this fidelity.
 void noteFidelity(Fidelity fidelity, std::vector<std::string>& notes);
 
-/// Sets the document's scene, with every triangle that its contacts touch. `action`: around
+/// Sets the document's scene, with every triangle that its contacts touch. `action`: the box around
 /// everything that moves; may be empty.
 void addScene(const Scene& scene, const std::string& path, std::size_t maxTriangles,
               Eigen::AlignedBox3d action, ViewDocument& document);
@@ -54,7 +54,7 @@ void addScene(const Scene& scene, const std::string& path, std::size_t maxTriang
 /// A contact in the form of results. `contact` is not clear.
 [[nodiscard]] ReportedContact contactView(const LinkContact& contact, const Scene& scene,
                                           std::int64_t step, double t0S, double t1S);
-/// The same of two own links.
+/// The same for two own links.
 [[nodiscard]] ReportedContact contactView(const PairContact& contact, const Skeleton& skeleton,
                                           std::int64_t step, double t0S, double t1S);
 

@@ -44,7 +44,7 @@ struct Neighbour {
   bool isOpposed = false;  ///< Both run through the edge in the same direction.
 };
 
-/// Of one triangle, across edges that exactly two triangles share.
+/// The neighbours of one triangle, across edges that exactly two triangles share.
 struct Neighbours {
   std::array<Neighbour, 3> across;
   std::uint32_t count = 0;

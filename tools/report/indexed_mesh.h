@@ -30,7 +30,7 @@ struct Simplified {
 /// meshoptimizer. Time and memory: O(n log n), O(n).
 class Simplifier {
  public:
-  /// Of a mesh of more than `most` triangles, vertices in one cell of a grid are merged first,
+  /// If a mesh has more than `most` triangles, vertices in one cell of a grid are merged first,
   /// which is O(n): their error is that of all that follows.
   explicit Simplifier(const Corners& corners,
                       std::size_t most = std::numeric_limits<std::size_t>::max());
@@ -41,7 +41,7 @@ class Simplifier {
   [[nodiscard]] Simplified downTo(std::size_t target) const;
 
   void append(const Simplified& made, Corners& corners) const;
-  /// Of the mesh as it was given.
+  /// The triangles of the mesh as it was given.
   [[nodiscard]] std::size_t triangles() const { return trianglesGiven_; }
 
  private:
@@ -50,7 +50,7 @@ class Simplifier {
   [[nodiscard]] Simplified collapsed(std::size_t target, float error) const;
 
   ViewMesh mesh_;
-  double scaleM_ = 0.0;   ///< Of an error of 1.
+  double scaleM_ = 0.0;   ///< The size of an error of 1.
   double mergedM_ = 0.0;  ///< The error of the merged vertices.
   std::size_t trianglesGiven_ = 0;
 };

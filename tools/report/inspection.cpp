@@ -33,9 +33,9 @@ struct Inspected {
   std::optional<Avatar> avatar;
   std::optional<PlayedClip> played;  ///< Its avatar is the one above, if a file names one.
   bool isMadeUp = false;             ///< The avatar is made of the clip.
-  std::vector<std::vector<Triangle>> triangles;  ///< Of links, if the avatar names meshes.
+  std::vector<std::vector<Triangle>> triangles;  ///< Those of links, if the avatar names meshes.
   std::vector<std::string> notes;
-  std::vector<PlacementCheck> frameChecks;  ///< Of units and axes.
+  std::vector<PlacementCheck> frameChecks;  ///< About units and axes.
 
   [[nodiscard]] const Scene* scene() const { return level ? &level->scene() : nullptr; }
   [[nodiscard]] const Avatar* body() const {

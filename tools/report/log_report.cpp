@@ -131,7 +131,7 @@ void LogReport::track(const AnsweredPose& answered, std::size_t firstRow, Player
   player.tracker.addStep(step, player.touches, begun);
 }
 
-/// Without those of the ground where these are ignored.
+/// The touches without those of the ground if these are ignored.
 std::vector<Touch> LogReport::listed(const std::vector<Touch>& touches) const {
   std::vector<Touch> kept;
   const bool isIgnored = inputs_.request.world.ground.use == GroundUse::Ignore;

@@ -19,8 +19,8 @@
 namespace foretouch::tools {
 
 /// Collects answered poses in bounded memory. Only motions between consecutive poses are steps of
-/// the document: the motion across a gap is unknown, and not drawn. Time is 0 at the first pose of
-/// all; a timeline that begins before the previous one has ended moves behind it.
+/// the document: the motion across a gap is unknown, and not drawn. Time is 0 at the very first
+/// pose; a timeline that begins before the previous one has ended moves behind it.
 class LogReport {
  public:
   /// `inputs` must outlive it and the document.

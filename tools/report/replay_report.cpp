@@ -102,7 +102,7 @@ std::vector<ViewRow> ReplayReport::rowsOf(const ReplaySummary& summary) {
   return rows;
 }
 
-/// Of the kept steps. Nothing is known there of what follows them.
+/// The touches of the kept steps. Nothing is known there of what follows them.
 std::vector<Touch> ReplayReport::keptOf(const std::vector<Touch>& touches) const {
   const auto steps = static_cast<std::int64_t>(latenciesUs_.size());
   std::vector<Touch> kept;

@@ -35,7 +35,7 @@ class ReplayReport {
  private:
   [[nodiscard]] std::vector<ViewRow> settings() const;
   [[nodiscard]] static std::vector<ViewRow> rowsOf(const ReplaySummary& summary);
-  /// Of every link with every object, if they are asked one by one.
+  /// The contacts of every link with every object, if they are asked one by one.
   [[nodiscard]] const std::vector<LinkContact>& shownOf(const StepAnswer& answer) const;
   [[nodiscard]] std::vector<Touch> keptOf(const std::vector<Touch>& touches) const;
   [[nodiscard]] Result<Done> addTrack(const ReportProgress& progress);

@@ -16,7 +16,7 @@ namespace foretouch::tools {
 using DocumentMaker = std::function<Result<ViewDocument>(const ReportProgress& progress)>;
 
 /// Writes the document of `make` to `path`, as a page that needs no network and no other file. It
-/// appears once it is complete, or not at all: not if `guard` was interrupted.
+/// appears once it is complete, and not at all if `guard` was interrupted.
 [[nodiscard]] Result<Done> writeReport(const std::string& path, const InterruptGuard& guard,
                                        const DocumentMaker& make);
 

@@ -23,7 +23,7 @@ constexpr std::array kReachesM = {4.0, 2.0, 1.0};
 struct Part {
   std::string name;
   std::vector<TriangleId> ids;    ///< Ascending.
-  std::vector<TriangleId> fixed;  ///< Of these, those that must stay; ascending.
+  std::vector<TriangleId> fixed;  ///< Those of `ids` that must stay; ascending.
 };
 
 bool isNear(const Triangle& triangle, const AlignedBox3d& box) {
@@ -183,7 +183,7 @@ class Gathering {
 /// vertices merged first: to collapse edges of all would take seconds.
 constexpr double kQuicklyDone = 2e5, kMostTimesShown = 2.0;
 
-/// `share`: of the triangles that may be shown in those that there are.
+/// `share`: that of the triangles that may be shown in those that there are.
 Simplifier simplifierOf(const Scene& scene, const Part& part, const Vector3d& origin,
                         double share) {
   Corners corners;

@@ -20,7 +20,7 @@ inline constexpr std::size_t kMostTimesTooHeavy = 8;
 struct SceneRequest {
   std::string name;
   std::size_t maxTriangles = kDefaultViewTriangles;
-  Eigen::AlignedBox3d action;         ///< Around everything that moves; empty: nothing does.
+  Eigen::AlignedBox3d action;         ///< Box around everything that moves; empty: nothing does.
   std::vector<TriangleId> contacted;  ///< Always shown unchanged; any order, repetitions too.
   /// Prefers hiding details this small (m) to omitting triangles.
   double harmlessM = 2e-3;

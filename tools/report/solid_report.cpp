@@ -64,7 +64,7 @@ struct ShownPart {
 ShownPart partOf(const ShownTrack& track, const TrackBuilder& builder,
                  const ReportOptions& options) {
   ShownPart part;
-  // Half of the room is the tracked body's.
+  // Half of the room is for the tracked body.
   const std::size_t most = std::max<std::size_t>(2, builder.capacity(options.maxRotations) / 2);
   const auto& shownAt = track.shownAtTick();
   while (part.ticks < shownAt.size() && shownAt[part.ticks] < most) ++part.ticks;

@@ -13,9 +13,9 @@
 namespace foretouch::tools {
 
 struct SweptRequest {
-  std::size_t maxTriangles = 200'000;      ///< Of all surfaces together.
+  std::size_t maxTriangles = 200'000;      ///< All surfaces together.
   std::size_t maxTrianglesOfOne = 20'000;  ///< Omits a surface that needs more.
-  double errorShare = 1.0 / 8.0;           ///< Of an LSS's radius ...
+  double errorShare = 1.0 / 8.0;           ///< Share of an LSS's radius ...
   double leastErrorM = 2e-3;               ///< ... but no finer than this.
 };
 

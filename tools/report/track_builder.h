@@ -18,8 +18,8 @@
 
 namespace foretouch::tools {
 
-/// For testing which links touch at each pose. Nothing if the options are refused, as the replay
-/// that is reported then is.
+/// Asks which links touch at each pose. Nothing if the options are refused, as the replay that is
+/// reported then is.
 [[nodiscard]] std::optional<Query> touchQuestion(const Avatar& avatar, const Scene& scene,
                                                  const QueryOptions& options);
 
@@ -43,7 +43,7 @@ class TrackBuilder {
   [[nodiscard]] std::size_t steps() const { return track_.stepFrom.size(); }
   /// Does the link touch anything at this pose? False without a question.
   [[nodiscard]] bool touches(std::size_t pose, LinkId link) const;
-  /// Around all LSS at all poses.
+  /// The box around all LSS at all poses.
   [[nodiscard]] const Eigen::AlignedBox3d& box() const { return box_; }
 
   /// The builder is unusable afterwards.

@@ -37,7 +37,7 @@ Result<Done> check(const ReplayRequest& request) {
   return Done{};
 }
 
-/// What the page says, for those who read it elsewhere.
+/// What the page says, for users who read it elsewhere.
 struct Found {
   std::vector<std::string> notes;
   std::vector<PlacementCheck> checks;

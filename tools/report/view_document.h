@@ -46,7 +46,7 @@ enum class SceneReduction : std::uint8_t {
   Simplified,  ///< Has triangles that the scene does not have.
 };
 
-/// World = origin + position: floats suffice near the origin, however far out that is.
+/// World = origin + position: floats suffice near the origin, however far out it is.
 struct ViewScene {
   std::string name;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -56,7 +56,7 @@ struct ViewScene {
   std::size_t trianglesInFile = 0;
   SceneReduction reduction = SceneReduction::None;
   Eigen::Vector3d boundsMin = Eigen::Vector3d::Zero(),
-                  boundsMax = Eigen::Vector3d::Zero();  ///< Of the whole scene.
+                  boundsMax = Eigen::Vector3d::Zero();  ///< The bounds of the whole scene.
 };
 
 struct ViewLinkMesh {
@@ -91,14 +91,14 @@ struct ViewSwept {
   double error = 0.0;  ///< Largest distance from the swept volume.
 };
 
-/// Of a solid avatar, one per tick.
+/// What a solid avatar does, one entry per tick.
 struct ViewSolid {
   std::vector<double> timesS;         ///< Increasing.
   std::vector<std::uint16_t> states;  ///< SolidState.
   std::vector<double> deviations;     ///< The largest of all links (m).
 };
 
-/// Of a solid avatar's contact.
+/// The push of a solid avatar's contact.
 struct ViewPush {
   double push = 0.0;       ///< Metres.
   double slipSpeed = 0.0;  ///< Metres per second.
@@ -108,7 +108,7 @@ struct ViewPush {
 struct ViewCarried {
   double fromS = 0.0;
   std::optional<double> untilS;  ///< Nothing: to the end.
-  std::size_t avatar = 0;        ///< Who carries, of the document's.
+  std::size_t avatar = 0;        ///< The carrier among the document's.
   LinkId link = 0;
 };
 
@@ -120,32 +120,32 @@ struct ViewAvatar {
   std::vector<ViewLinkMesh> meshes;
   std::optional<ViewTrack> track;
   std::vector<ReportedContact> contacts;  ///< `step`: an index of the track's steps.
-  bool knowsMissed = true;  ///< Whether somebody looked what a check of the poses misses.
-  /// Of a solid avatar: `track` is what is shown, this is what was tracked.
+  bool knowsMissed = true;  ///< Whether what a check of the poses misses was looked for.
+  /// What was tracked, for a solid avatar, whose `track` is what is shown.
   std::optional<ViewTrack> tracked;
   std::optional<ViewSolid> solid;
-  std::vector<ViewPush> pushes;  ///< Of a solid avatar: one per contact.
-  bool isLiveSolid = false;      ///< Of kind Live: events will say what is shown.
+  std::vector<ViewPush> pushes;  ///< A solid avatar's: one per contact.
+  bool isLiveSolid = false;      ///< For kind Live: events will say what is shown.
   std::vector<ViewSwept> swept;
   std::vector<ViewCarried> carried;  ///< By time.
-  /// Of a trigger, which nobody touches: two points per line, in the body's frame; else empty.
+  /// For a trigger, which nothing touches: two points per line, in the body's frame; else empty.
   std::vector<float> outline;
 };
 
 struct ViewTouch {
   std::size_t avatar = 0;
-  Touch touch;                      ///< On the document's clock, of the track's steps.
+  Touch touch;                      ///< On the document's clock, in the track's steps.
   std::vector<std::uint32_t> rows;  ///< Its contacts among the avatar's, in their order.
-  std::optional<std::size_t> otherAvatar = std::nullopt;  ///< Whose `touch.other` is, if another's.
-  std::optional<TouchStrength> strength = std::nullopt;   ///< Where it begins, if it is known.
-  /// Nothing is claimed of the two in this time: it is no touch, and has no contacts.
+  std::optional<std::size_t> otherAvatar = std::nullopt;  ///< Owner of `touch.other`, if another.
+  std::optional<TouchStrength> strength = std::nullopt;   ///< At its begin, if it is known.
+  /// Nothing is claimed about the two in this time: it is not a touch, and has no contacts.
   UndecidedReason unresolved = UndecidedReason::None;
 };
 
-/// Of an avatar in a trigger, or of whom nothing is known there.
+/// An avatar in a trigger, or one about which nothing is known there.
 struct ViewStay {
-  std::size_t trigger = 0, avatar = 0;  ///< Of the document's.
-  LinkId link = 0;                      ///< Whose entering it begins with.
+  std::size_t trigger = 0, avatar = 0;  ///< Indices of the document's avatars.
+  LinkId link = 0;                      ///< The link whose entering it begins with.
   double beginS = 0.0, endS = 0.0;
   bool beginsInside = false, isOpen = false;  ///< As a touch's.
   bool isUnresolved = false;
@@ -153,12 +153,12 @@ struct ViewStay {
 
 /// What a foot does from when to when: a touch of the whole foot, or that it hovers.
 struct ViewStance {
-  std::string kind;  ///< As StanceKind's words.
+  std::string kind;  ///< One of StanceKind's words.
   double beginS = 0.0, endS = 0.0;
   bool beganBefore = false, goesOn = false;  ///< The clip begins, or ends, in it.
   double slide = 0.0, depth = 0.0, depthAtS = 0.0, hover = 0.0;
   std::string slides, deepest;           ///< The part that does so most: "heel".
-  std::vector<Eigen::Vector3d> trace_W;  ///< Of its slide, if it is one.
+  std::vector<Eigen::Vector3d> trace_W;  ///< The trace of its slide, if it has one.
 };
 
 struct ViewFoot {
@@ -169,11 +169,11 @@ struct ViewFoot {
 /// What a link of a person surely touched, or may have touched.
 struct ViewPersonTouch {
   PersonTouch touch;
-  std::string object;      ///< Of the scene, or of another body; empty: not known.
-  std::size_t avatar = 0;  ///< Whose link it is; `touch.other` is an own one.
+  std::string object;      ///< In the scene, or another body; empty: not known.
+  std::size_t avatar = 0;  ///< The owner of the link; `touch.other` is an own one.
 };
 
-/// Of the only avatar's person, or of all of a world's.
+/// The only avatar's person, or all persons of a world.
 struct ViewPerson {
   std::string bounds, between;
   double rateHz = 0.0;                   ///< 0: each has its own.
@@ -185,14 +185,14 @@ struct ViewDocument {
   std::string title;
   std::vector<ViewRow> settings, summary;
   std::vector<std::string> notes;      ///< Sentences.
-  std::vector<PlacementCheck> checks;  ///< Of an inspection.
+  std::vector<PlacementCheck> checks;  ///< An inspection's.
   std::optional<ViewScene> scene;      ///< Nothing if the document shows only an avatar.
   std::vector<ViewAvatar> avatars;
-  std::optional<std::vector<ViewTouch>> touches;  ///< Of what was asked, in listed order.
+  std::optional<std::vector<ViewTouch>> touches;  ///< For what was asked, in listed order.
   std::vector<ViewStay> stays;                    ///< By begin.
   double frameTimeS = 0.0;     ///< Of the clip's frames, the first at 0 s; 0: no frames are known.
-  std::vector<ViewFoot> feet;  ///< Of a replay.
-  std::optional<ViewPerson> person;  ///< Of a replay with bounds.
+  std::vector<ViewFoot> feet;  ///< A replay's.
+  std::optional<ViewPerson> person;  ///< A replay's, with bounds.
 };
 
 }  // namespace foretouch::tools

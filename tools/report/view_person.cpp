@@ -18,7 +18,7 @@ ViewPersonTouch shownOf(const PersonTouch& touch, const Scene& scene) {
   return {touch, scene.objectNames()[slotOf(scene.object(touch.triangle))]};
 }
 
-/// Of what comes after the last pose that is shown, nothing is; false: all of the touch does.
+/// Cuts what comes after the last pose that is shown; false if that is the whole touch.
 bool cutAt(double endS, PersonTouch& touch) {
   if (touch.beginsS[0] > endS) return false;
   if (touch.endsS[1] <= endS) return true;

@@ -16,7 +16,7 @@ namespace foretouch::tools {
 void addPerson(const ReplayInputs& inputs, const PersonRequest& request,
                const std::optional<PersonAnswer>& answer, ViewDocument& document);
 
-/// The same of all persons of a world.
+/// The same for all persons of a world.
 void addPersons(const LoadedWorld& world, const WorldPersons& persons, ViewDocument& document);
 
 }  // namespace foretouch::tools

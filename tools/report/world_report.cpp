@@ -29,7 +29,7 @@ std::vector<ViewCarried> carriedOf(const BodyStretches& stretches) {
   return carried;
 }
 
-/// Of two: the one whose contact it is told as. What has several links is told of first.
+/// True if a contact of two is reported as b's. The body with several links comes first.
 bool isToldOfOther(const LoadedWorld& world, BodyId a, BodyId b) {
   if (b == kStillScene || a == b) return false;
   const auto links = [&](BodyId body) {
@@ -52,7 +52,7 @@ std::optional<std::size_t> stepAt(const ViewTrack& track, double timeS) {
   return step;
 }
 
-/// As a row of the body that it is told of; nothing if its track has no step there.
+/// The contact as a row of the body that reports it; nothing if its track has no step there.
 std::optional<ReportedContact> rowOf(const LoadedWorld& world, const WorldContact& contact,
                                      const ViewTrack& track) {
   const bool isTurned = isToldOfOther(world, contact.a.body, contact.b.body);
@@ -131,7 +131,7 @@ std::vector<ViewRow> rowsOf(const WorldSummary& summary) {
   return rows;
 }
 
-/// Nothing if the track of the body that it is told of has no steps there.
+/// Nothing if the track of the body that reports it has no steps there.
 std::optional<ViewTouch> viewOf(const LoadedWorld& world, const WorldTouch& touch,
                                 const TouchSides& sides, const ViewDocument& document) {
   const bool isTurned = isToldOfOther(world, sides.a, sides.b);
@@ -152,7 +152,7 @@ std::optional<ViewTouch> viewOf(const LoadedWorld& world, const WorldTouch& touc
   return view;
 }
 
-/// Of those at these places, by begin, the latest that goes on at this time; null: none.
+/// The latest of those at these places, by begin, that goes on at this time; null: none.
 ViewTouch* touchAt(std::vector<ViewTouch>& shown, const std::vector<std::size_t>& places,
                    double timeS) {
   const auto begins = [&](double time, std::size_t place) {
@@ -184,7 +184,7 @@ void addEventRows(const WorldIntervals& followed, std::vector<ViewRow>& rows) {
 
 using TouchKey = std::tuple<BodyId, LinkId, BodyId, LinkId, std::string>;
 
-/// Where contacts are left out for want of room, so are the touches that have none.
+/// Where contacts are left out for lack of room, so are the touches that have none.
 void leaveOutBareTouches(std::vector<ViewTouch>& touches) {
   touches.erase(std::remove_if(touches.begin(), touches.end(),
                                [](const ViewTouch& touch) { return touch.rows.empty(); }),
@@ -289,7 +289,7 @@ std::size_t WorldReport::addFound(const WorldTouches& touches, ViewDocument& doc
     ViewTouch* const touch = places == ofKey.end() || contact->verdict == Verdict::Undecided
                                  ? nullptr
                                  : touchAt(shown, places->second, timeS);
-    // Where a touch starts inside, a window says so as well: what it begins with is there already.
+    // Where a touch starts inside, a window says so, too: what it begins with is there already.
     const bool isSaidTwice =
         touch != nullptr && touch->strength && !touch->rows.empty() && timeS == touch->touch.beginS;
     if (isSaidTwice) continue;
@@ -300,7 +300,7 @@ std::size_t WorldReport::addFound(const WorldTouches& touches, ViewDocument& doc
   return numLeftOut;
 }
 
-/// As bars without contacts. A link that stands for all of a body's is its first one.
+/// Adds them as bars without contacts. A link that stands for all of a body's is its first one.
 void WorldReport::addUnresolved(ViewDocument& document) const {
   for (const ContactInterval& interval : followed_->contacts()) {
     const WorldPart& part = interval.part;

@@ -28,8 +28,8 @@ class WorldReport {
   /// Windows in order.
   void add(const WorldStep& step);
 
-  /// How the bodies move, and what was found: `touches`, after finish(), and `summary` of the same
-  /// windows; null: nobody was asked. The document refers to this.
+  /// How the bodies move, and what was found: `touches`, after finish(), and `summary` for the same
+  /// windows; null if nothing was asked. The document refers to this.
   [[nodiscard]] ViewDocument document(const WorldSummary* summary, const WorldTouches* touches,
                                       const ReportProgress& progress) const;
 

@@ -10,7 +10,7 @@ namespace foretouch::tools {
 /// The channels of network/wire/messages.h, each with the suffix.
 struct ChannelNames {
   std::string skeleton, pose, contacts, solid, person, status, speaker;
-  std::string body, rigidPose, events, pushes;  ///< Of network/wire/world_messages.h.
+  std::string body, rigidPose, events, pushes;  ///< Those of network/wire/world_messages.h.
 };
 
 /// Errors name --suffix: a name beyond kMaxChannelBytes, bytes that are not printable ASCII.

@@ -113,7 +113,7 @@ void addColumns(Settings& settings, JointTableOptions& table) {
       .namedIf([&table] { return !table.columns.empty(); });
 }
 
-/// Told, and in a first line, only if it `isGiven`.
+/// Reported, and in a first line, only if it `isGiven`.
 void tellIfGiven(Setting& setting, const char* key, const char* row,
                  const std::function<bool()>& isGiven) {
   setting.told = [isGiven, told = setting.told] { return isGiven() ? told() : std::string(); };

@@ -38,7 +38,7 @@ struct ClipRequest {
   std::vector<std::string> packagePaths;  ///< Folders of that robot's packages.
   JointTableOptions table;                ///< What that table does not say itself.
   Placement placement;                    ///< The option sets its motionUpZ too, for BVH.
-  ClipCut cut;                            ///< Of commands that have addCutSettings().
+  ClipCut cut;                            ///< For commands that have addCutSettings().
 };
 
 /// What readMotion() reads, for a shell that completes files.
@@ -72,7 +72,7 @@ void addClipSettings(Settings& settings, ClipRequest& request);
 
 /// "2.5" seconds, or "300f": a frame. Errors name no option.
 [[nodiscard]] Result<ClipInstant> clipInstantFrom(const std::string& text);
-/// Which part of the clip: --from, --to, --skip-t-pose.
+/// Adds the settings for the part of the clip: --from, --to, --skip-t-pose.
 void addCutSettings(Settings& settings, ClipRequest& request);
 Setting& addSkipTPose(Settings& settings, ClipRequest& request);
 

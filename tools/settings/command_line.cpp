@@ -33,7 +33,7 @@ struct Subcommand {
   bool isQuiet = false;
 };
 
-/// With the former ones behind it, which help leaves out.
+/// The option's names, with the former ones behind it, which help leaves out.
 std::string namesOf(const Setting& setting) {
   std::string names = setting.option;
   for (const std::string& former : setting.formerNames) names += "," + former;
@@ -128,7 +128,7 @@ ExitCode runSubcommand(Subcommand& subcommand) {
   for (const Typed& typed : subcommand.typed) {
     typed.setting->isGiven = typed.option->count() > 0;
   }
-  // A project says nothing of what files without an option are.
+  // A project does not say what files without an option are.
   for (const Typed& typed : subcommand.typed) {
     if (typed.setting->fillsOthers) FORETOUCH_CHECK_OR(failed, take(typed));
   }

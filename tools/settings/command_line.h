@@ -15,7 +15,7 @@ class App;
 
 namespace foretouch::tools {
 
-/// A subcommand: of the program, or of another one.
+/// A subcommand of the program, or of another command.
 struct Command {
   std::string name, purpose;
   std::string examples = {};  ///< The end of its help.
@@ -26,7 +26,7 @@ struct Command {
   /// of the current folder if the command line names no file at all.
   bool takesProject = false;
   std::vector<Command> commands = {};  ///< Subcommands; the user must name one if there are any.
-  std::string group = {};              ///< In the list of commands; empty: "Commands".
+  std::string group = {};              ///< Its group in the list of commands; empty: "Commands".
   /// Not empty: the command is gone, and naming it prints this text.
   std::string isGone = {};
 };

@@ -19,7 +19,7 @@ using WhichSettings = std::function<bool(const Setting&)>;
 /// Reads the values of one table's keys into the settings that `which` selects.
 void readTable(TomlSection& root, const char* table, TomlReading& reading, Settings& settings,
                const WhichSettings& which);
-/// The same for all; refuses every key that is none of theirs.
+/// The same for all settings; refuses every key that is not one of theirs.
 void readWholeTable(TomlSection& root, const char* table, TomlReading& reading, Settings& settings);
 
 }  // namespace foretouch::tools

@@ -8,7 +8,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// As a configuration spells it.
+/// The setting's value as a configuration spells it.
 std::string inToml(const Setting& setting) {
   if (!setting.mayBeEmpty && setting.shown().empty()) return "required";
   if (setting.shown() == kAsFileSays) return kAsFileSays;

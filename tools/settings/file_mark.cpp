@@ -17,7 +17,7 @@ std::string markOfText(std::string_view text, std::string_view before) {
 }
 
 Result<std::string> markOfFile(const std::string& path) {
-  // A pipe may have no end, nor anybody who writes to it.
+  // A pipe may have no end, nor a writer.
   std::error_code absent;
   if (std::filesystem::exists(path, absent) && !std::filesystem::is_regular_file(path, absent)) {
     return Error::in(path, ErrorCode::FileUnreadable, "expected a file");

@@ -1,8 +1,8 @@
 // tools/settings/frame_settings.h: the unit and the up axis of a file, which stand in place of what
-// the file says of itself.
+// the file says about itself.
 //
-// Not given: as the file says. Headers and reports name 1 and y then, which is what a file without
-// a word means; who has read the file puts what it said into the place first.
+// If not given: as the file says. Headers and reports then name 1 and y, the meaning of a file that
+// says nothing; code that has read the file first puts into the place what the file said.
 #pragma once
 
 #include <limits>
@@ -17,10 +17,10 @@ namespace foretouch::tools {
 
 inline constexpr NumberRange kMetresPerUnit{0.0, std::numeric_limits<double>::max(), "", "m"};
 
-/// In help, for one that is not given.
+/// In help, the word for a value that is not given.
 inline constexpr char kAsFileSays[] = "as the file says";
 
-/// As options and configurations spell it.
+/// The word for an axis as options and configurations spell it.
 [[nodiscard]] inline const char* wordOf(UpAxis up) {
   return up == UpAxis::Z ? "z" : "y";
 }

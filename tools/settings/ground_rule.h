@@ -15,11 +15,11 @@ enum class GroundUse : std::uint8_t {
 
 struct GroundRule {
   GroundUse use = GroundUse::Apart;
-  /// Between the contact's normal and up, at most. 45 is what character controllers take as
+  /// The most between the contact's normal and up. 45 is what character controllers take as
   /// walkable; a wall that leans so far back counts as ground.
   double angleDeg = 45.0;
-  /// Of the contact above the body's lowest point at that instant, at most (m). The steps of stairs
-  /// are lower, seats and tables higher. Doubled, a chair that somebody sits on is ground.
+  /// The most height of the contact above the body's lowest point at that instant (m). The steps of
+  /// stairs are lower, seats and tables higher. Doubled, a chair that a person sits on is ground.
   double heightM = 0.25;
 };
 

@@ -20,7 +20,7 @@ Setting& addCounts(Settings& settings, const char* option, const char* value,
 Setting& addWords(Settings& settings, const char* option, const char* value,
                   std::vector<std::string>& place, const std::vector<std::string>& legal,
                   const char* help);
-/// y or z.
+/// Up axes: y or z.
 Setting& addUpAxes(Settings& settings, const char* option, const char* value,
                    std::vector<UpAxis>& place, const char* help);
 /// Names of lss/simd.h, "all" (widest first; also if nothing is given) or "widest". Refuses those

@@ -12,7 +12,7 @@ namespace foretouch::tools {
 struct NumberedAvatar {
   std::int32_t id = 1;
   std::string path;
-  /// Solid among all that moves in a world, and so not by itself; nobody types that in here.
+  /// Solid among all that moves in a world, and so not by itself; no user types that in here.
   bool isSolidInWorld = false;
 };
 

@@ -15,11 +15,11 @@ namespace foretouch::tools {
 struct PersonRequest {
   std::string boundsPath;  ///< Empty: not asked.
   MotionModel model = MotionModel::ConstantRate;
-  std::int64_t aheadUs = 0;  ///< Of a stream: how far it looks ahead; 0: not at all.
+  std::int64_t aheadUs = 0;  ///< For a stream: how far it looks ahead; 0: not at all.
   [[nodiscard]] bool isAsked() const { return !boundsPath.empty(); }
 };
 
-/// Brackets of what a query asks: its surfaces, own links and ignored pairs.
+/// The options for brackets of what a query asks: its surfaces, own links and ignored pairs.
 [[nodiscard]] BracketOptions bracketOptionsOf(const QueryOptions& query);
 
 /// --bounds, --between and --ahead. `request` outlives the settings.

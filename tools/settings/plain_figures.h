@@ -9,7 +9,7 @@
 
 namespace foretouch::tools {
 
-/// As `{:.3g}`, but without an exponent: "123000", "0.0000123".
+/// The value as `{:.3g}`, but without an exponent: "123000", "0.0000123".
 [[nodiscard]] inline std::string plainFigures(double value) {
   std::string text = fmt::format("{:.3g}", value);
   if (text.find('e') == text.npos) return text;

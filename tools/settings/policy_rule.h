@@ -26,7 +26,7 @@ struct PolicyRule {
   std::optional<bool> ignore;        ///< False: no longer ignored.
 };
 
-/// A list of the rules, each as given.
+/// The rules as a list, each as given.
 [[nodiscard]] std::string policiesJson(const std::vector<PolicyRule>& rules);
 
 }  // namespace foretouch::tools

@@ -173,7 +173,7 @@ void ProjectReading::takeAvatars(Setting& setting) {
   if (reading_.error || named.empty()) return;
   GivenValue given;
   for (const auto& [avatar, line] : named) {
-    // A list is of avatars with their numbers; one alone needs none.
+    // A list needs the avatars' numbers; a single avatar needs none.
     const bool isNumbered = named.size() > 1;
     given.texts.push_back((isNumbered ? std::to_string(avatar.id) + "=" : "") + avatar.path);
   }

@@ -17,7 +17,7 @@ namespace foretouch::tools {
 inline constexpr char kProjectName[] = "foretouch.toml";
 
 /// Fills the settings that the project has a key for. A setting that `isTyped` keeps its value, and
-/// a table whose file is typed is about another file, so nothing of it is taken. Checks all of the
+/// a table whose file is typed is about another file, so nothing in it is taken. Checks all of the
 /// project, whether these settings need it or not: unknown keys, illegal values and files that are
 /// gone are errors that name the line. Returns what a user should know, a sentence each: files that
 /// have changed since, tables that were not taken.
@@ -31,7 +31,7 @@ Setting& addProjectSetting(Settings& settings, std::string& path);
 /// What `foretouch setup` writes. Paths as the project's folder sees them; empty: no such file.
 struct Project {
   std::string scene, avatar, clip, jointMap, robot;
-  std::vector<std::string> packages;            ///< Of the robot.
+  std::vector<std::string> packages;            ///< The robot's.
   std::optional<double> sceneScale, clipScale;  ///< Metres per unit; nothing: as the file says.
   std::optional<UpAxis> sceneUp, clipUp;        ///< The same.
   std::string place;                            ///< "X,Y,Z,YAW".
@@ -42,7 +42,7 @@ struct Project {
 /// Errors: a file that cannot be read.
 [[nodiscard]] Result<std::string> projectText(const Project& project, const std::string& folder);
 
-/// Rows of a Markdown table of its keys, but those that a service's configuration has as well:
+/// Rows of a Markdown table of its keys, but those that a service's configuration has, too:
 /// docs/formats.md holds them.
 [[nodiscard]] std::string projectTable();
 

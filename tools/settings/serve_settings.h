@@ -39,13 +39,13 @@ enum class ReceiverKind : std::uint8_t {
 struct ServeConfig {
   std::string url = kDefaultUrl;  ///< Not empty; the wire checks the rest.
   ReceiverKind receiver = ReceiverKind::Own;
-  /// Whose datagrams are taken; empty: see openUdpmReceiver().
+  /// The networks whose datagrams are taken; empty: see openUdpmReceiver().
   std::vector<Network> senders;
   std::vector<std::string> senderTexts;
-  std::vector<NumberedPort> vmc;  ///< Where avatars are moved by VMC.
+  std::vector<NumberedPort> vmc;  ///< The ports at which avatars are moved by VMC.
   std::vector<std::string> vmcTexts;
   VmcBones vmcBones = VmcBones::Original;
-  std::string keyPath;     ///< Of the key that messages are signed with.
+  std::string keyPath;     ///< The file of the key that messages are signed with.
   ServiceOptions service;  ///< Workers, queue, suffix and takeover.
   std::string log;         ///< The file that records events.
   LogLimits logLimits;

@@ -13,7 +13,7 @@
 
 namespace foretouch::tools {
 
-/// Titles in help. Options of no group are under "Options".
+/// Titles in help. Options without a group are under "Options".
 inline constexpr char kInputGroup[] = "Input";
 inline constexpr char kUnitsGroup[] = "Units, axes and place";
 inline constexpr char kTouchGroup[] = "What touches";
@@ -27,7 +27,7 @@ enum class ValueKind : std::uint8_t {
   Number,  ///< Any finite one.
   Whole,
   Text,
-  List,  ///< Of texts; an option that may be repeated.
+  List,  ///< A list of texts; an option that may be repeated.
   Flag,  ///< An option without a value; elsewhere one of two words.
 };
 
@@ -66,14 +66,14 @@ struct Setting {
 
   std::string group;  ///< In help. Empty: "Options".
   bool isRequired = false;
-  std::string noun;                ///< Of a required argument, for its error: "a scene file".
+  std::string noun;                ///< What a required argument is, for its error: "a scene file".
   bool standsForRequired = false;  ///< Where it is given, nothing else is required.
   std::string needs;               ///< Another option that this one requires.
   bool fillsOthers = false;        ///< Its values become those of other settings, ...
   bool isFilledByFiles = false;    ///< ... such as this one: then help demands no option.
   bool isPath = false;             ///< In a configuration, relative to that file's folder.
   bool takesFiles = false;         ///< Paths, for a shell that completes them.
-  std::string endings;             ///< Of these files: "bvh glb"; empty: any.
+  std::string endings;             ///< The endings of these files: "bvh glb"; empty: any.
   bool mayBeEmpty = true;          ///< For a text in a configuration.
   std::string valueIfNone;  ///< Not empty: the option's value is optional, and defaults to this.
   bool isOfClips = false, isOfLogs = false;  ///< In a replay: valid only for these.
@@ -90,7 +90,7 @@ struct Setting {
   Setting& inHeader(const char* name);
   Setting& inReport(const char* name);
   Setting& namedIf(std::function<bool()> condition);
-  /// `what`: of an argument, for the error of a user who gives none.
+  /// `what`: what the argument is, for the error of a user who gives none.
   Setting& required(const char* what = "");
   Setting& standingForRequired();
   Setting& in(const char* helpGroup);
@@ -98,7 +98,7 @@ struct Setting {
   Setting& notEmpty();
   Setting& ofClips();
   Setting& ofLogs();
-  /// A name that the option had: who still types it gets the same.
+  /// A name that the option had: a user who still types it gets the same.
   Setting& formerly(const char* name);
   /// A shell offers files with these endings, separated by blanks; none: with any.
   Setting& files(const char* ofEndings = "");

@@ -35,7 +35,7 @@ using Words = std::vector<std::pair<std::string, Value>>;
 /// Most threads: a larger number is a typing error.
 inline constexpr int kMaxThreads = 256;
 
-/// Where "-" leads: PendingFile writes there what others write into a file.
+/// Where "-" leads: PendingFile writes there what goes into a file otherwise.
 inline constexpr char kStandardOutput[] = "/dev/stdout";
 
 /// Settings in the order of help. References to them stay valid.
@@ -106,7 +106,7 @@ class Settings {
   /// --json: the one meaning that it has in this program.
   Setting& asJson(bool& place);
 
-  /// An option that is no more, or not yet: help leaves it out, and `text` is the error of a user
+  /// An option that is gone, or not there yet: help omits it, and `text` is the error of a user
   /// who types it.
   Setting& gone(const char* option, const char* text);
 

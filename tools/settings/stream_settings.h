@@ -17,11 +17,11 @@ struct StreamSolidRequest {
   SolidRequest solid;
   bool stopsItself = false;      ///< Own links stop each other, too.
   std::int64_t budgetUs = 2000;  ///< Time per pose, converted to SolidOptions::workBudget.
-  /// Of a moving world: names or patterns of the avatars that are solid among all that moves.
+  /// For a moving world: names or patterns of the avatars that are solid among all that moves.
   std::vector<std::string> worldBodies{};
 };
 
-/// Those of addSolidSettings(), --solid-self and --solid-budget-us. `request` outlives the
+/// The settings of addSolidSettings(), --solid-self and --solid-budget-us. `request` outlives the
 /// settings.
 void addStreamSolidSettings(Settings& settings, StreamSolidRequest& request);
 
@@ -35,7 +35,7 @@ Setting& addSuffixSetting(Settings& settings, std::string& suffix);
 Setting& addKeySetting(Settings& settings, std::string& path, const char* help);
 
 /// How long an avatar's sender must be silent before another one may speak for it (us). Live only:
-/// a log holds no more than the messages of who spoke.
+/// a log holds only the messages of the senders that spoke.
 Setting& addTakeoverSetting(Settings& settings, std::int64_t& takeoverUs);
 
 /// --max-step, --confirmations and --unmatched-at-rest. `policy` outlives the settings.

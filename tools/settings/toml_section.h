@@ -23,7 +23,7 @@
 #define TOML_MAX_NESTED_VALUES 8
 #define TOML_ENABLE_FORMATTERS 0
 // toml++ 3.3 asserts, or promises to the optimiser, conditions that broken files violate ("[[!" is
-// one), just before it tests and reports them. It also promises that nobody asks whether some
+// one), just before it tests and reports them. It also promises that no code asks whether some
 // letters are spaces.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_ASSERT_ASSUME
@@ -120,7 +120,7 @@ class TomlSection {
     value = static_cast<Integer>(found);
   }
 
-  /// `legal` decides whether a finite number is legal; `expected` says it to people.
+  /// `legal` decides whether a finite number is legal; `expected` says in words which are.
   template <typename Legal>
   void number(const char* key, const char* expected, Legal legal, double& value) {
     const toml::node* const node = find(key);

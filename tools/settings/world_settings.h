@@ -45,16 +45,16 @@ struct WorldRequest {
   bool asksSelf =
       false;  ///< Own links, too: completes `query.self`, by the rules of the next file.
   std::string pairsPath;  ///< Empty: derived from the avatar and its motion.
-  GroundRule ground;      ///< Of touches; no query depends on it.
+  GroundRule ground;      ///< The rule for touches; no query depends on it.
 };
 
 // Each adds its part of the table; `request` outlives the settings.
 
 /// --scene, --scene-scale and --scene-up: the scene, and how to read its file.
 void addSceneSettings(Settings& settings, WorldRequest& request);
-/// Of --fidelity: the words that it once took are refused by name, and the error says why.
+/// Makes --fidelity refuse the words that it once took, by name, with an error that says why.
 void refuseGoneFidelities(Setting& setting);
-/// The ones that services have too: --tolerance, --fidelity, --ignore, --budget-us.
+/// The settings that services have, too: --tolerance, --fidelity, --ignore, --budget-us.
 void addQuerySettings(Settings& settings, WorldRequest& request);
 /// --self and --pairs (does not read its file).
 void addSelfSettings(Settings& settings, WorldRequest& request);
@@ -62,7 +62,7 @@ void addSelfSettings(Settings& settings, WorldRequest& request);
 /// read their files),
 /// --self.
 void addReplayQuerySettings(Settings& settings, WorldRequest& request);
-/// How touches are told of: --ground, --ground-angle and --ground-height.
+/// How touches are reported: --ground, --ground-angle and --ground-height.
 void addTouchSettings(Settings& settings, WorldRequest& request);
 
 }  // namespace foretouch::tools

@@ -36,11 +36,11 @@ constexpr double kUsualAdult = 1.7;
 /// Without legs: a hand, an animal, a robot.
 constexpr double kSmallestBody = 0.15, kLargestBody = 10.0;
 
-/// Of the box around all joints at rest, against the height by the legs: arms, wings, tails and
-/// what hands hold stay below.
+/// The size of the box around all joints at rest, against the height by the legs: arms, wings,
+/// tails and what hands hold stay below.
 constexpr double kWidestReach = 2.5;
 
-/// Among how many frames of a clip to look.
+/// The number of frames of a clip among which to look.
 constexpr std::size_t kFramesLookedAt = 32;
 
 const Unit& nearestUnit(double size, double wanted) {
@@ -50,7 +50,7 @@ const Unit& nearestUnit(double size, double wanted) {
   });
 }
 
-/// Of the box around all joints.
+/// The size of the box around all joints.
 Vector3d sizeOf(const Skeleton& skeleton, const Pose& pose) {
   std::vector<LinkState> states;
   ChainMotion(skeleton, pose, pose).statesAt(0.0, states);
@@ -66,8 +66,8 @@ double guessedUnit(double size) {
   return std::round(unit * digits) / digits;
 }
 
-/// Of a file whose format says metres, and whose body is far from a person's or an animal's size:
-/// exporters forget to convert centimetres and millimetres.
+/// The unit of a file whose format says metres, and whose body is far from a person's or an
+/// animal's size: exporters forget to convert centimetres and millimetres.
 double forgottenUnit(double size) {
   return size > kLargestBody ? (size > 100.0 * kLargestBody ? 0.001 : 0.01) : 1.0;
 }
@@ -105,7 +105,7 @@ Offer<double> bySize(double size, bool isInMetres) {
           "its joints' names show no legs; this makes it " + plainFigures(size * unit) + " m long"};
 }
 
-/// Legs of a plausible length beside joints far off: two bodies, or something that is no body.
+/// Legs of a plausible length beside joints far off: two bodies, or something that is not a body.
 void doubtReach(const Clip& clip, double stature, Offer<double>& offer) {
   const double reach = reachOf(clip);
   if (!(reach > kWidestReach * stature)) return;

@@ -60,7 +60,7 @@ Result<Done> readModelBody(const std::string& path, const BodyRequest& request,
   return Done{};
 }
 
-/// A model that holds no animation has no clip, which is no error here.
+/// A model that holds no animation has no clip, which is not an error here.
 Result<Done> readClip(const BodyRequest& request, BodySource& source) {
   if (clipFormatOf(request.motionPath) != ClipFormat::Model && isModelFile(request.motionPath)) {
     source.notes.push_back(request.motionPath +

@@ -36,13 +36,13 @@ struct BodySource {
 /// Errors name the file. `meshFile`: for an avatar that is made of a model.
 [[nodiscard]] Result<BodySource> readBody(const BodyRequest& request, const std::string& meshFile);
 
-/// The file whose body it is.
+/// The file that the body comes from.
 [[nodiscard]] std::string bodyFileOf(const BodyRequest& request);
 
 /// Whether the avatar must be written, because none of the files is one.
 [[nodiscard]] bool makesAvatar(const BodyRequest& request);
 
-/// Its poses as walkingBody() has them, of the part of the clip that the request cuts out. A note
+/// Its poses as walkingBody() has them, for the part of the clip that the request cuts out. A note
 /// says what became of a T-pose.
 [[nodiscard]] Result<WalkingBody> walkingBody(BodySource& source, const BodyRequest& request);
 

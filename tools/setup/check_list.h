@@ -1,5 +1,5 @@
-// tools/setup/check_list.h: what was checked and found good, doubtful or bad, as people and
-// programs are told.
+// tools/setup/check_list.h: what was checked and found good, doubtful or bad, as reported to people
+// and programs.
 #pragma once
 
 #include <cstdint>

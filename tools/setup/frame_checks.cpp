@@ -10,7 +10,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Nothing smaller (m) holds anything that is told: contacts are told within a millimetre.
+/// Nothing smaller (m) holds anything that is reported: contacts are reported within a millimetre.
 constexpr double kSmallest = 0.01;
 
 /// `size` (m), as it is read. `offer`: by what the numbers would have to be multiplied once more.

@@ -11,11 +11,11 @@
 
 namespace foretouch::tools {
 
-/// Of a scene that was read with `frame`: its unit, and its axis.
+/// Checks a scene that was read with `frame`: its unit, and its axis.
 [[nodiscard]] std::vector<PlacementCheck> sceneFrameChecks(const RawScene& raw,
                                                            const FileFrame& frame);
 
-/// The same of a clip. `isUpright`: its reader has turned it; else the placement turns it by
+/// The same for a clip. `isUpright`: its reader has turned it; else the placement turns it by
 /// `frame.up`.
 [[nodiscard]] std::vector<PlacementCheck> clipFrameChecks(const Clip& clip, const FileFrame& frame,
                                                           bool isUpright);

@@ -1,4 +1,4 @@
-// tools/setup/level.h: a scene as somebody would walk through it: which side of a surface is its
+// tools/setup/level.h: a scene as a person would walk through it: which side of a surface is its
 // front, and what a point meets along a line. World W: metres, +Y up.
 #pragma once
 
@@ -22,11 +22,11 @@ struct LevelHit {
 
 class Level {
  public:
-  /// Errors: as Scene::build().
+  /// Errors: those of Scene::build().
   [[nodiscard]] static Result<Level> build(RawScene raw);
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
-  /// Unit, of the front; zero without an area.
+  /// The front's normal, unit; zero without an area.
   [[nodiscard]] Eigen::Vector3d normal(TriangleId triangle) const;
 
   /// What a point meets first on its way. Straight up, down or sideways it is fast.

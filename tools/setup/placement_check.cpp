@@ -19,7 +19,7 @@ constexpr double kFirstRise = 0.04;
 
 std::string linksIn(const Walker& walker, const std::vector<Inside>& inside) {
   const Skeleton& skeleton = walker.body().avatar.skeleton();
-  // The trunk first: it is what a person would name.
+  // The trunk first: a person would name it.
   const auto trunk = std::find_if(inside.begin(), inside.end(),
                                   [&](const Inside& i) { return walker.isTrunk(i.link); });
   const Inside& first = trunk == inside.end() ? inside.front() : *trunk;
@@ -82,7 +82,7 @@ PlacementCheck floorCheck(const Standing& standing, bool knowsFloor) {
   return {"floor", state, "its lowest point is " + plainFigures(gap) + " m above the floor", ""};
 }
 
-/// What is wrong with a level in which nobody of this height could walk; empty: nothing.
+/// What is wrong with a level in which no body of this height could walk; empty: nothing.
 std::string whyNoFloor(const Walker& walker) {
   const WalkableFloor* const floor = walker.floor();
   if (floor == nullptr) return walker.floorDoubt();
@@ -105,7 +105,7 @@ std::string whyNoFloor(const Walker& walker) {
   return text;
 }
 
-/// Nothing that one walks on is known: what is below the body says little.
+/// True if no floor to walk on is known: what is below the body says little.
 bool isWithoutFloor(const Walker& walker) {
   const WalkableFloor* const floor = walker.floor();
   return floor == nullptr || (!floor->hasMain() && !floor->lowHeadroom());
@@ -206,7 +206,7 @@ PlacementCheck levelCheck(const Walker& walker, const Standing& standing) {
           "nobody could walk where it stands: an edge, a slope, or too little room", ""};
 }
 
-/// Nobody would move a body by less.
+/// Users would not move a body by less.
 bool isSamePlace(const Placement& a, const Placement& b) {
   constexpr double kWorthAMove = 5e-3;  // metres
   return (a.origin - b.origin).norm() < kWorthAMove && a.yawDeg == b.yawDeg;

@@ -10,8 +10,8 @@
 
 namespace foretouch::tools {
 
-/// Start, floor, level and path. `better`: where the body could stand; nullptr if nobody looked, or
-/// if there is no such place.
+/// Start, floor, level and path. `better`: where the body could stand; nullptr if this was not
+/// looked for, or there is no such place.
 [[nodiscard]] std::vector<PlacementCheck> checksOf(const Walker& walker, const Standing& standing,
                                                    const Standing* better);
 

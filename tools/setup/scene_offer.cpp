@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// So much lower than wide, that the height tells which axis it is.
+/// So much lower than wide that the height shows which axis it is.
 constexpr double kClearlyLower = 1.3;
 /// So much of an axis's level area faces one way, that it is floors and not walls' two sides.
 constexpr double kClearlyUp = 0.75, kNotUp = 0.6;
@@ -34,7 +34,7 @@ Vector3d sizeOf(const RawScene& raw) {
   return box.isEmpty() ? Vector3d::Zero() : Vector3d(box.sizes());
 }
 
-/// Of the area that is level when `axis` is up, the share that faces up.
+/// The share that faces up of the area that is level when `axis` is up.
 double shareFacingUp(const RawScene& raw, int axis) {
   double up = 0.0, all = 0.0;
   for (const Triangle& triangle : raw.triangles) {

@@ -10,8 +10,8 @@
 namespace foretouch::tools {
 
 /// Which axis points up in a scene that was read as it is. A level is lower than it is wide, and
-/// its floors show their front upwards. Sure only where its height tells, and its floors do not say
-/// otherwise.
+/// its floors show their front upwards. Sure only where its height shows it, and its floors do not
+/// say otherwise.
 [[nodiscard]] Offer<UpAxis> sceneUpAxisOf(const RawScene& raw);
 
 /// Metres per unit of a scene whose axis is known (already turned). The smallest of metres,

@@ -163,7 +163,7 @@ void noteStillness(Setup& setup) {
                         ": never moves, so nothing can happen between its poses");
 }
 
-/// Where the path is judged by the trunk, and nothing tells what that is.
+/// Adds a note if the path is judged by the trunk, and nothing shows what that is.
 void noteTrunk(Setup& setup) {
   const Skeleton& skeleton = setup.body.avatar->skeleton();
   if (!namedTrunkOf(skeleton).empty()) return;
@@ -230,7 +230,7 @@ Project projectOf(const Setup& setup, const std::string& avatar) {
   project.jointMap = body.mapPath;
   project.robot = body.robotPath;
   project.packages = body.packagePaths;
-  // What a file says of itself is not repeated: the file may be exported anew.
+  // What a file says about itself is not repeated: the file may be exported anew.
   if (!setup.sceneScale.isSaidByFile) project.sceneScale = setup.sceneScale.offer.value;
   if (!setup.sceneUp.isSaidByFile) project.sceneUp = setup.sceneUp.offer.value;
   if (!setup.bodyScale.isSaidByFile) project.clipScale = setup.bodyScale.offer.value;

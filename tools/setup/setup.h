@@ -16,7 +16,7 @@
 
 namespace foretouch::tools {
 
-/// What the user has said; what is empty is for setup to find out.
+/// What the user has said; setup finds out what is empty.
 struct SetupRequest {
   std::string scene;
   BodyRequest body;
@@ -26,7 +26,7 @@ struct SetupRequest {
   std::string on;  ///< Objects on which the body is wanted, as a name pattern; empty: the floor.
 };
 
-/// One answer, and whether it needs an option: a file that says its unit itself is read so.
+/// One answer, and whether it needs an option: a file that itself says its unit is read so.
 template <typename Value>
 struct Finding {
   Offer<Value> offer;
@@ -42,10 +42,10 @@ struct Setup {
   Placement place;
   bool isPlaceFound = false;
   BodySource body;                     ///< Read with these answers.
-  std::vector<PlacementCheck> checks;  ///< Of units, axes and the place.
+  std::vector<PlacementCheck> checks;  ///< Those of units, axes and the place.
   std::vector<std::string> notes;
 
-  /// Whether all is good or doubtful, and nothing wrong.
+  /// True if all is good or doubtful, and nothing wrong.
   [[nodiscard]] bool isUsable() const;
 };
 

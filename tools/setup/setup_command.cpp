@@ -54,7 +54,7 @@ SetupRequest requestOf(const AskedSetup& asked) {
   return request;
 }
 
-/// A clip, an avatar or a model with bones: what stands in scenes and is none.
+/// A clip, an avatar or a model with bones: what stands in scenes and is not one.
 Result<bool> isBody(const std::string& path) {
   if (clipFormatOf(path) != ClipFormat::Model) {
     FORETOUCH_TRY(const FileRole role, roleOfFile(path));
@@ -64,7 +64,7 @@ Result<bool> isBody(const std::string& path) {
   return holdsBody(model);
 }
 
-/// The scene and the body may come in any order where only one of them can be the body. What cannot
+/// The scene and the body may come in any order if only one of them can be the body. What cannot
 /// be read stays in its place, whose reader says why.
 void sortFiles(AskedSetup& asked) {
   std::string &scene = asked.world.scenePath, &body = asked.clip.motionPath;
@@ -81,7 +81,7 @@ std::string avatarPathOf(const AskedSetup& asked, const SetupRequest& request) {
   return (fs::path(asked.output).parent_path() / (body + ".avatar.json")).string();
 }
 
-/// As the project's folder sees it. An absolute path stays one.
+/// The path as the project's folder sees it. An absolute path stays one.
 std::string besideProject(const std::string& path, const std::string& project) {
   if (path.empty() || fs::path(path).is_absolute()) return path;
   const fs::path folder = fs::path(project).parent_path();
@@ -111,7 +111,7 @@ Result<Done> writeText(const std::string& path, const std::string& text) {
   return file.commit();
 }
 
-/// The avatar first: a project never names a missing file.
+/// Writes the avatar first, so that a project never names a missing file.
 Result<std::vector<std::string>> writeFiles(const AskedSetup& asked, const Setup& setup,
                                             const std::string& avatarPath) {
   std::vector<std::string> written;
@@ -266,7 +266,7 @@ ExitCode run(AskedSetup& asked) {
   return setup.isUsable() ? ExitCode::Done : ExitCode::CheckSaysNo;
 }
 
-/// What was said of the clip, as a project keeps it: all but paths, and what setup settles itself.
+/// What was said about the clip, as a project keeps it: all but paths, and what setup settles.
 std::string clipLinesOf(const Settings& given) {
   std::string lines;
   for (const Setting& setting : given) {

@@ -37,13 +37,13 @@ Eigen::AlignedBox3d boxAt(const Walker& walker, std::size_t index, const Placeme
   return boxInPose(walker.body().avatar, walker.poseAt(index, place));
 }
 
-/// As far as any surface of the level can be.
+/// A length as far as any surface of the level can be.
 double farAway(const Walker& walker) {
   const SceneAudit& audit = walker.level().scene().audit();
   return (audit.boxMax - audit.boxMin).norm() + 10.0;
 }
 
-/// Whether floor is below a foot that may be in a jump or on a step; true if nobody knows.
+/// Whether floor is below a foot that may be in a jump or on a step; true if it is not known.
 bool isOverFloor(const Walker& walker, const Vector3d& foot) {
   const WalkableFloor* const floor = walker.floor();
   if (floor == nullptr) return true;
@@ -52,7 +52,7 @@ bool isOverFloor(const Walker& walker, const Vector3d& foot) {
   return floor->kindAt(foot, up, down) == FloorKind::Main;
 }
 
-/// The whole clip at this place.
+/// Checks the whole clip at this place.
 void walkThrough(const Walker& walker, Standing& standing) {
   standing.poses = walker.body().poses.size();
   for (std::size_t i = 0; i < standing.poses; ++i) {
@@ -104,8 +104,8 @@ Placement placeOver(const Walker& walker, const Vector3d& spot, double yawDeg, d
   return {false, spot - foot + Vector3d(0, above, 0), yawDeg};
 }
 
-/// Lets the body down on a spot. Nothing if it does not fit, or something else than its feet would
-/// carry it.
+/// Lets the body down on a spot. Nothing if it does not fit, or something other than its feet
+/// would carry it.
 std::optional<Placement> letDown(const Walker& walker, const Vector3d& spot, double yawDeg) {
   Placement place = placeOver(walker, spot, yawDeg, kLift);
   // Rounded to millimetres, as people write it; up, so that it stays free.
@@ -120,7 +120,7 @@ std::optional<Placement> letDown(const Walker& walker, const Vector3d& spot, dou
   return place;
 }
 
-/// Smaller is better, 0 best; a fault of one kind outweighs the next.
+/// Smaller is better, 0 best; worse kinds of faults weigh more.
 double faultsOf(const Standing& standing) {
   const auto share = [&](std::size_t count) {
     return static_cast<double>(count) / static_cast<double>(standing.poses);
@@ -155,7 +155,7 @@ class Search {
   }
 
  private:
-  /// Free on the main floor, or on what was asked and nowhere else.
+  /// True if it is free on the main floor, or on what was asked and nowhere else.
   [[nodiscard]] bool isWhereWanted(const Standing& standing) const {
     return standing.standsFree() &&
            (walker_.on().empty() ? standing.floor == FloorKind::Main : standing.isOnAsked);
@@ -164,7 +164,7 @@ class Search {
   struct Candidate {
     Vector3d spot;
     double yawDeg = 0.0, cost = 0.0;
-    double nearness = 0.0;  ///< What of the cost is about the spot alone.
+    double nearness = 0.0;  ///< The part of the cost that is about the spot alone.
   };
 
   /// Spots and turns, the most promising first: by the grid, before the engine is asked.
@@ -199,7 +199,7 @@ class Search {
     return static_cast<double>(off) / static_cast<double>(feet_.size());
   }
 
-  /// The share of what is around a spot that is floor as high as it.
+  /// The share of the surroundings of a spot that is floor as high as it.
   [[nodiscard]] static double levelShare(const WalkableFloor& floor, const Vector3d& spot) {
     const double height = floor.room().height, level = kLevel * height;
     constexpr int kWays = 8;
@@ -224,7 +224,7 @@ class Search {
   const Walker& walker_;
   const Placement& wish_;
   const Vector3d wished_;       ///< The standing pose's foot, where the wish has it.
-  std::vector<Vector3d> feet_;  ///< Of all poses, from there.
+  std::vector<Vector3d> feet_;  ///< Those of all poses, from there.
   std::optional<Standing> best_;
   double bestCost_ = 0.0;
 };
@@ -240,7 +240,7 @@ Standing standingAt(const Walker& walker, const Placement& place) {
   const auto isBeside = [&](int axis) {
     return box.min()[axis] > audit.boxMax[axis] || box.max()[axis] < audit.boxMin[axis];
   };
-  // Above it is no outside: ground may be flat, and sky open.
+  // Above it is not outside: ground may be flat, and sky open.
   standing.isOutside = isBeside(0) || isBeside(2) || box.max().y() < audit.boxMin.y();
   standing.inside = walker.insideAt(pose);
   standing.insideAtFirst = walker.insideAt(walker.poseAt(0, place));

@@ -15,7 +15,7 @@ namespace foretouch::tools {
 /// Feet may be this far above the floor (m) and still stand.
 inline constexpr double kStandsWithin = 0.02;
 
-/// A placement, judged by the engine and by where one could walk.
+/// A placement, judged by the engine and by where a person could walk.
 struct Standing {
   Placement place;
   std::vector<Inside> insideAtFirst;  ///< At the clip's first pose.
@@ -23,11 +23,11 @@ struct Standing {
   std::vector<Inside> inside;
   std::optional<double>
       floorBelow;  ///< From the lowest point of the body down, metres; none: void.
-  std::optional<double> floorAbove;  ///< A floor that it is sunk below: how far.
+  std::optional<double> floorAbove;  ///< How far it is sunk below a floor.
   FloorKind floor = FloorKind::None;
   bool isOnAsked = false;
   bool isOutside = false;  ///< The body is outside of the box around the scene.
-  // Of all poses looked at:
+  // For all poses looked at:
   std::size_t poses = 0, trunkInside = 0, limbsInside = 0, overVoid = 0;
   std::size_t offFloor = 0;  ///< Neither the main floor nor an asked object is below it.
   /// How much higher the lowest point of the body is in the first pose than where it stands (m).
@@ -44,11 +44,11 @@ struct Standing {
 
 /// The place that suits the body best: free, on the level's main floor (or on what was asked), with
 /// room for its whole clip, away from edges, and near `wish` (a placement's origin; its yaw is
-/// tried first). A wish that is right is kept. The same for the same files. Nothing if nobody fits
-/// anywhere. Some seconds at most.
+/// tried first). A wish that is right is kept. The same files give the same place. Nothing if the
+/// body fits nowhere. Some seconds at most.
 [[nodiscard]] std::optional<Standing> bestStanding(const Walker& walker, const Placement& wish);
 
-/// Where nothing can be stood on: the clip's own ground at the height 0, its origin at the scene's.
+/// Where there is no ground to stand on: the clip's own at height 0, its origin at the scene's.
 [[nodiscard]] Placement originPlace(const Walker& walker);
 
 }  // namespace foretouch::tools

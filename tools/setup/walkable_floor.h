@@ -22,7 +22,7 @@ struct BodyRoom {
   double height = 1.75, radius = 0.2, climb = 0.25;
 };
 
-/// Of a body of this height; in proportion to a person's.
+/// The room for a body of this height; in proportion to a person's.
 [[nodiscard]] BodyRoom roomOf(double height);
 
 enum class FloorKind : std::uint8_t {
@@ -34,16 +34,16 @@ enum class FloorKind : std::uint8_t {
 
 class WalkableFloor {
  public:
-  /// `around`: where to look in a level that is too large to be looked at as a whole. `isAsked`: of
-  /// an object, whether the body is wanted on it; may be empty. Errors: too many triangles, too
+  /// `around`: where to look in a level that is too large to be looked at as a whole. `isAsked`: on
+  /// an object, whether the body is wanted there; may be empty. Errors: too many triangles, too
   /// high, or too slow. Takes at most some 0.7 GB and half a minute, and mostly a hundredth of it.
   [[nodiscard]] static Result<WalkableFloor> build(const Level& level, const BodyRoom& room,
                                                    const Eigen::Vector3d& around,
                                                    const std::function<bool(ObjectId)>& isAsked);
 
-  /// Of what lies at most `up` above and `down` below a point; the nearest to it counts.
+  /// The kind of what lies at most `up` above and `down` below a point; the nearest to it counts.
   [[nodiscard]] FloorKind kindAt(const Eigen::Vector3d& p_W, double up, double down) const;
-  /// Likewise: whether an asked object's surface lies there.
+  /// Whether an asked object's surface lies there.
   [[nodiscard]] bool isAskedAt(const Eigen::Vector3d& p_W, double up, double down) const;
   /// About `count` spots, spread evenly: on the main floor where a body's middle may be, or on the
   /// asked objects. The same ones every time.
@@ -52,22 +52,22 @@ class WalkableFloor {
   [[nodiscard]] std::vector<Eigen::Vector3d> spotsAlong(const Eigen::Vector3d& p_W) const;
 
   [[nodiscard]] bool hasMain() const { return main_ >= 0; }
-  /// Of the main floor, where a body's middle may be (square metres).
+  /// The main floor's area where a body's middle may be (square metres).
   [[nodiscard]] double area() const;
-  /// The main floor shows its back, so it may be the outside of the level.
+  /// True if the main floor shows its back, so it may be the outside of the level.
   [[nodiscard]] bool showsBack() const;
-  /// The main floor lies high above the level's lowest point, and nothing is above it.
+  /// True if the main floor lies high above the level's lowest point, and nothing is above it.
   [[nodiscard]] bool isOnTop() const;
-  /// The main floor is high above the level's lowest point, with only air under it.
+  /// True if the main floor is high above the level's lowest point, with only air under it.
   [[nodiscard]] bool hangs() const;
-  /// Somewhere a body could walk, be it on a roof.
+  /// True if a body could walk somewhere, be it on a roof.
   [[nodiscard]] bool hasAny() const { return !areas_.empty(); }
-  /// The main floor is that of a thing: a crate, a step.
+  /// True if the main floor is that of a thing: a crate, a step.
   [[nodiscard]] bool isSmall() const;
   /// The usual headroom of floors that are too low for this body; nothing if they are few.
   [[nodiscard]] std::optional<double> lowHeadroom() const { return lowHeadroom_; }
   [[nodiscard]] const BodyRoom& room() const { return room_; }
-  /// Only a part of the level was looked at: this far from `around` (m).
+  /// How far from `around` the level was looked at, if only in part (m).
   [[nodiscard]] std::optional<double> lookedWithin() const { return lookedWithin_; }
 
  private:
@@ -84,7 +84,7 @@ class WalkableFloor {
   struct Area {
     std::size_t cells = 0, facingUp = 0, hanging = 0;
     double lowest = 0.0, highest = 0.0;
-    std::size_t low = 0, lowOver = 0;  ///< Of its lowest part: cells, and those over other floor.
+    std::size_t low = 0, lowOver = 0;  ///< Its lowest part: cells, and those over other floor.
 
     bool isRoof = false;
 
@@ -96,7 +96,7 @@ class WalkableFloor {
   /// height).
   static constexpr double kOnTop = 0.85;
 
-  /// The first one straight above and below a point, and the one behind the last.
+  /// The first span straight above and below a point, and the one behind the last.
   [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> spansAlong(
       const Eigen::Vector3d& p_W) const;
   [[nodiscard]] const Area& mainArea() const { return areas_[static_cast<std::size_t>(main_)]; }

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 /// Shares of a body's height: what a person of 1.75 m needs is 0.2 m to each side of its middle,
 /// and steps of 0.25 m; a cell of the grid is 0.1 m wide and 35 mm high.
 constexpr double kRadius = 0.115, kClimb = 0.14, kCell = 0.06, kCellHeight = 0.02;
-/// Floor with less room above it than this share of the height is no floor but a gap in a thing.
+/// Floor with less room above it than this share of the height is not floor but a gap in a thing.
 constexpr double kCrawl = 0.4;
 /// Surfaces up to this slope (radians, 45 degrees) can be walked on.
 constexpr double kSteepest = 0.785;
@@ -36,7 +36,7 @@ constexpr double kSmallestPart = 4.0;
 constexpr std::chrono::seconds kLongestSearch(20);
 /// How much lighter an area weighs that lies over other floor, and one that shows its back.
 constexpr double kOverWeighs = 0.1, kBackWeighs = 0.3;
-/// Too low is a level of whose surfaces so many are.
+/// A level is too low if so many of its surfaces are.
 constexpr double kManyAreLow = 0.3;
 
 /// How Recast knows surfaces, which takes the larger number where two meet.
@@ -121,10 +121,10 @@ void forEachColumn(const rcHeightfield& field, Function&& function) {
 }
 
 /// Marks what lies over other floor with room between them. From a surface's front down one goes
-/// through a solid until a back is met; that is no floor.
+/// through a solid until a back is met; that is not floor.
 void markOver(const std::vector<rcSpan*>& column, int crawl, int high) {
   const bool hangs = static_cast<int>(column.front()->smin) > high;
-  bool isOver = false;           // of what is above the last surface
+  bool isOver = false;           // for what is above the last surface
   const rcSpan* last = nullptr;  // surface, below
   const rcSpan* below = nullptr;
   std::vector<rcSpan*> over;

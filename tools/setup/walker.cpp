@@ -19,9 +19,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Among how many poses of a clip to look for room.
+/// The number of poses of a clip among which to look for room.
 constexpr std::size_t kPosesLookedAt = 64;
-/// Of all poses, the share that may dip lower than the one that stands: a T-pose at the clip's
+/// The share of all poses that may dip lower than the one that stands: a T-pose at the clip's
 /// begin, a toe that the capture puts into the floor.
 constexpr double kMayDip = 0.1;
 

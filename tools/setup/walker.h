@@ -41,10 +41,10 @@ struct Rest {
 };
 
 /// The body at frames of a clip that are spread over it, some of them if they are many; the same
-/// for all who ask. `clip`: with the placement that makes it Y-up, no other.
+/// for every caller. `clip`: with no placement but the one that makes it Y-up.
 [[nodiscard]] Result<WalkingBody> walkingBody(const PlacedClip& clip, const FrameRange& frames);
 
-/// Which of a body's poses says at which height it stands: one of its lowest, but for the few that
+/// Which of a body's poses shows at which height it stands: one of its lowest, but for the few that
 /// dip lower. A clip may begin in a T-pose, or in the air.
 [[nodiscard]] std::size_t standingPose(const WalkingBody& body);
 
@@ -52,14 +52,14 @@ class Walker {
  public:
   /// Both outlive the walker. `around`: where to look for floor in a level too large to be looked
   /// at as a whole. `on`: a name pattern of the objects on which it is wanted; empty: on the floor.
-  /// Errors: as Query::build(); no object has such a name.
+  /// Errors: those of Query::build(); no object has such a name.
   [[nodiscard]] static Result<Walker> build(const WalkingBody& body, const Level& level,
                                             const Eigen::Vector3d& around = Eigen::Vector3d::Zero(),
                                             const std::string& on = "");
 
   [[nodiscard]] const WalkingBody& body() const { return *body_; }
   [[nodiscard]] const Level& level() const { return *level_; }
-  /// Index of the pose that says at which height it stands.
+  /// Index of the pose that shows at which height it stands.
   [[nodiscard]] std::size_t standing() const { return standing_; }
   /// Where a body of this height could walk; nullptr if that took too much: `floorDoubt` says what.
   [[nodiscard]] const WalkableFloor* floor() const { return floor_ ? &*floor_ : nullptr; }

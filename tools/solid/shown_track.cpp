@@ -8,7 +8,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// Of a tick: how long before its end the curve leaves a pose that no motion leads away from.
+/// How long before a tick's end, as its share, the curve leaves a pose that no motion leads from.
 constexpr double kJumpShare = 1e-3;
 
 bool isSamePair(const ShownContact& a, const Touch& b) {
@@ -31,7 +31,7 @@ Touch begun(const ShownContact& contact) {
 
 void ShownTrack::addPose(double timeS, const Pose& pose, std::int64_t tick, bool isStep) {
   if (!timesS_.empty() && !(timeS > timesS_.back())) {
-    // Two pieces nearer in time than doubles tell apart: the later one stands for both.
+    // Two pieces nearer in time than doubles can resolve: the later one stands for both.
     poses_.back() = pose;
     return;
   }
@@ -98,7 +98,7 @@ void ShownTrack::takeContact(const SolidContact& contact, double timeS,
   found.push_back(std::move(shown));
 }
 
-/// Touches end with the last tick that has them: between ticks nobody looked.
+/// Touches end with the last tick that has them: between ticks nothing is asked.
 void ShownTrack::addContacts(const PlayedTick& tick) {
   std::vector<ShownContact> found;
   const bool hasStep = !steps_.empty() && steps_.back().tick == tick.tick;

@@ -40,7 +40,7 @@ class ShownTrack {
 
   /// Ticks in order.
   void add(const PlayedTick& tick);
-  /// After the last one: ends the touches that are still open.
+  /// Call after the last one: ends the touches that are still open.
   void finish();
 
   /// Ascending; a tick's way leads to the tick's own time. Two poses without a step between them:
@@ -55,9 +55,9 @@ class ShownTrack {
   [[nodiscard]] const std::vector<double>& deviations() const { return deviations_; }
   /// What is shown at each tick: places among poses().
   [[nodiscard]] const std::vector<std::size_t>& shownAtTick() const { return shownAtTick_; }
-  /// The strongest of each link with each object, or other link, in each tick, in order of steps.
+  /// The strongest for each link with each object, or other link, in each tick, in order of steps.
   [[nodiscard]] const std::vector<ShownContact>& contacts() const { return contacts_; }
-  /// In listed order.
+  /// The touches in listed order.
   [[nodiscard]] const std::vector<ShownTouchOf>& touches() const { return touches_; }
 
  private:

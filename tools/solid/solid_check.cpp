@@ -16,8 +16,8 @@
 namespace foretouch::tools {
 namespace {
 
-/// Of the tolerance that the file was certified with. Each is a proof by itself: the next ones are
-/// for what lies nearer than the ones before.
+/// Shares of the tolerance that the file was certified with. Each is a proof by itself: the next
+/// ones are for what lies nearer than the ones before.
 constexpr double kShares[] = {0.125, 1e-3};
 
 bool mayBeUnproven(const SolidRecord& record) {
@@ -113,7 +113,7 @@ bool SolidCheck::take(const SolidRecord& record) {
   return false;
 }
 
-/// Empty: none. Takes the tick's shown pose as the last one.
+/// The fault; empty: none. Takes the tick's shown pose as the last one.
 std::string SolidCheck::faultOf(const SolidRecord& record) {
   if (!record.isMarkTrue) return "the line is not the one that was written: its mark is another";
   if (record.tick != checked_.ticks) return fmt::format("expected tick {}", checked_.ticks);

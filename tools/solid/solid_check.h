@@ -1,5 +1,5 @@
 // tools/solid/solid_check.h: certifies the ways of a file of shown poses once more, from the file,
-// its scene and its avatar alone: each motion is asked again by the query, and no solver is.
+// its scene and its avatar alone: the query answers each motion again, and no solver is asked.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 namespace foretouch::tools {
 
 struct SolidFinding {
-  std::int64_t tick = -1;  ///< -1: of the file as a whole.
+  std::int64_t tick = -1;  ///< -1: the file as a whole.
   std::int64_t line = 0;
   std::string text;
 };
@@ -30,16 +30,16 @@ struct CheckedSolid {
   [[nodiscard]] bool isSound() const { return !finding; }
 };
 
-/// The query options that the header says, without a tolerance. Errors: names that the avatar or
+/// The query options that the header states, without a tolerance. Errors: names that the avatar or
 /// the scene does not have, rules of another avatar.
 [[nodiscard]] Result<QueryOptions> queryOf(const SolidHeader& header, const Avatar& avatar,
                                            const Scene& scene, const std::string& path);
 
 /// Reads and judges tick after tick. `advance` learns how many are done; false ends it. Errors:
-/// those of the reader, and of options that the query refuses.
+/// those of the reader, and options that the query refuses.
 class SolidCheck {
  public:
-  /// `query` as queryOf() makes it. Errors: as Query::build().
+  /// `query`: as queryOf() makes it. Errors: those of Query::build().
   static Result<SolidCheck> build(const Avatar& avatar, const Scene& scene,
                                   const QueryOptions& query, double tolerance);
 

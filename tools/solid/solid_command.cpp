@@ -35,7 +35,7 @@ Result<std::string> fileOf(const char* option, const std::string& asked, const s
   namespace fs = std::filesystem;
   std::string path = asked;
   if (path.empty()) {
-    // Of a hostile file: a name, not a way to some other folder.
+    // In a hostile file: a name, not a way to some other folder.
     const std::string plain = fs::path(name).filename().string();
     const fs::path beside = fs::path(output).parent_path() / plain;
     std::error_code absent;

@@ -17,7 +17,7 @@ namespace foretouch::tools {
 inline constexpr char kSolidFormat[] = "foretouch-solid";
 inline constexpr int kSolidVersion = 1;
 
-/// Of the bits of its numbers, in the order rotations (w, x, y, z), translations.
+/// The mark of the bits of its numbers, in the order rotations (w, x, y, z), translations.
 [[nodiscard]] std::string markOfPose(const Pose& pose);
 
 /// Writes the lines one after the other: each but the first carries the mark of itself and of all

@@ -14,7 +14,7 @@ namespace foretouch::tools {
 /// One tick as it was played.
 struct PlayedTick {
   std::int64_t tick = 0;  ///< From 0: the pose after `tick` steps of the clip.
-  double timeS = 0.0;     ///< Of its pose since the clip's first frame.
+  double timeS = 0.0;     ///< The time of its pose since the clip's first frame.
   Pose tracked;
   SolidTick answer;
   double latencyUs = 0.0;
@@ -33,16 +33,16 @@ struct PlayedTick {
   [[nodiscard]] std::size_t firstPiece() const { return start() == nullptr ? 0 : 1; }
 };
 
-/// Bit for bit, -0 and 0 told apart.
+/// Bit for bit: -0 and 0 differ.
 [[nodiscard]] bool areSamePoses(const Pose& a, const Pose& b);
 
 /// The request with what the inputs decide: pairs that are ignored, rules of own links, the work
-/// that a tick may cost. `hasTolerance`: somebody has asked for that of the inputs; else it follows
+/// that a tick may cost. `hasTolerance`: the tolerance of the inputs was asked for; else it follows
 /// the skin.
 [[nodiscard]] SolidOptions solidOptionsOf(const SolidRequest& request, const ReplayInputs& inputs,
                                           bool hasTolerance);
 
-/// The same with what SolidAvatar::options() completes. Errors: as playSolid().
+/// The same with what SolidAvatar::options() completes. Errors: those of playSolid().
 [[nodiscard]] Result<SolidOptions> completedOptions(const ReplayInputs& inputs,
                                                     const SolidOptions& options);
 
@@ -54,7 +54,7 @@ using TickSink = std::function<bool(const PlayedTick&)>;
 [[nodiscard]] inline std::int64_t ticksOf(const ReplayInputs& inputs) {
   return inputs.steps.count + 1;
 }
-/// Seconds from one to the next.
+/// Seconds from one tick to the next.
 [[nodiscard]] inline double tickS(const ReplayInputs& inputs) {
   return static_cast<double>(inputs.steps.stride) * inputs.clip.frameTimeS;
 }

@@ -43,7 +43,7 @@ bool nestsTooDeep(std::string_view text) {
   return false;
 }
 
-/// Discarded, which is no object, if it is no JSON that we read.
+/// Discarded, which is not an object, if it is not JSON that we read.
 json parsedLine(std::string_view line) {
   if (nestsTooDeep(line)) return json(json::value_t::discarded);
   return json::parse(line, nullptr, false);

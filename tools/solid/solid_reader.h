@@ -19,12 +19,12 @@ namespace foretouch::tools {
 /// Largest line of such a file, in bytes.
 inline constexpr std::size_t kMaxSolidLineBytes = std::size_t{256} << 20;
 
-/// What of the first line decides what its ways meet.
+/// What the first line says that decides what its ways meet.
 struct SolidHeader {
   std::string scene, sceneMark, avatar, avatarMark;  ///< Names without folders, and marks.
   double sceneScale = 1.0;
   UpAxis sceneUp = UpAxis::Y;
-  double tolerance = 0.0;  ///< With which the ways were certified (m).
+  double tolerance = 0.0;  ///< The tolerance with which the ways were certified (m).
   std::vector<std::string> ignore;
   std::string self;  ///< Pair rules as JSON; empty: own links were not asked.
   std::vector<std::string> links;
@@ -34,7 +34,7 @@ struct SolidHeader {
 /// One tick as the file has it: poses have as many joints as there are links, and finite numbers;
 /// nothing else is checked.
 struct SolidRecord {
-  std::int64_t line = 0;  ///< Of the file, from 1.
+  std::int64_t line = 0;  ///< The line in the file, from 1.
   bool isMarkTrue = false;
   std::int64_t tick = 0;
   double timeS = 0.0;
@@ -52,13 +52,13 @@ struct SolidRecord {
 
 class SolidReader {
  public:
-  /// Errors: as next(), and a file of another format or version.
+  /// Errors: those of next(), and a file of another format or version.
   static Result<SolidReader> open(const std::string& path);
 
   [[nodiscard]] const SolidHeader& header() const { return header_; }
   [[nodiscard]] bool isHeaderMarkTrue() const { return isHeaderMarkTrue_; }
-  /// The next tick; nothing after the last one. Errors name file and line: text that is no JSON,
-  /// fields that are missing or of the wrong type, words that are no state, poses of another
+  /// The next tick; nothing after the last one. Errors name file and line: text that is not JSON,
+  /// fields that are missing or of the wrong type, words that are not a state, poses of another
   /// number of joints, a line beyond kMaxSolidLineBytes.
   [[nodiscard]] Result<std::optional<SolidRecord>> next();
   /// After the last tick: whether the file ends as a complete one does, with a true mark.

@@ -13,7 +13,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// By the weights of their names: hands count 4, the trunk 30, all others 1 (solid_options.h).
+/// The hands, by their names' weights: hands count 4, the trunk 30, others 1 (solid_options.h).
 std::vector<LinkId> handsOf(const Avatar& avatar) {
   constexpr double kOther = 1.0, kBelowTrunk = 10.0;
   const std::vector<double> visibility = visibilityByName(avatar);

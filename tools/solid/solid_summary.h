@@ -11,7 +11,7 @@
 
 namespace foretouch::tools {
 
-/// Of many distances (m).
+/// What many distances come to (m).
 struct Deviations {
   double mean = 0.0, p90 = 0.0, most = 0.0;
 };
@@ -35,7 +35,7 @@ class SolidSummary {
   [[nodiscard]] std::int64_t of(SolidState state) const {
     return ofState_[static_cast<std::size_t>(state)];
   }
-  /// Of all links with LSS at all ticks with a place; of the hands' links only; likewise.
+  /// For all links with LSS at all ticks with a place; then for the hands' links only.
   [[nodiscard]] Deviations ofAll() const { return deviations(all_); }
   [[nodiscard]] Deviations ofHands() const { return deviations(hands_); }
   [[nodiscard]] bool hasHands() const { return !handLinks_.empty(); }

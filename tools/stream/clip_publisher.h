@@ -21,7 +21,7 @@ class Pace {
   /// Waits until this long after the start. Returns how late it is (us, >= 0), or nothing if the
   /// sender must stop.
   virtual std::optional<std::int64_t> waitUntil(std::int64_t elapsedUs) = 0;
-  /// Since the Unix epoch, now.
+  /// Microseconds since the Unix epoch, now.
   [[nodiscard]] virtual std::int64_t utimeUs() const = 0;
 };
 
@@ -60,10 +60,10 @@ struct PublishReport {
   std::int64_t session = 0;     ///< The first one.
   std::int64_t poses = 0;       ///< Sent, or tried.
   std::int64_t skeletons = 0;   ///< The same.
-  std::int64_t states = 0;      ///< The same: of props of a world.
+  std::int64_t states = 0;      ///< The same: for props of a world.
   std::int64_t failures = 0;    ///< Messages that the sink lost.
   std::int64_t late = 0;        ///< Poses sent more than kLateUs after their time.
-  std::int64_t mostLateUs = 0;  ///< Of all poses.
+  std::int64_t mostLateUs = 0;  ///< Of all poses, the latest's.
   static constexpr std::int64_t kLateUs = 1000;
 };
 

@@ -25,7 +25,7 @@ void writeStatus(const StatusMessage& message, JsonWriter& out);
 
 /// {"status":...} around writeStatus(), and a line break.
 [[nodiscard]] std::string statusLine(const StatusMessage& message);
-/// For people.
+/// The same for people.
 [[nodiscard]] std::string statusText(const StatusMessage& message);
 
 /// Microseconds since the epoch of the instant `toi` within the step from `fromUs` to `toUs`,

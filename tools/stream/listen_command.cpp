@@ -44,7 +44,7 @@ struct ListenJob {
   std::string url, suffix, keyPath;
   std::optional<MessageKey> key;
   ChannelNames channels;  ///< With the suffix.
-  std::string worldPath;  ///< Of a moving world, whose events are heard in place of verdicts.
+  std::string worldPath;  ///< For a moving world, whose events are heard in place of verdicts.
   bool json = false, status = false, each = false;
   int count = 0;                   ///< Ends after so many verdicts; 0: never.
   std::optional<double> timeoutS;  ///< Ends after so long without a verdict.
@@ -93,7 +93,7 @@ class Listener {
           fmt::format("{}: a message that cannot be read ({})", message.channel, toString(reject)));
     }
   }
-  /// Nothing more is heard.
+  /// Call when nothing more is heard.
   void end() {
     if (events_ && job_.json) print(events_->summary());
   }
@@ -103,7 +103,7 @@ class Listener {
     const std::chrono::duration<double> silence = Clock::now() - heardAt_;
     return job_.timeoutS && silence.count() >= *job_.timeoutS;
   }
-  /// False once nobody reads the output.
+  /// False once the output has no reader.
   [[nodiscard]] bool isHeard() const { return isHeard_; }
   [[nodiscard]] std::int64_t verdicts() const { return verdicts_; }
   [[nodiscard]] std::int64_t rejected() const { return rejected_; }
@@ -219,7 +219,7 @@ class Listener {
   PushesMessage pushes_;
   PushesNews pushesNews_;
   StatusMessage status_;
-  std::unique_ptr<ToldEvents> events_;  // of a moving world, if it is heard
+  std::unique_ptr<ToldEvents> events_;  // for a moving world, if it is heard
   EventsMessage told_;
   BodyMessage body_;
   Clock::time_point heardAt_ = Clock::now();

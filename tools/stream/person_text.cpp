@@ -48,7 +48,7 @@ std::string touchText(const ToldBracket& told, double stepUs) {
   return text;
 }
 
-/// Those of one verdict, after these words.
+/// The touches with one verdict, after these words.
 std::string touchesText(const PersonMessage& message, BracketVerdict verdict, const char* words) {
   constexpr int kShown = 4;
   const auto stepUs = static_cast<double>(message.utimeToUs - message.utimeFromUs);

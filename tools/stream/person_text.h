@@ -14,9 +14,9 @@
 
 namespace foretouch::tools {
 
-/// Its fields, into an open object.
+/// Writes the message's fields into an open object.
 void writePerson(const PersonMessage& message, Stamps stamps, JsonWriter& out);
-/// {"person_step":...} around it, and a line break.
+/// {"person_step":...} around these fields, and a line break.
 [[nodiscard]] std::string personStepLine(const PersonMessage& message, Stamps stamps);
 
 /// For people: "avatar 1, pose 42: the person surely touched 'LeftHand' on 'table', from 3.1 to 4.0

@@ -35,9 +35,9 @@ struct PublishJob {
   ClipRequest request;
   std::vector<std::string> files;
   PublishOptions options;
-  std::string worldPath;  ///< Of a world whose bodies are sent in place of a clip.
+  std::string worldPath;  ///< A world whose bodies are sent in place of a clip.
   std::string url, suffix, outputPath, keyPath;
-  std::optional<std::int64_t> startUtimeUs;  ///< Of a log's first pose.
+  std::optional<std::int64_t> startUtimeUs;  ///< The time of a log's first pose.
 };
 
 /// Options of live sending make no sense with a log, and vice versa.
@@ -95,7 +95,7 @@ Result<PlayedClip> loadWithRemarks(const ClipRequest& request) {
   return played;
 }
 
-/// Sends all of it.
+/// Sends everything.
 using Sending =
     std::function<Result<PublishReport>(const PublishOptions&, Pace&, const MessageSink&)>;
 

@@ -14,9 +14,9 @@
 
 namespace foretouch::tools {
 
-/// Its fields, into an open object.
+/// Writes the message's fields into an open object.
 void writePushes(const PushesMessage& message, JsonWriter& out);
-/// {"pushes":...} around it, and a line break.
+/// {"pushes":...} around these fields, and a line break.
 [[nodiscard]] std::string pushesLine(const PushesMessage& message);
 
 /// For people: "avatar 1, pose 42: body 3 presses 'LeftHand' (12 mm)".
@@ -25,8 +25,8 @@ void writePushes(const PushesMessage& message, JsonWriter& out);
 /// Finds what is news for people. Bounded memory, whatever arrives.
 class PushesNews {
  public:
-  /// True if others press or crush, or at other links, than at the body's last tick; a first tick
-  /// at which nobody does is none.
+  /// True if other bodies press or crush, or at other links, than at the body's last tick; a first
+  /// tick is no news if nothing presses.
   [[nodiscard]] bool isNews(const PushesMessage& message);
 
  private:

@@ -55,7 +55,7 @@ Result<ServeConfig> parseServeConfig(std::string_view text, const std::string& f
   TomlReading reading{file, std::nullopt};
   ServeConfig config;
   TomlSection root(reading, parsed, "the file");
-  // A project file may be a configuration, too: what it says of a clip is not about streams.
+  // A project file may be a configuration, too: what it says about a clip is not about streams.
   root.allowOnly({"service", "scene", "query", "policy", "stream", "solid", "person", "avatar",
                   "clip", "made"});
   Settings settings;

@@ -19,7 +19,7 @@ struct ServedWorld {
   Scene scene;
   std::vector<StreamSolver> avatars;
   std::vector<PersonStream> persons;
-  std::optional<WorldSolver> world;  ///< That moves, if one was asked for: the caller fills it in.
+  std::optional<WorldSolver> world;  ///< The one that moves, if asked for: the caller fills it in.
   std::size_t numTriangles = 0;
   std::vector<std::string> remarks;  ///< Tolerated faults: one sentence each.
 };

@@ -43,7 +43,7 @@ void ServiceManager::tell(const std::string& text) const {
   const int descriptor = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (descriptor < 0) return;
   const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + socket_.size());
-  // Nobody to report a failure to: a manager that hears nothing restarts the service.
+  // There is no one to report a failure to: a manager that hears nothing restarts the service.
   static_cast<void>(::sendto(descriptor, text.data(), text.size(), MSG_NOSIGNAL,
                              reinterpret_cast<const sockaddr*>(&address), length));
   ::close(descriptor);

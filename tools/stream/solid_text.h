@@ -12,9 +12,9 @@
 
 namespace foretouch::tools {
 
-/// Its fields, into an open object.
+/// Writes the message's fields into an open object.
 void writeSolid(const SolidMessage& message, Stamps stamps, JsonWriter& out);
-/// {"solid":...} around it, and a line break.
+/// {"solid":...} around these fields, and a line break.
 [[nodiscard]] std::string solidLine(const SolidMessage& message, Stamps stamps);
 
 /// For people: "avatar 1, pose 42: shown sliding, 31.2 mm from the tracked pose: 'LeftHand' on
@@ -24,8 +24,8 @@ void writeSolid(const SolidMessage& message, Stamps stamps, JsonWriter& out);
 /// Finds the shown poses that are news for people. Bounded memory, whatever arrives.
 class SolidNews {
  public:
-  /// True if the avatar's state or limit is another than at its last pose, if a snap is announced,
-  /// or if it is its first.
+  /// True if the avatar's state or limit is not that of its last pose, if a snap is announced,
+  /// or if the pose is its first.
   [[nodiscard]] bool isNews(const SolidMessage& message);
 
  private:

@@ -22,7 +22,7 @@ class StopSignal {
   [[nodiscard]] bool wait(std::chrono::milliseconds most);
 
  private:
-  /// Closed when the signals are handled no more.
+  /// Closed when the signals are no longer handled.
   struct Pipe {
     Pipe();
     ~Pipe();

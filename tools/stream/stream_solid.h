@@ -10,7 +10,7 @@
 
 namespace foretouch::tools {
 
-/// As the request says of an avatar whose query ignores these pairs. Errors name the avatar's file.
+/// As the request says, for an avatar whose query ignores these pairs. Errors name its file.
 [[nodiscard]] Result<SolidOptions> solidOptionsFor(const StreamSolidRequest& request,
                                                    const std::string& avatarPath,
                                                    const Avatar& avatar,

@@ -22,7 +22,7 @@ struct StreamTouch {
 
 /// What an answer begins and ends, in its order.
 struct TouchEvents {
-  std::vector<StreamTouch> begun;  ///< As far as they are known: their first contact.
+  std::vector<StreamTouch> begun;  ///< As far as known: their first contact.
   std::vector<StreamTouch> ended;
 };
 
@@ -30,9 +30,9 @@ struct TouchEvents {
 class StreamTouches {
  public:
   /// Answers as they come: where one is missing, lost poses are between two, or a timeline begins,
-  /// what was open ends as open. `onGround`: of each contact of the message; empty: of none.
+  /// what was open ends as open. `onGround`: for each contact of the message; empty: for none.
   void take(const ContactsMessage& message, const std::vector<bool>& onGround, TouchEvents& events);
-  /// Nothing follows.
+  /// Call when nothing follows.
   void breakOff(TouchEvents& events);
 
  private:
@@ -44,7 +44,7 @@ class StreamTouches {
   std::int64_t session_ = 0;  // of the last answer
   std::optional<std::int64_t> sequence_;
   std::map<LinkId, std::string> names_;  // of links that have touched
-  // Of the answer that is being taken.
+  // For the answer that is being taken.
   TouchStep step_;
   std::vector<Touch> ended_;
   std::vector<std::size_t> begun_;

@@ -39,7 +39,7 @@ ToldEvents::ToldEvents(LoadedWorld world)
       numShapes_(world_.bodies.size()),
       unheard_(bodyOfOneLink()) {}
 
-/// A body that the file does not have by this number. Beyond kMostOthers the last one stands for
+/// The body for a number that the file does not have. Beyond kMostOthers the last one stands for
 /// all others.
 BodyId ToldEvents::otherOf(BodyNumber number) {
   const auto known = others_.find(number);
@@ -74,7 +74,7 @@ void ToldEvents::take(const BodyMessage& message) {
 }
 
 BodyId ToldEvents::bodyOf(BodyNumber number) {
-  if (number < 0) return number;  // the scene, everybody
+  if (number < 0) return number;  // the scene, all bodies
   return isOfFile(number) ? static_cast<BodyId>(number - 1) : otherOf(number);
 }
 
@@ -93,7 +93,7 @@ ContactSide ToldEvents::sideOf(const ContactSide& told) {
   return side;
 }
 
-/// Nothing is looked up of a side that is no mesh.
+/// Looks nothing up for a side that is not a mesh.
 bool ToldEvents::hasObject(BodyId body, ObjectId object) const {
   if (body == kEveryBody || object < 0) return true;
   const std::optional<Scene>& mesh = meshOf(world_, body);
@@ -147,7 +147,7 @@ void ToldEvents::tellUnknown(const UnknownPart& part, std::string& json) {
   });
 }
 
-/// For people only where it changes.
+/// Reports for people only where it changes.
 void ToldEvents::tellNews(const std::set<LinkOfBody>& unknown, std::string& text) {
   for (const auto& [body, link] : unknown) {
     if (unknown_.count({body, link}) == 0) text += nameOf(body, link) + " is not known now\n";
@@ -157,7 +157,7 @@ void ToldEvents::tellNews(const std::set<LinkOfBody>& unknown, std::string& text
   }
 }
 
-/// Of the bodies of the file alone.
+/// The header for the bodies of the file alone.
 std::string ToldEvents::headerFrom(std::int64_t fromUs) {
   std::vector<LoadedBody> others(world_.bodies.begin() + static_cast<std::ptrdiff_t>(numShapes_),
                                  world_.bodies.end());

@@ -1,4 +1,4 @@
-// tools/stream/told_events.h: what a service says happens in a moving world, as lines: of JSON, as
+// tools/stream/told_events.h: what a service reports about a moving world, as lines: of JSON, as
 // those of an events file (docs/formats.md, "Events of a world"), or for people. Bodies are named
 // by the world's file.
 #pragma once
@@ -20,7 +20,7 @@ class ToldEvents {
  public:
   explicit ToldEvents(LoadedWorld world);
 
-  /// Which shape a body has whose number the file does not give.
+  /// Takes the shape of a body whose number is not in the file.
   void take(const BodyMessage& message);
 
   struct Lines {

@@ -39,7 +39,7 @@ std::string textOf(const StreamTouch& begun, const ContactsMessage& message) {
 std::string textOf(const StreamTouch& ended) {
   const Touch& touch = ended.touch;
   const double lastedS = static_cast<double>(touch.endUs - touch.beginUs) / kUsPerS;
-  // Of a tap only one instant is known.
+  // For a tap only one instant is known.
   const std::string after = lastedS > 0.0 ? fmt::format(" after {:.3f} s", lastedS) : "";
   const std::string link = inQuotes(ended.linkName), object = inQuotes(touch.object);
   if (!touch.isOpen) return fmt::format("{} leaves {}{}", link, object, after);

@@ -9,7 +9,7 @@
 
 namespace foretouch::tools {
 
-/// {"touch":...} of one that has ended, {"touch_begins":...} of one that begins, and a line break.
+/// {"touch":...} if it has ended, {"touch_begins":...} if it begins, and a line break.
 [[nodiscard]] std::string endedTouchLine(const StreamTouch& ended);
 [[nodiscard]] std::string begunTouchLine(const StreamTouch& begun);
 

@@ -18,11 +18,11 @@
 namespace foretouch::tools {
 namespace {
 
-constexpr std::int64_t kEveryUs = 1'000'000;  ///< Skeletons and states are said again.
+constexpr std::int64_t kEveryUs = 1'000'000;  ///< Skeletons and states are sent again.
 constexpr std::int64_t kNeverUs = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint8_t kKnown = kJointValid | kJointTracked;
 
-/// At equal times what a body is comes before where it is, and that a body is there before whom it
+/// At equal times what a body is comes before where it is, and that a body is there before what it
 /// carries.
 enum class Kind : std::uint8_t { Skeleton, FirstState, State, Pose };
 
@@ -31,7 +31,7 @@ struct Due {
   std::int64_t utimeUs = 0;
   Kind kind = Kind::Pose;
   BodyId body = 0;
-  int numCarriers = 0;  ///< Of a state: carriers come before whom they carry.
+  int numCarriers = 0;  ///< For a state: carriers come before what they carry.
   /// The queue's top is the first.
   friend bool operator<(const Due& x, const Due& y) {
     return std::tie(y.utimeUs, y.kind, y.numCarriers, y.body) <
@@ -72,11 +72,11 @@ class WorldRun {
  private:
   struct Body {
     std::int64_t sequence = 0;
-    std::int64_t stampUs = std::numeric_limits<std::int64_t>::min();  // of its last pose
+    std::int64_t stampUs = std::numeric_limits<std::int64_t>::min();  // its last pose's
     std::size_t posed = 0, said = 0;  // stretches: of its next pose, and of its state
     bool isSaid = false;              // at its instant
-    SkeletonMessage skeleton;         // of an avatar
-    std::vector<bool> isMoved;        // its joints: told translations
+    SkeletonMessage skeleton;         // an avatar's
+    std::vector<bool> isMoved;        // its joints: sent translations
   };
   [[nodiscard]] const BodyStretches& stretchesOf(BodyId body) const {
     return world_.bodies[slotOf(body)].stretches;
@@ -96,7 +96,7 @@ class WorldRun {
     return stretch < all.size() ? all[stretch].beginUs : kNeverUs;
   }
 
-  /// One above the other, from where a stretch begins on.
+  /// The number of carriers above each other, from where a stretch begins on.
   [[nodiscard]] int numCarriers(const BodyStretch& stretch) const {
     int found = 0;
     for (const BodyStretch* on = &stretch; on != nullptr && on->carrier; ++found) {
@@ -162,7 +162,7 @@ void WorldRun::begin(BodyId body) {
   } else {
     due_.push({first.beginUs, Kind::FirstState, body, numCarriers(first)});
   }
-  // Where it is first a pose says as well, so that the next one follows on it.
+  // A pose also says where it is first, so that the next one follows on it.
   if (first.isHeldFast() || first.carrier) return planPose(body, first.beginUs);
   due_.push({first.beginUs, Kind::Pose, body, 0});
 }
@@ -185,7 +185,7 @@ Result<Done> WorldRun::send(const Due& due, std::int64_t lateUs) {
   return Done{};
 }
 
-/// Its next pose: of its stretch, or the first one after the begin of the next stretch with poses.
+/// Its next pose: in its stretch, or the first one after the begin of the next stretch with poses.
 void WorldRun::planPose(BodyId body, std::int64_t afterUs) {
   Body& told = bodies_[slotOf(body)];
   const BodyStretches& stretches = stretchesOf(body);
@@ -201,17 +201,17 @@ void WorldRun::planPose(BodyId body, std::int64_t afterUs) {
   }
 }
 
-/// After it has said its state at that time: when next, and of which stretch.
+/// Plans when it next says its state after it has said it then, and for which stretch.
 void WorldRun::planState(BodyId body, std::int64_t saidUs) {
   Body& told = bodies_[slotOf(body)];
   const std::int64_t changeAtUs = changeUs(body, told.said);
-  // What was said ahead is said again where it takes effect.
+  // What was sent ahead is sent again where it takes effect.
   std::int64_t nextUs = saidUs < changeAtUs ? changeAtUs : saidUs + inWorld(kEveryUs);
   const std::int64_t followingUs = changeUs(body, told.said + 1);
   std::int64_t aheadUs = kNeverUs;
   if (followingUs != kNeverUs) {
     aheadUs = std::max(saidUs, followingUs - inWorld(kAnnouncedUs));
-    // Nobody has heard of a carrier that is not there yet.
+    // No receiver has heard of a carrier that is not there yet.
     const auto& carrier = stretchesOf(body)[told.said + 1].carrier;
     if (carrier) aheadUs = std::max(aheadUs, stretchesOf(carrier->body).front().beginUs);
   }

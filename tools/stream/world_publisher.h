@@ -10,15 +10,15 @@
 
 namespace foretouch::tools {
 
-/// Refuses what messages cannot tell: an avatar that is carried.
+/// Refuses what messages cannot express: an avatar that is carried.
 [[nodiscard]] Result<Done> checkPublished(const LoadedWorld& world);
 
 /// Sends the world once, or in a loop, from its begin to its end; numbers are numberInMessages().
-/// PublishOptions::sender has the start, and the source. The speed changes the world: it is that of
-/// what is told, stamps of capture included. Above 0.
+/// PublishOptions::sender has the start, and the source. The speed changes the world: what is sent
+/// has that speed, stamps of capture included. Above 0.
 ///
 /// Every pose of the file is sent, and between poses farther apart than kMostQuietUs the motion in
-/// between, so that nobody takes the body to be silent. Changes of carriers are said
+/// between, so that no receiver takes the body to be silent. Changes of carriers are said
 /// kAnnouncedUs before their instants, at them, and every second. At the end, and where it is
 /// stopped, props are gone.
 [[nodiscard]] Result<PublishReport> publishWorld(const LoadedWorld& world,

@@ -14,7 +14,7 @@ namespace foretouch::tools {
 
 enum class MeshFormat : std::uint8_t { Obj, Ply, Glb };
 
-/// By the path's extension, ignoring case; error for any other than these three.
+/// The format by the path's extension, ignoring case; error for any other than these three.
 [[nodiscard]] Result<MeshFormat> meshFormatOf(const std::string& path);
 
 /// Precondition: at least one link. For GLB, coordinates are floats (CoordinateBits::Single). Error

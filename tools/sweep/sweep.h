@@ -22,7 +22,7 @@ namespace foretouch::tools {
 struct SweepRequest : ClipRequest {
   std::vector<std::string> links;    ///< Names, or "all".
   std::optional<double> fromS, toS;  ///< Seconds in the clip; empty: its begin and end.
-  SweptSurfaceOptions surface;       ///< maxTriangles: of all links together.
+  SweptSurfaceOptions surface;       ///< maxTriangles: for all links together.
 };
 
 struct SweepInputs {

@@ -45,9 +45,9 @@ struct SweepJob {
   std::vector<std::string> files;
   std::vector<std::string> links;  ///< As given; none: all.
   std::string output;
-  MeshFormat format = MeshFormat::Obj;  ///< Of the output.
+  MeshFormat format = MeshFormat::Obj;  ///< The format of the output.
   bool inner = false;
-  bool asJson = false;  ///< What is said of it.
+  bool asJson = false;  ///< Whether the report on it is JSON.
 };
 
 /// Derives the rest of the job from the options.
@@ -55,7 +55,7 @@ Result<Done> settle(SweepJob& job) {
   SweepRequest& request = job.request;
   request.links = job.links.empty() ? std::vector<std::string>{"all"} : namesIn(job.links);
   request.surface.side = job.inner ? SurfaceSide::Inner : SurfaceSide::Outer;
-  // Of a stream no name says the format: the one that every tool reads.
+  // The name of a stream does not say the format: take the one that every tool reads.
   if (job.output != kStandardOutput) {
     FORETOUCH_TRY(job.format, meshFormatOf(job.output));
   }

@@ -21,7 +21,7 @@ class GroundTest {
 
   /// `motion` must outlive the calls of isGround() after it.
   void beginStep(const ChainMotion& motion);
-  /// Of a contact of the scene that this motion's answer has. Undecided: false.
+  /// Whether a contact with the scene in this motion's answer is with the ground. Undecided: false.
   [[nodiscard]] bool isGround(const LinkContact& contact);
 
  private:

@@ -26,12 +26,12 @@ struct Touch : TouchPair {
   bool isMissed = false;  ///< A check of the poses alone sees nothing of it.
   bool isGround = false;  ///< Each of its contacts is one with the ground.
   /// Seconds on the clock of the steps: the first and the last instant at which contact is known;
-  /// of those that were followed, from enter to leave.
+  /// for those that were followed, from enter to leave.
   double beginS = 0.0, endS = 0.0;
-  std::int64_t beginUs = 0, endUs = 0;       ///< Of streams: the same, microseconds since 1970.
-  std::int64_t firstStep = 0, lastStep = 0;  ///< Of streams: sequences of the later poses.
-  std::int64_t contacts = 0;                 ///< Of the steps' answers, that it is made of.
-  double separation = 0.0;                   ///< The smallest of them (m).
+  std::int64_t beginUs = 0, endUs = 0;       ///< For streams: the same, microseconds since 1970.
+  std::int64_t firstStep = 0, lastStep = 0;  ///< For streams: sequences of the later poses.
+  std::int64_t contacts = 0;                 ///< Those of the steps' answers that it is made of.
+  double separation = 0.0;                   ///< Their smallest (m).
   double penetration = 0.0;                  ///< The deepest (m); 0 if it is not known.
   bool startsAtAPose = false;                ///< One of them starts a step in contact.
 };
@@ -41,9 +41,9 @@ struct Touch : TouchPair {
 
 struct TouchCounts {
   std::int64_t touches = 0;  ///< With the scene; not with the ground.
-  std::int64_t missed = 0;   ///< Of these.
+  std::int64_t missed = 0;   ///< Of these touches.
   std::int64_t ground = 0;
-  std::int64_t own = 0;  ///< Of own links.
+  std::int64_t own = 0;  ///< With own links.
 
   void add(const Touch& touch);
 };

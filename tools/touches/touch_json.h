@@ -14,15 +14,15 @@ namespace foretouch::tools {
 /// Fields that are not the same everywhere; JSON already.
 struct TouchWords {
   std::string_view link;    ///< Its name, or its number.
-  std::string_view other;   ///< Of own links the other's name or number; empty: none.
-  std::string_view object;  ///< Empty: not told.
-  bool isOfStream = false;  ///< Times are those of its clock, and poses have sequences.
+  std::string_view other;   ///< For own links, the other's name or number; empty: none.
+  std::string_view object;  ///< Empty: not reported.
+  bool isOfStream = false;  ///< Times are those of the stream's clock, and poses have sequences.
 };
 
 /// Writes the touch's fields into an open object.
 void writeTouch(const Touch& touch, const TouchWords& words, JsonWriter& out);
 
-/// Only what is said of when and how it is: the times and steps of a clip, and all fields behind
+/// Writes only when and how it is: the times and steps of a clip, and all fields behind
 /// them. `steps`: the name of theirs.
 void writeTouchCourse(const Touch& touch, std::string_view steps, JsonWriter& out);
 

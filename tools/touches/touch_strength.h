@@ -14,8 +14,8 @@ struct TouchStrength {
   double approachSpeed = 0.0, approachLower = 0.0, approachUpper = 0.0;
   double effectiveMass = 0.0;  ///< Kilograms; infinite where neither of the two has a mass.
 
-  /// That would take the whole approach away, without bouncing: newton seconds. Zero of two that do
-  /// not approach; nothing if neither has a mass.
+  /// The impulse that would take the whole approach away, without bouncing: newton seconds. Zero if
+  /// the two do not approach; nothing if neither has a mass.
   [[nodiscard]] std::optional<double> impulse() const;
 };
 [[nodiscard]] TouchStrength strengthOf(const WorldEvent& event);

@@ -14,7 +14,7 @@
 
 namespace foretouch::tools {
 
-/// What a step's answer says of the scene, link by link.
+/// What a step's answer says about the scene, link by link.
 enum class TouchScope : std::uint8_t {
   FirstOfLink,  ///< Each link's first contact: what else it touches then is not said.
   EveryObject,  ///< Each link's first contact with each object.
@@ -23,10 +23,10 @@ enum class TouchScope : std::uint8_t {
 /// A contact of a step's answer; `contact` is not clear.
 struct TouchRow {
   const LinkContact* contact = nullptr;
-  LinkId other = -1;         ///< As TouchPair.
-  std::string_view object;   ///< Likewise; not read if the link is undecided, but for own links.
-  double timeS = 0.0;        ///< Of the contact.
-  std::int64_t utimeUs = 0;  ///< The same, of streams.
+  LinkId other = -1;         ///< As in TouchPair.
+  std::string_view object;   ///< As there; not read if the link is undecided, but for own links.
+  double timeS = 0.0;        ///< The contact's time.
+  std::int64_t utimeUs = 0;  ///< The same, for streams.
   bool isMissed = false;     ///< The link is known to touch nothing at either pose of the step.
   bool isGround = false;
 
@@ -48,11 +48,11 @@ class TouchTracker {
  public:
   explicit TouchTracker(TouchScope scope) : scope_(scope) {}
 
-  /// The step after the last one: it begins at the pose that ended that. Appends the touches that
-  /// this ends to `ended`, and to `begun` the place in `step.rows` of each row that begins one.
+  /// Adds the step after the last one: it begins at the pose that ended that. Appends the touches
+  /// that it ends to `ended`, and to `begun` the place in `step.rows` of each row that begins one.
   void addStep(const TouchStep& step, std::vector<Touch>& ended, std::vector<std::size_t>& begun);
 
-  /// Nothing is known of what follows the last step: ends all touches.
+  /// Ends all touches, as nothing is known of what follows the last step.
   void breakOff(std::vector<Touch>& ended);
 
   [[nodiscard]] std::size_t open() const { return open_.size(); }
@@ -77,7 +77,7 @@ class TouchTracker {
     Touch touch;
     bool isLastMissed = false;  ///< TouchRow::isMissed of its last row.
   };
-  /// What a step says of an open touch at its earlier pose.
+  /// What a step says about an open touch at its earlier pose.
   enum class Fate : std::uint8_t { Persists, Hidden, Left, Unknown };
 
   [[nodiscard]] static Key keyOf(const TouchPair& pair) {
@@ -95,8 +95,8 @@ class TouchTracker {
 
   TouchScope scope_;
   std::map<TouchPair, Open, IsLess> open_;
-  // Of the step that is being added: its first row of each pair, its first contact of each link and
-  // where the link is undecided, all of the scene.
+  // For the step that is being added: the first row of each pair, the first contact of each link,
+  // and where the link is undecided, all of the scene.
   std::map<Key, const TouchRow*, IsLess> rowOf_;
   std::map<LinkId, const TouchRow*> contactOf_, undecidedOf_;
 };

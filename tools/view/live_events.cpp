@@ -122,7 +122,7 @@ std::string LiveEvents::stepFields(std::size_t avatar) const {
   return text;
 }
 
-/// Of all steps of the batch; a report's touches of a person, step by step.
+/// Writes the brackets of all steps of the batch, as a report's touches of a person, step by step.
 void LiveEvents::writePerson(JsonWriter& out) const {
   out.list("person", batch_.brackets(), [&](const WatchedBracket& watched) {
     const LinkBracket& bracket = watched.bracket;

@@ -20,7 +20,7 @@ namespace foretouch::tools {
 /// The constant part of the world for events.
 struct LiveWorld {
   std::vector<std::int32_t> avatarIds;   ///< In the feed's order.
-  std::vector<std::string> objectNames;  ///< Of the scene.
+  std::vector<std::string> objectNames;  ///< The scene's.
   std::function<std::size_t(TriangleId)> objectOf;
   std::int64_t startUtimeUs = 0;  ///< Times (s) count from here.
 };

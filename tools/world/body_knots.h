@@ -1,4 +1,4 @@
-// tools/world/body_knots.h: where the bodies of a world file are told to be: poses with instants of
+// tools/world/body_knots.h: where a world file says that its bodies are: poses with instants of
 // world time, read from clips, animations, tables and the file itself.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace foretouch::tools {
 
-/// Poses times joints of all bodies together: 1.9 GB.
+/// Poses times joints, for all bodies together: 1.9 GB.
 inline constexpr std::size_t kMostJointPoses = std::size_t{1} << 25;
 
 struct BodyKnot {
@@ -29,13 +29,13 @@ struct BodyKnot {
 };
 
 struct BodyKnots {
-  std::string file;                  ///< Where they come from.
+  std::string file;                  ///< Where the poses come from.
   std::vector<BodyKnot> knots;       ///< By time; none: the body stands.
   std::optional<PairRules> self;     ///< Where own links are asked.
   std::vector<std::string> remarks;  ///< What a user should know, a sentence each.
-  /// By the instants of knots: links whose pose is made up, as the clip has gaps.
+  /// By the instants of knots: links whose pose is made up because the clip has gaps.
   std::map<std::int64_t, std::vector<LinkId>> lostLinks = {};
-  /// Of a body with bounds: poses of its clip between two knots, which hold the bounds to account.
+  /// For a body with bounds: poses of its clip between two knots, which hold the bounds to account.
   std::vector<BodyKnot> leftOut = {};
 };
 

@@ -18,7 +18,7 @@ namespace foretouch::tools {
 /// What a body, or a trigger, is made of. `file`: the world's, to which paths are relative.
 void readShape(TomlSection& section, const std::string& file, bool isTrigger, FileShape& shape);
 
-/// position, rotation or yaw; nothing if none of them is there.
+/// The keys position, rotation or yaw; nothing if none of them is there.
 [[nodiscard]] std::optional<RigidPose> readPlace(TomlSection& section);
 
 }  // namespace foretouch::tools

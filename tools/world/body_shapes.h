@@ -20,17 +20,17 @@ namespace foretouch::tools {
 /// An avatar, a prop of LSS (an avatar of one link, named as its body), or a mesh.
 struct BodyShape {
   std::optional<Avatar> avatar;
-  std::optional<AvatarSurface> surface;  ///< Of an avatar whose meshes touch.
+  std::optional<AvatarSurface> surface;  ///< For an avatar whose meshes touch.
   std::optional<Scene> mesh;
-  Skeleton skeleton;  ///< Of a mesh: one joint, named as its body.
-  /// Of a mesh: its finite triangles with their corners in the file's order, which a scene does not
+  Skeleton skeleton;  ///< For a mesh: one joint, named as its body.
+  /// A mesh's finite triangles with their corners in the file's order, which a scene does not
   /// keep: for pictures.
   std::shared_ptr<const std::vector<Triangle>> triangles;
 };
 
 /// "avatar", "LSS", "mesh" or "box".
 [[nodiscard]] const char* madeOf(const FileShape& shape);
-/// The file that it is read from, as given; empty if there is none.
+/// The file that the shape is read from, as given; empty if there is none.
 [[nodiscard]] std::string fileOf(const FileShape& shape);
 
 class ShapeLoader {

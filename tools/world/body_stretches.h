@@ -1,4 +1,4 @@
-// tools/world/body_stretches.h: where the bodies of a world are over all of its time, kept for who
+// tools/world/body_stretches.h: where the bodies of a world are over all of its time, kept for what
 // shows them: pose after pose between two changes of a body's carrier.
 #pragma once
 
@@ -22,7 +22,7 @@ struct BodyStretch {
   [[nodiscard]] bool isHeldFast() const { return carrier && !carrier->movesInFrame; }
 };
 
-/// Of one body, by time.
+/// The stretches of one body, by time.
 using BodyStretches = std::vector<BodyStretch>;
 
 /// The pose of a track at an instant from its first one on; after its last one it stays.
@@ -32,28 +32,28 @@ using BodyStretches = std::vector<BodyStretch>;
 [[nodiscard]] const BodyStretch* stretchAt(const BodyStretches& stretches, std::int64_t utimeUs);
 
 /// Where bodies are at instants, by their in-between motion; after its last pose a body stays.
-/// Rounded, and so for pictures and for poses that somebody leaves to the program, not for proofs.
+/// Rounded, and so for pictures and for poses that users leave to the program, not for proofs.
 class BodyPlaces {
  public:
   /// `bodies`, one per body, outlives it.
   explicit BodyPlaces(const std::vector<const BodyStretches*>& bodies) : bodies_(bodies) {}
 
-  /// In the frame of its stretch. Precondition of all: the body, and who carries it, is there.
+  /// In the frame of its stretch. Precondition of all: the body and its carriers are there.
   [[nodiscard]] Pose poseAt(BodyId body, std::int64_t utimeUs) const;
   /// A link's frame in W.
   [[nodiscard]] RigidPose linkAt(BodyId body, LinkId link, std::int64_t utimeUs) const;
-  /// The frame of who carries the body: in W; the identity if nobody does.
+  /// The frame of the body's carrier, in W; the identity if it has none.
   [[nodiscard]] RigidPose carrierAt(BodyId body, std::int64_t utimeUs) const;
-  /// Whether it and all who carry it are there.
+  /// Whether the body and all its carriers are there.
   [[nodiscard]] bool isThere(BodyId body, std::int64_t utimeUs) const;
 
  private:
   const std::vector<const BodyStretches*>& bodies_;
 };
 
-/// `inner`, which is in the frame of `outer`, in that of `outer`.
+/// `inner`, given in the frame `outer`, in the frame in which `outer` is given.
 [[nodiscard]] RigidPose composed(const RigidPose& outer, const RigidPose& inner);
-/// The frame of whom `frame` is about, seen from it.
+/// The frame in which `frame` is given, seen from `frame`.
 [[nodiscard]] RigidPose inverse(const RigidPose& frame);
 /// The pose, its roots moved by `frame`.
 [[nodiscard]] Pose movedBy(const RigidPose& frame, const Skeleton& skeleton, Pose pose);

@@ -18,9 +18,9 @@ namespace foretouch::tools {
 struct FileShape {
   std::string avatarPath;
   std::string meshPath;
-  std::vector<Lss> lss;                               ///< Of a prop, in its frame.
+  std::vector<Lss> lss;                               ///< A prop's, in its frame.
   std::optional<std::array<Eigen::Vector3d, 2>> box;  ///< Lowest and highest corner, in its frame.
-  // Of a mesh.
+  // For a mesh.
   std::string node;  ///< Only this node's triangles, in its frame; empty: the whole file.
   SceneImportOptions meshImport;
 };

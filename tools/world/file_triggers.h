@@ -17,8 +17,8 @@ namespace foretouch::tools {
 [[nodiscard]] Result<Done> addTrigger(const FileBody& file, const BodyShape& shape,
                                       const std::string& path, World& world, Triggers& triggers);
 
-/// Tells all triggers whom they look at; `skeletons`: of every body, by its BodyId. Errors name the
-/// file and the line.
+/// Sets for all triggers what they look at; `skeletons`: of every body, by its BodyId. Errors name
+/// the file and the line.
 [[nodiscard]] Result<Done> watchAll(const WorldFile& file,
                                     const std::vector<const Skeleton*>& skeletons,
                                     const World& world, Triggers& triggers);

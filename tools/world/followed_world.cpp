@@ -17,7 +17,7 @@ namespace {
 /// Poses of all bodies that are followed in one go: enough to spread what a call costs.
 constexpr std::size_t kPosesPerStretch = 32;
 
-/// Of a solid box of triangles, or of the box around a mesh.
+/// The mass of a solid box of triangles, or of the box around a mesh.
 Mass massOfBox(const std::vector<Triangle>& triangles, double kg) {
   Eigen::AlignedBox3d box;
   for (const Triangle& triangle : triangles) {

@@ -1,4 +1,4 @@
-// tools/world/followed_world.h: a world file's world, followed from enter to leave, and who is in
+// tools/world/followed_world.h: a world file's world, followed from enter to leave, and what is in
 // its triggers.
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace foretouch::tools {
 
-/// Of a stretch of time. Contacts are those with triggers as well: isOfTrigger().
+/// The events of a stretch of time. Contacts include those with triggers: isOfTrigger().
 struct FollowedStretch {
   const WorldEvents& contacts;
   const TriggerEvents& triggers;
 };
 
-/// One of the two sides of an event or a part is a trigger: nobody touches it.
+/// One of the two sides of an event or a part is a trigger, which nothing touches.
 template <typename TwoSided>
 [[nodiscard]] bool isOfTrigger(const LoadedWorld& world, const TwoSided& of) {
   return world.isTrigger(of.a.body) || world.isTrigger(of.b.body);
@@ -29,7 +29,7 @@ template <typename TwoSided>
 [[nodiscard]] Result<Done> checkFollowed(const LoadedWorld& world);
 
 /// Follows all of [fromUs, untilUs], stretch after stretch, until `take` returns false. What is
-/// told does not depend on where stretches end. Errors name the body.
+/// reported does not depend on where stretches end. Errors name the body.
 [[nodiscard]] Result<Done> followWorld(LoadedWorld& world, std::int64_t fromUs,
                                        std::int64_t untilUs,
                                        const std::function<bool(const FollowedStretch&)>& take);

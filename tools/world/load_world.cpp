@@ -83,7 +83,7 @@ Result<LoadedWorld> emptyWorld(WorldFile file) {
                      {}};
 }
 
-/// Reads what the body is and what is told of it, and adds it to the world.
+/// Reads what the body is and how it moves, and adds it to the world.
 Result<BodyKnots> addBody(const FileBody& body, ShapeLoader& shapes, KnotLoader& knots,
                           LoadedWorld& loaded) {
   const std::string& path = loaded.file.path;

@@ -24,7 +24,7 @@ void addLine(const Vector3d& from, const Vector3d& to, std::vector<Vector3d>& li
   if (lines.size() < 2 * kMostOutlineLines) lines.insert(lines.end(), {from, to});
 }
 
-/// From `x` on, towards `y`, both as long as the radius.
+/// Adds an arc from `x` on, towards `y`, both as long as the radius.
 void addArc(const Vector3d& center, const Vector3d& x, const Vector3d& y, int sides,
             std::vector<Vector3d>& lines) {
   const auto at = [&](int side) -> Vector3d {

@@ -1,4 +1,4 @@
-// tools/world/outline.h: the outline of a volume that nobody touches, for pictures.
+// tools/world/outline.h: the outline of a volume that nothing touches, for pictures.
 #pragma once
 
 #include <vector>

@@ -12,7 +12,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// What is asked of groups, by their numbers; nothing in `with`: of the scene.
+/// What is asked about groups, by their numbers; nothing in `with`: about the scene.
 struct GroupAsk {
   BodyGroup group = 0;
   std::optional<BodyGroup> with;
@@ -48,7 +48,7 @@ WorldSetup servedBodies(const LoadedWorld& world) {
   WorldSetup setup;
   setup.still = world.scene;
   setup.options.tolerance = world.file.tolerance;
-  // Strangers may put a thousand bodies into one place.
+  // Senders that we do not know may put a thousand bodies into one place.
   setup.options.workPerWindow = kServedWorkPerWindow;
   setup.options.mostNear = kServedMostNear;
   setup.ask = [asks = asksOf(world)](World& asked) { return askAll(asked, asks); };

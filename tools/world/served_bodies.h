@@ -1,5 +1,5 @@
 // tools/world/served_bodies.h: the world file of a service: the shapes that messages name, and the
-// avatars that poses tell of.
+// avatars that poses are about.
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@ namespace foretouch::tools {
   return static_cast<BodyNumber>(body) + 1;
 }
 
-/// All bodies of the file as shapes; those with an avatar file are avatars. Where the file says
-/// that they are does not count: their streams do.
+/// All bodies of the file as shapes; those with an avatar file are avatars. The places that the
+/// file gives them do not count: their streams do.
 [[nodiscard]] WorldSetup servedBodies(const LoadedWorld& world);
 
-/// What of the file a service does not use, a sentence each.
+/// What a service does not use of the file, a sentence each.
 [[nodiscard]] std::vector<std::string> remarksOnServing(const LoadedWorld& world);
 
 }  // namespace foretouch::tools

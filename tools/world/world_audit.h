@@ -8,7 +8,7 @@
 
 namespace foretouch::tools {
 
-/// Aligned lines. `overlaps`: of overlapsAtStart().
+/// Aligned lines. `overlaps`: those of overlapsAtStart().
 [[nodiscard]] std::string describe(const LoadedWorld& world,
                                    const std::vector<WorldContact>& overlaps);
 /// The same as one line of JSON.

@@ -15,7 +15,7 @@ bool isTold(EventKind kind) {
   return kind != EventKind::UnresolvedFrom && kind != EventKind::UnresolvedTo;
 }
 
-/// Where two are, at an instant.
+/// True if the event says where two are, at an instant.
 bool isOfTwo(const WorldEvent& event) {
   return isTold(event.kind) && event.b.body != kEveryBody;
 }
@@ -24,7 +24,7 @@ bool ends(EventKind kind) {
   return kind == EventKind::Leave || kind == EventKind::UnresolvedTo;
 }
 
-/// Who it is. The object, if any, is b's, or a's where a is a mesh.
+/// Writes which body it is. The object, if any, is b's, or a's where a is a mesh.
 void writeWho(const LoadedWorld& world, const ContactSide& side, ObjectId object, JsonWriter& out) {
   if (side.body == kEveryBody) {
     out.field("everybody", true);
@@ -81,7 +81,7 @@ void write(const LoadedWorld& world, const WorldEvent& event, const char* cause,
   out.endObject();
 }
 
-/// Whose volume it is, and who is in it.
+/// Writes which volume it is, and what is in it.
 void writeTriggerSides(const LoadedWorld& world, TriggerId trigger, const NamedSide& who,
                        JsonWriter& out) {
   out.field("trigger", world.nameOf(world.triggers.body(trigger)));
@@ -116,7 +116,7 @@ void writeTrigger(const LoadedWorld& world, TriggerId trigger, JsonWriter& out) 
   out.endObject();
 }
 
-/// How it begins and ends.
+/// Writes how it begins and ends.
 template <typename Interval>
 void writeCourse(const Interval& of, bool startsInside, JsonWriter& out) {
   writeInstantObject("from", of.from, out);

@@ -12,7 +12,7 @@
 
 namespace foretouch::tools {
 
-/// The first line. No end: of a service, which goes on, and tells of no triggers.
+/// The first line. Without an end: for a service, which goes on, and reports no triggers.
 [[nodiscard]] std::string eventsHeader(const LoadedWorld& world, std::int64_t fromUs,
                                        std::optional<std::int64_t> untilUs);
 /// The line of one contact's event. `cause`: why it ends, if LeaveCause does not say it.
@@ -23,7 +23,7 @@ namespace foretouch::tools {
 /// The last lines: one per interval, one per stay in a trigger, and the counts.
 [[nodiscard]] std::string intervalLines(const LoadedWorld& world, const WorldIntervals& intervals);
 
-/// The fields of an interval or a stay into an open object: as in its line.
+/// Writes the fields of an interval or a stay into an open object, as in its line.
 void writeInterval(const LoadedWorld& world, const ContactInterval& interval, JsonWriter& out);
 void writeEventCounts(const char* name, const std::int64_t (&counts)[kNumEventKinds],
                       JsonWriter& out);

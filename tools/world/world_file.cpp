@@ -20,7 +20,7 @@ constexpr char kFormat[] = "foretouch-world";
 constexpr std::int64_t kVersion = 1;
 constexpr double kMostSpeed = 1e3;
 constexpr double kMostMassKg = 1e9;
-/// As a group of bodies, in [[ask]].
+/// The scene's word where a group of bodies is named, in [[ask]].
 constexpr char kSceneWord[] = "scene";
 
 class WorldReading {
@@ -169,7 +169,7 @@ void WorldReading::readBounds(TomlSection& section, FileBody& body) {
   }
 }
 
-/// A trigger moves as a prop does, and who does not hear of it any more takes it to stand still.
+/// A trigger moves as a prop does; when its sender falls silent, it is taken to stand still.
 FileBody WorldReading::readTrigger(TomlSection& section) {
   FileBody body;
   body.line = section.line();

@@ -1,5 +1,5 @@
 // tools/world/world_file.h: a world as a file says it, format "foretouch-world" version 1
-// (docs/formats.md, "World files"): TOML, nothing of it loaded yet. Paths are ready to open.
+// (docs/formats.md, "World files"): TOML, with nothing loaded yet. Paths are ready to open.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@
 
 namespace foretouch::tools {
 
-/// Bodies and triggers of one file, and poses, changes of carriers and LSS of one body.
+/// The most bodies and triggers of a file, and poses, changes of carriers and LSS of a body.
 inline constexpr std::size_t kMaxFileBodies = 4096;
 inline constexpr std::size_t kMaxFileTriggers = 256;
 inline constexpr std::size_t kMaxFilePoses = 65536;
@@ -46,54 +46,54 @@ struct FileChange {
 /// world.
 struct ClipTiming {
   std::int64_t startUs = 0, fromUs = 0;
-  std::optional<std::int64_t> untilUs;  ///< Of the clip.
+  std::optional<std::int64_t> untilUs;  ///< An instant of the clip.
   double speed = 1.0;                   ///< 2: twice as fast as recorded.
 };
 
-/// Whom a trigger looks at.
+/// What a trigger looks at.
 struct FileWatch {
   std::string body, link;  ///< Names; an empty link: all of them.
   std::int64_t line = -1;
 };
 struct FileTrigger {
   bool byLink = false;             ///< TriggerOptions::byLink.
-  std::vector<FileWatch> watched;  ///< Empty: everybody.
+  std::vector<FileWatch> watched;  ///< Empty: all bodies.
 };
 
 struct FileBody {
   std::string name;
   std::int64_t line = -1;
   FileShape shape;
-  std::string group;             ///< Empty: that of all who name none.
+  std::string group;             ///< Empty: the group of all bodies that name none.
   std::optional<double> massKg;  ///< Kept for later use.
   WhenSilent whenSilent = WhenSilent::Wait;
-  Fidelity fidelity = Fidelity::Link;  ///< Of an avatar: Exact: by its meshes.
+  Fidelity fidelity = Fidelity::Link;  ///< For an avatar: Exact: by its meshes.
   bool asksSelf = false;
   std::string pairsPath;  ///< Empty: derived.
 
   // How far it may be from what its poses say (docs/person.md). Neither: nothing is claimed.
   std::string boundsPath;
   bool isExact = false;                             ///< It does what its poses say.
-  MotionModel between = MotionModel::ConstantRate;  ///< That the bounds are about.
+  MotionModel between = MotionModel::ConstantRate;  ///< The one that the bounds are about.
 
   // How it moves: a clip, or poses, or none of them: it stands.
   ClipRequest clip;   ///< An empty motion: no clip.
-  ClipTiming timing;  ///< Of the clip.
-  std::string joint;  ///< Of a prop: whose motion in the clip is its own; empty: the only root's.
+  ClipTiming timing;  ///< The clip's.
+  std::string joint;  ///< A prop's motion is this joint's in the clip; empty: the only root's.
   std::int64_t clipLine = -1;
   std::string posesPath;
   std::vector<FilePose> poses;
   std::optional<RigidPose> place;  ///< Where it stands.
 
-  std::vector<FileChange> changes;  ///< By time; of one instant as the file has them.
+  std::vector<FileChange> changes;  ///< By time; those of one instant as the file has them.
 
-  std::optional<FileTrigger> trigger;  ///< It is a volume that tells who is in it.
+  std::optional<FileTrigger> trigger;  ///< It is a volume that reports what is in it.
 
-  /// "[[body]]" or "[[trigger]]", and of a table in it "[[trigger.pose]]": for errors.
+  /// "[[body]]" or "[[trigger]]", and for a table in it "[[trigger.pose]]": for errors.
   [[nodiscard]] std::string title(const std::string& inner = "") const;
 };
 
-/// Bodies of two groups are not asked, or are again; an empty `with`: the scene.
+/// Bodies of two groups are not asked, or are asked again; an empty `with`: the scene.
 struct FileAsk {
   std::string group, with;
   bool isAsked = false;
@@ -102,7 +102,7 @@ struct FileAsk {
 
 struct WorldFile {
   std::string path;
-  WorldRequest scene;  ///< Of which the scene's file and how to read it; no path: there is none.
+  WorldRequest scene;  ///< The scene's file and how to read it; no path: there is none.
   double tolerance = kDefaultTolerance;
   bool askMeshes = false;        ///< WorldOptions::askMeshes.
   std::vector<FileBody> bodies;  ///< Triggers behind all others.

@@ -90,7 +90,7 @@ void WorldIntervals::close(ContactInterval interval) {
   contacts_.push_back(std::move(interval));
 }
 
-/// What begins ends whatever was before: unresolved from where somebody was inside is no leave.
+/// What begins ends whatever was before: "unresolved" where a body was inside is not a leave.
 void WorldIntervals::addTriggerEvent(const TriggerEvent& event) {
   const FileBody& file = world_.file.bodies[slotOf(world_.triggers.body(event.trigger))];
   const StayKey key{event.trigger, event.body, file.trigger->byLink ? event.link : kEveryLink};

@@ -1,5 +1,5 @@
-// tools/world/world_intervals.h: what a followed world tells, as intervals: from when to when two
-// touch, and somebody is in a trigger.
+// tools/world/world_intervals.h: what a followed world reports, as intervals: from when to when two
+// touch, or a body is in a trigger.
 #pragma once
 
 #include <cstddef>
@@ -14,24 +14,24 @@
 
 namespace foretouch::tools {
 
-/// Of two links, or a link and an object of a mesh or of the scene; never of a trigger.
+/// Between two links, or a link and an object of a mesh or of the scene; never a trigger.
 struct ContactInterval {
   WorldPart part;             ///< `goesOn`: until the end of what was followed.
   bool startsInside = false;  ///< No touch was seen: they are known to be in contact first.
   bool isLeft = false;        ///< It ends with a leave, and the two are apart: proven.
-  // Of a contact:
+  // For a contact:
   WorldContact first;  ///< As it begins.
   TouchStrength strength;
 };
 
-/// Of somebody in a trigger, or of whom nothing is known there.
+/// The stay of a body in a trigger, or a time in which nothing is known of it there.
 struct TriggerStay {
   TriggerId trigger = 0;
   BodyId body = 0;
-  LinkId link = kEveryLink;  ///< Whose entering it begins with.
+  LinkId link = kEveryLink;  ///< The link whose entering it begins with.
   bool isUnresolved = false;
   bool isAssumed = false;
-  bool startsInside = false;  ///< As ContactInterval's.
+  bool startsInside = false;  ///< As in ContactInterval.
   bool goesOn = false;        ///< To the end of what was followed.
   WorldTime from, to;
 };
@@ -48,10 +48,10 @@ class WorldIntervals {
 
   /// Stretches in order.
   void add(const FollowedStretch& stretch);
-  /// After the last one, which ended there.
+  /// Call after the last one, which ended there.
   void finish(std::int64_t untilUs);
 
-  /// After finish(): by begin, then by pair.
+  /// The contacts after finish(), by begin, then by pair.
   [[nodiscard]] const std::vector<ContactInterval>& contacts() const { return contacts_; }
   [[nodiscard]] const std::vector<TriggerStay>& stays() const { return stays_; }
   [[nodiscard]] const EventCounts& counts() const { return counts_; }

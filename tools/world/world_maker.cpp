@@ -30,7 +30,7 @@ struct DueChange {
 };
 using DueChanges = std::vector<DueChange>;
 
-/// Tells a world and its loaded bodies where everybody is, change after change.
+/// Gives a world and its loaded bodies the places of all bodies, change after change.
 class WorldMaker {
  public:
   WorldMaker(LoadedWorld& loaded, std::vector<BodyKnots> knots)
@@ -64,12 +64,12 @@ class WorldMaker {
   [[nodiscard]] LoadedBody& bodyOf(BodyId body) { return loaded_.bodies[slotOf(body)]; }
   [[nodiscard]] const std::string& nameOf(BodyId body) const { return names_[slotOf(body)]; }
   [[nodiscard]] bool stands(BodyId body) const { return knots_[slotOf(body)].knots.empty(); }
-  /// Of who stands, before anybody carries it.
+  /// The pose of a body that stands, before anything carries it.
   [[nodiscard]] Pose poseOfStanding(BodyId body) const {
     const Skeleton& skeleton = loaded_.bodies[slotOf(body)].shape.skeleton;
     return movedBy(fileOf(body).place.value_or(RigidPose{}), skeleton, restPose(skeleton));
   }
-  /// A pose that is told for the very instant, and is in no stretch.
+  /// Whether a pose is given for the very instant, and is in no stretch.
   [[nodiscard]] bool hasPoseAt(BodyId body, std::int64_t utimeUs) const {
     const auto& knots = knots_[slotOf(body)].knots;
     const std::size_t next = taken_[slotOf(body)];
@@ -103,13 +103,13 @@ class WorldMaker {
 
   LoadedWorld& loaded_;
   std::vector<BodyKnots> knots_;
-  std::vector<std::size_t> taken_;  // per body: knots that it was told
+  std::vector<std::size_t> taken_;  // per body: knots that it has taken
   std::vector<const BodyStretches*> stretches_;
   std::vector<std::string> names_;
 };
 
-/// From the first to the last instant that those who move are known at. Who stands is told to,
-/// until then.
+/// From the first to the last instant at which those that move are known. Those that stand are
+/// taken to stand until then.
 void WorldMaker::findTimes() {
   std::int64_t first = kNeverUs, last = -kNeverUs, firstToEnd = kNeverUs;
   for (BodyId body = 0; body < numBodies(); ++body) {
@@ -136,7 +136,7 @@ void WorldMaker::findTimes() {
   if (last <= loaded_.endUs) loaded_.waitsFor.reset();
 }
 
-/// Until its first change of carrier, if it is there before.
+/// Begins a body, until its first change of carrier, if it is there before.
 Result<Done> WorldMaker::begin(BodyId body) {
   const std::int64_t untilUs = changeUs(body, 0);
   const auto& knots = knots_[slotOf(body)].knots;
@@ -161,7 +161,7 @@ Result<Done> WorldMaker::push(BodyId body, std::int64_t utimeUs, const Pose& pos
   return error;
 }
 
-/// All that is told of the body until the instant, that included.
+/// Pushes all knots of the body until the instant, that included.
 Result<Done> WorldMaker::pushUntil(BodyId body, std::int64_t untilUs) {
   const BodyStretch& stretch = bodyOf(body).stretches.back();
   if (stands(body)) {
@@ -217,7 +217,7 @@ Result<Carrier> WorldMaker::carrierOf(BodyId body, const FileChange& change) con
                   inQuotes(change.carrier), inQuotes(change.link), didYouMean(change.link, links)));
 }
 
-/// By time and name.
+/// All changes by time and name.
 DueChanges WorldMaker::allChanges() const {
   DueChanges due;
   for (BodyId body = 0; body < numBodies(); ++body) {
@@ -231,7 +231,7 @@ DueChanges WorldMaker::allChanges() const {
   return due;
 }
 
-/// All changes of an instant happen at once: who stays where it is is where everybody was just
+/// All changes of an instant happen at once: a body that stays stays where all bodies were just
 /// before, and carriers are where they are from then on.
 Result<Done> WorldMaker::changeAt(std::int64_t utimeUs, DueChanges due) {
   for (DueChange& one : due) {
@@ -247,7 +247,7 @@ Result<Done> WorldMaker::changeAt(std::int64_t utimeUs, DueChanges due) {
   return Done{};
 }
 
-/// In W.
+/// The body's pose in W just before.
 Result<Pose> WorldMaker::poseBefore(BodyId body, const FileChange& change) const {
   const LoadedBody& loaded = loaded_.bodies[slotOf(body)];
   if (loaded.stretches.empty()) {
@@ -262,7 +262,7 @@ Result<Pose> WorldMaker::poseBefore(BodyId body, const FileChange& change) const
                  places.poseAt(body, change.utimeUs));
 }
 
-/// Of the first by name that changes.
+/// An error about the first body by name that changes.
 Error WorldMaker::circleError(const DueChanges& due, const std::vector<BodyId>& circle) const {
   const auto change = std::find_if(due.begin(), due.end(), [&](const DueChange& one) {
     return std::find(circle.begin(), circle.end(), one.body) != circle.end();
@@ -275,8 +275,8 @@ Error WorldMaker::circleError(const DueChanges& due, const std::vector<BodyId>& 
                   LoadedWorld::secondsOf(change->file->utimeUs)));
 }
 
-/// Changes of one instant, those of carriers before those of whom they carry from then on: whoever
-/// is told of a carrier finds it there. Refuses circles.
+/// Changes of one instant, those of carriers before those of what they carry from then on, so that
+/// the carrier is there when the change is made. Refuses circles.
 Result<DueChanges> WorldMaker::carriersFirst(const DueChanges& due) const {
   DueChanges ordered;
   std::set<BodyId> known;
@@ -312,7 +312,7 @@ Result<DueChanges> WorldMaker::carriersFirst(const DueChanges& due) const {
   return ordered;
 }
 
-/// As the file says; else a pose that it tells for that very instant; else where the body was.
+/// As the file says; else the pose that it has for that very instant; else where the body was.
 Pose WorldMaker::poseOf(const DueChange& due) {
   const Skeleton& skeleton = bodyOf(due.body).shape.skeleton;
   const FileChange& change = *due.file;
@@ -345,7 +345,7 @@ Result<Done> WorldMaker::tell(const DueChange& due) {
   return pushUntil(due.body, changeUs(due.body, due.index + 1));
 }
 
-/// What the world itself is known until; and nobody is left out.
+/// Fills in the poses of each body, and until when the world itself is known.
 Result<Done> WorldMaker::checkAll() {
   for (BodyId body = 0; body < numBodies(); ++body) {
     LoadedBody& loaded = bodyOf(body);

@@ -1,4 +1,4 @@
-// tools/world/world_maker.h: tells the world of a file where everybody is, change after change.
+// tools/world/world_maker.h: gives the world of a file the places of its bodies, change by change.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace foretouch::tools {
 
-/// Fills the stretches of the bodies, tells `loaded.world` the same, and finds from when to when it
-/// is known. `knots`: one per body. What comes out depends on what the file says, not on the order
+/// Fills the stretches of the bodies, gives them to `loaded.world`, and finds from when to when it
+/// is known. `knots`: one per body. The result depends on what the file says, not on the order
 /// of its bodies. Errors name the file and the line.
 [[nodiscard]] Result<Done> tellWorld(LoadedWorld& loaded, std::vector<BodyKnots> knots);
 

@@ -30,13 +30,13 @@ struct Knot {
   const Pose* pose = nullptr;
 };
 
-/// A body of which something is claimed.
+/// A body about which something is claimed.
 struct Claimed {
   BodyId id = 0;
   bool isPerson = false;
   MotionModel model = MotionModel::ConstantRate;
   std::vector<LinkBound> bounds;
-  double stepS = 0.0;  ///< That the bounds are about; 0: any.
+  double stepS = 0.0;  ///< The step that the bounds are about; 0: any.
   std::vector<Knot> knots;
   const std::map<std::int64_t, std::vector<LinkId>>* lost = nullptr;  ///< By knots.
 };
@@ -53,7 +53,7 @@ std::vector<Knot> knotsOf(const Track& track) {
   }
 }
 
-/// Of what nobody moves.
+/// The knots of a body that nothing moves.
 std::vector<Knot> standingFrom(const Track& track, std::int64_t fromUs, std::int64_t toUs) {
   const Pose* const pose = track.pieceAt(track.knownUntilUs()).from;
   return {{fromUs, pose}, {toUs, pose}};
@@ -83,7 +83,7 @@ bool isAsked(const LoadedWorld& world, BodyGroup group, std::optional<BodyGroup>
   return asked;
 }
 
-/// From knot to knot.
+/// The steps from knot to knot.
 class Steps {
  public:
   explicit Steps(const Claimed& claimed) : claimed_(claimed) {}
@@ -91,7 +91,7 @@ class Steps {
   [[nodiscard]] std::size_t count() const { return claimed_.knots.size() - 1; }
   [[nodiscard]] const Knot& from(std::size_t i) const { return claimed_.knots[i]; }
   [[nodiscard]] const Knot& to(std::size_t i) const { return claimed_.knots[i + 1]; }
-  /// Valid until the next one is asked for. One that the bounds are not about has none.
+  /// Valid until the next one is asked for. A step that the bounds are not about has none.
   PersonStep at(std::size_t i) {
     PersonStep step = across(i);
     if (!isUsual(i)) bounds_.assign(bounds_.size(), LinkBound{});
@@ -108,7 +108,7 @@ class Steps {
     }
     return step;
   }
-  /// The same, of any length: of the bounds only speeds and errors hold.
+  /// The same for any length: only the bounds' speeds and errors hold.
   PersonStep across(std::size_t i) {
     bounds_ = claimed_.bounds;
     leaveOutLost(from(i));
@@ -128,7 +128,7 @@ class Steps {
   }
 
  private:
-  /// Of links whose pose is made up nothing is claimed.
+  /// Nothing is claimed about links whose pose is made up.
   void leaveOutLost(const Knot& knot) {
     if (claimed_.lost == nullptr) return;
     const auto found = claimed_.lost->find(knot.utimeUs);
@@ -234,7 +234,7 @@ class Persons {
     return to.utimeUs > fromUs_ && from.utimeUs < toUs_;
   }
 
-  /// The scene, and own links.
+  /// Asks about the scene, and own links.
   Result<Done> askAlone(const Claimed& claimed) {
     const LoadedBody& body = bodyOf(claimed.id);
     const bool asksScene = world_.scene && isAsked(world_, body.group, std::nullopt);
@@ -267,7 +267,7 @@ class Persons {
     return Done{};
   }
 
-  /// The clip's poses between the two knots.
+  /// Checks the clip's poses between the two knots.
   void checkLeftOut(const PersonStep& step, const Knot& from, const Knot& to,
                     const LoadedBody& body, BoundCheck& check) {
     auto next =

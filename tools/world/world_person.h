@@ -1,5 +1,5 @@
-// tools/world/world_person.h: what the persons of a world surely touched and may have touched, of
-// the scene, of themselves and of each other. Seconds of the file's clock.
+// tools/world/world_person.h: what the persons of a world surely touched and may have touched, in
+// the scene, on themselves and on each other. Seconds on the file's clock.
 #pragma once
 
 #include <cstdint>
@@ -24,14 +24,14 @@ struct WorldPersonTouch {
 
 struct WorldPersons {
   std::vector<WorldPersonTouch> touches;  ///< By begin.
-  PersonCounts counts;                    ///< Of links and the scene, and of links of two bodies.
+  PersonCounts counts;                    ///< Counts links with the scene, and links of two bodies.
   std::vector<std::string> notes;         ///< Sentences.
   std::int64_t persons = 0;
-  BodyId worstBody = 0;  ///< Whose clip breaks its bounds by most, if any does.
+  BodyId worstBody = 0;  ///< The body whose clip breaks its bounds by most, if any does.
 };
 
-/// Of every body that the file has bounds of, from one instant of the world to another: each of its
-/// steps with the scene and itself, and with every body of which something is claimed, too: a
+/// For every body that the file has bounds for, from one instant of the world to another: each of
+/// its steps with the scene and itself, and with every body about which something is claimed: a
 /// person, one whose motion the file calls exact, or one that stands. Nothing if there is none.
 /// Errors: those of the bounds' files.
 [[nodiscard]] Result<std::optional<WorldPersons>> personsOf(const LoadedWorld& world,
@@ -39,7 +39,7 @@ struct WorldPersons {
 
 /// Lines of the results: one per touch, and one with the counts.
 [[nodiscard]] std::string personLines(const LoadedWorld& world, const WorldPersons& persons);
-/// For people.
+/// The touches as text for people.
 [[nodiscard]] std::string personText(const LoadedWorld& world, const WorldPersons& persons);
 
 }  // namespace foretouch::tools

@@ -13,19 +13,19 @@
 
 namespace foretouch::tools {
 
-/// Who is on a side of a contact or touch, of which the writers know no more.
+/// One side of a contact or touch, if the writers know no more about it.
 struct NamedSide {
   BodyId body = kStillScene;
   LinkId link = 0;  ///< kEveryLink: the body as a whole.
 };
-/// Writes "body" and, where it has several, "link" into an open object; nothing of the scene.
+/// Writes "body" and, where it has several, "link" into an open object; nothing for the scene.
 void writeSide(const LoadedWorld& world, const NamedSide& side, JsonWriter& out);
 
-/// What a body is made of triangles of, or the static scene; nothing of others.
+/// The triangles that a body is made of, or the static scene; nothing for other bodies.
 [[nodiscard]] const std::optional<Scene>& meshOf(const LoadedWorld& world, BodyId body);
 /// The instant in seconds under this name, for people, and exactly.
 void writeInstant(const char* name, const WorldTime& time, JsonWriter& out);
-/// The same of "time" in an object of its own.
+/// The same as "time" in an object with this name.
 void writeInstantObject(const char* name, const WorldTime& time, JsonWriter& out);
 /// An object. `isTold`: with where on it the contact is.
 void writeContactSide(const LoadedWorld& world, const ContactSide& side, bool isTold,
@@ -42,10 +42,10 @@ void writeBodies(const LoadedWorld& world, JsonWriter& out);
 [[nodiscard]] std::string windowLine(const LoadedWorld& world, const WorldStep& step);
 /// One contact as an object: as in that line.
 void writeWorldContact(const LoadedWorld& world, const WorldContact& contact, JsonWriter& out);
-/// The fields of a touch into an open object: as in its line.
+/// Writes the fields of a touch into an open object, as in its line.
 void writeWorldTouch(const LoadedWorld& world, const TouchSides& sides, const WorldTouch& touch,
                      JsonWriter& out);
-/// The last lines: one a touch, and the counts.
+/// The last lines: one per touch, and the counts.
 [[nodiscard]] std::string touchLines(const LoadedWorld& world, const WorldTouches& touches,
                                      std::int64_t windows);
 

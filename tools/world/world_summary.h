@@ -20,7 +20,7 @@ class WorldSummary {
   explicit WorldSummary(const LoadedWorld& world) : world_(world) {}
 
   void add(const WorldStep& step);
-  /// Of all windows, after the last one.
+  /// The touches of all windows, after the last one.
   void add(const WorldTouches& touches);
 
   struct Counts {

@@ -10,7 +10,7 @@
 namespace foretouch::tools {
 namespace {
 
-/// In [0,1] of the window, as steps of one avatar have it.
+/// The share of the window in [0,1], as steps of one avatar have it.
 double shareOfWindow(const WorldTime& time, const WorldStep& step) {
   return std::clamp(
       microsecondsAfter(step.fromUs, time) / static_cast<double>(step.toUs - step.fromUs), 0.0,
@@ -74,7 +74,7 @@ WorldTouches::PairKey WorldTouches::pairOf(const WorldContact& contact) const {
           std::max(objectOn(contact.a), objectOn(contact.b))};
 }
 
-/// Whoever touches where a window begins does so in an interval of the two: all of those are known.
+/// What touches where a window begins does so in an interval of the two: all of those are known.
 void WorldTouches::addFollowed(const WorldStep& step) {
   if (cuts_.empty()) cuts_.push_back(step.fromUs);
   cuts_.push_back(step.toUs);
@@ -97,7 +97,7 @@ void WorldTouches::addFollowed(const WorldStep& step) {
   }
 }
 
-/// It is missed by who looks where windows begin and end alone if none does within it.
+/// A check where windows begin and end misses the touch if no such instant is within it.
 void WorldTouches::placeInWindows(WorldTouch& touch) const {
   const auto isBefore = [](const WorldTime& time, std::int64_t us) {
     return time < WorldTime{us, 0.0};
@@ -137,14 +137,14 @@ bool WorldTouches::isCarried(BodyId body, BodyId carrier, LinkId link, std::int6
          stretch->carrier->link == link;
 }
 
-/// What is under way and of which the window says nothing is not known to end: of bodies that are
-/// silent or undecided as a whole, and of two that one carries now.
+/// What is under way, and about which the window says nothing, is not known to end: for bodies that
+/// are silent or undecided as a whole, and for two of which one carries the other now.
 void WorldTouches::addUnknown(const WorldStep& step) {
   std::set<BodyId> silent;
   for (const SilentBody& one : step.answer.silent) {
     if (one.takenTo == WhenSilent::Undecided && one.sinceUs <= step.fromUs) silent.insert(one.body);
   }
-  // Nothing is known of what somebody silent carries, either.
+  // Nothing is known of what a silent body carries, either.
   const auto isSilent = [&](BodyId body) {
     while (!silent.empty() && silent.count(body) == 0) {
       const BodyStretch* const stretch =

@@ -1,6 +1,6 @@
-// tools/world/world_touches.h: who touches whom in a world, from first contact to where it ends
-// (docs/concepts.md). Of a world that is followed these are its intervals of contact, with their
-// exact ends; of others they are made of the answers of windows. Links of all bodies are numbered
+// tools/world/world_touches.h: what touches what in a world, from first contact to where it ends
+// (docs/concepts.md). In a world that is followed these are its intervals of contact, with their
+// exact ends; in others they are made of the answers of windows. Links of all bodies are numbered
 // as one.
 #pragma once
 
@@ -41,39 +41,39 @@ struct TouchSides {
   LinkId linkOfA = 0, linkOfB = 0;
 };
 
-/// `link` and `other` are LinkNumbers, of bodies in this order; -1: the scene.
+/// `link` and `other` are LinkNumbers, those of bodies in this order; -1: the scene.
 struct WorldTouch : Touch {
-  WorldContact first;  ///< That it begins with.
+  WorldContact first;  ///< The contact that it begins with.
   // Where the world was followed.
-  std::optional<TouchStrength> strength;  ///< Of that.
+  std::optional<TouchStrength> strength;  ///< The strength of that contact.
   WorldTime until;                        ///< `endS`, exactly.
 };
 
 /// Counts of a whole replay.
 struct WorldTouchCounts {
-  std::int64_t scene = 0, bodies = 0, own = 0;  ///< With the scene, of two bodies, of own links.
-  std::int64_t missed = 0;  ///< Of these: nobody who looks where windows begin and end sees them.
+  std::int64_t scene = 0, bodies = 0, own = 0;  ///< With the scene, two bodies, own links.
+  std::int64_t missed = 0;                      ///< Of these: not seen where windows begin and end.
 };
 
 class WorldTouches {
  public:
-  /// `world` and `followed` outlive it. `followed`: all that is told of the time of the windows,
+  /// `world` and `followed` outlive it. `followed`: all reports on the time of the windows,
   /// after its finish(); null: the world is not followed.
   WorldTouches(const LoadedWorld& world, const WorldIntervals* followed);
 
   /// Windows in order.
   void add(const WorldStep& step);
-  /// After the last one.
+  /// Call after the last one.
   void finish();
 
-  /// After finish(), by begin.
+  /// The touches after finish(), by begin.
   [[nodiscard]] const std::vector<WorldTouch>& listed() const { return listed_; }
   [[nodiscard]] const WorldTouchCounts& counts() const { return counts_; }
   [[nodiscard]] TouchSides sidesOf(const TouchPair& touch) const;
 
  private:
   using Key = std::tuple<LinkId, LinkId, std::string>;           // as TouchPair
-  using PairKey = std::tuple<LinkId, BodyId, LinkId, ObjectId>;  // as intervals tell them apart
+  using PairKey = std::tuple<LinkId, BodyId, LinkId, ObjectId>;  // by which intervals differ
   void takeIntervals();
   void addFollowed(const WorldStep& step);
   void addAsked(const WorldStep& step);
@@ -97,7 +97,7 @@ class WorldTouches {
   // Where it is not.
   TouchTracker tracker_;
   std::map<Key, WorldContact> open_;  // with the contact it begins with
-  // Of the window that is being added.
+  // For the window that is being added.
   TouchStep step_;
   std::vector<LinkContact> contacts_;
   std::vector<std::size_t> rowOf_, begunRows_;

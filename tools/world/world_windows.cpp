@@ -61,7 +61,7 @@ void addKnots(const LoadedWorld& world, std::vector<std::int64_t>& cuts) {
   }
 }
 
-/// Who is in a trigger touches nothing by that.
+/// Bodies in a trigger touch nothing by that.
 void leaveOutTriggers(const LoadedWorld& world, WorldContacts& answer) {
   const auto isOne = [&](BodyId body) { return world.isTrigger(body); };
   auto& contacts = answer.contacts;
