@@ -65,7 +65,7 @@ test("a dancer, a door and a ball: the events of the native program", { skip }, 
     assert.deepEqual(events.map(({ kind }) => kind), native.get(pair).map(({ event }) => event), pair);
     events.forEach((our, i) => {
       const their = native.get(pair)[i];
-      // Either may tell an event anywhere within the tolerance (docs/machines.md).
+      // Either may report an event anywhere within the tolerance (docs/machines.md).
       near(exact(our), their.utime + their.fraction, 1000);
       near(our.separation, their.separation, 2e-3);
       for (const axis of [0, 1, 2]) near(our.normal[axis], their.normal[axis], 0.05);
