@@ -125,7 +125,7 @@ export class Avatar extends Held {
     return this.machine.within((room) => this.machine.text(room.answered("ftw_avatar_file", this.handle)));
   }
 
-  /** Questions meet the bodies of this avatar that are added from now on by these triangles, as they are bent at the instant. First contacts and events go on by LSS. */
+  /** Questions meet bodies of this avatar by these triangles, as they are bent at the instant, if the bodies are added after this call. First contacts and events go on by LSS. */
   setSkin({ triangles, triangleLinks, influences, links, weights, points }: SkinArrays): void {
     const vertices = weights.length / whole(influences, "influences", 1);
     if (!Number.isInteger(vertices) || links.length !== weights.length || points.length !== 3 * weights.length) {

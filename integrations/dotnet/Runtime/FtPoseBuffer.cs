@@ -1,5 +1,5 @@
-// FtPoseBuffer.cs: a pose in memory of its own, which the collector does not move: whoever steps 90
-// times a second pins nothing and makes no garbage.
+// FtPoseBuffer.cs: a pose in its own memory, which the collector does not move: code that steps 90
+// times per second pins nothing and makes no garbage.
 using System;
 using System.Runtime.InteropServices;
 

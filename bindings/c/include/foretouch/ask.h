@@ -31,9 +31,9 @@ typedef struct ft_skin {
   size_t triangle_count;
 } ft_skin;
 
-/* Questions meet the bodies of this avatar that are added from now on by the skin, as it is bent at
- * the instant, and links without triangles of it as they touch. First contacts and events go on by
- * LSS or triangles. The arrays are not kept. Errors: bad arrays; ft_last_error_index() is the
+/* Questions meet bodies of this avatar by the skin, as it is bent at the instant, if the bodies are
+ * added after this call; links without triangles of it as they touch. First contacts and events go
+ * on by LSS or triangles. The arrays are not kept. Errors: bad arrays; ft_last_error_index() is the
  * vertex or triangle. */
 FT_API ft_status ft_avatar_set_skin(ft_avatar* avatar, const ft_skin* skin);
 
@@ -163,7 +163,7 @@ enum {
   FT_ASK_NOT_THERE = 2,  /* before its first pose; it was left out */
   FT_ASK_UNRESOLVED = 3, /* in a flight: more triangles, or steps, than are followed in motion */
   FT_ASK_OPEN =
-      4 /* as solids: an object of it, or of what is still, has no inside: it is not closed */
+      4 /* with solids: an object of it, or of what is still, has no inside: it is not closed */
 };
 
 /* A body that was asked about and is not known then; or an object that has no inside. */

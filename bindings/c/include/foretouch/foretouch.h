@@ -386,7 +386,7 @@ enum {
 enum {
   FT_SCOPE_EVERY_LINK = 0,      /* every link's own first contact */
   FT_SCOPE_FIRST_OF_AVATAR = 1, /* the links that touch first; others: undecided, after_first */
-  FT_SCOPE_EVERY_OBJECT = 2     /* every link's own first contact with each object as well
+  FT_SCOPE_EVERY_OBJECT = 2     /* also every link's own first contact with each object
                                    (ft_query_objects); FT_FIDELITY_LINK or _EXACT, no budget */
 };
 #define FT_EVERY_OBJECT (-1)

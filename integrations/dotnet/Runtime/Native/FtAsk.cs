@@ -157,7 +157,8 @@ namespace Foretouch {
     public const int NotThere = 2;
     /// <summary>in a flight: more triangles, or steps, than are followed in motion</summary>
     public const int Unresolved = 3;
-    /// <summary>as solids: an object of it, or of what is still, has no inside: it is not closed</summary>
+    /// <summary>with solids: an object of it, or of what is still, has no inside: it is not
+    /// closed</summary>
     public const int Open = 4;
   }
   /// <summary>A body that was asked about and is not known then; or an object that has no
@@ -272,10 +273,10 @@ namespace Foretouch {
     }
   }
   public static unsafe partial class FtNative {
-    /// <summary>Questions meet the bodies of this avatar that are added from now on by the skin, as it is
-    /// bent at the instant, and links without triangles of it as they touch. First contacts and events go
-    /// on by LSS or triangles. The arrays are not kept. Errors: bad arrays; ft_last_error_index() is the
-    /// vertex or triangle.</summary>
+    /// <summary>Questions meet bodies of this avatar by the skin, as it is bent at the instant, if the
+    /// bodies are added after this call; links without triangles of it as they touch. First contacts and
+    /// events go on by LSS or triangles. The arrays are not kept. Errors: bad arrays; ft_last_error_index()
+    /// is the vertex or triangle.</summary>
     [DllImport(Library)] public static extern int ft_avatar_set_skin(FtAvatar avatar, FtSkin* skin);
     [DllImport(Library)] public static extern int ft_ask_whom_init(FtAskWhom* whom, ulong size);
     [DllImport(Library)] public static extern int ft_question_init(FtQuestion* question, ulong size);

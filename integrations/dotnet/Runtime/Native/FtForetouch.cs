@@ -305,8 +305,8 @@ namespace Foretouch {
     public const int EveryLink = 0;
     /// <summary>the links that touch first; others: undecided, after_first</summary>
     public const int FirstOfAvatar = 1;
-    /// <summary>every link's own first contact with each object as well (ft_query_objects);
-    /// FT_FIDELITY_LINK or _EXACT, no budget</summary>
+    /// <summary>also every link's own first contact with each object (ft_query_objects); FT_FIDELITY_LINK
+    /// or _EXACT, no budget</summary>
     public const int EveryObject = 2;
   }
   /// <summary>A link, or a link and one object, whose contacts the query ignores.</summary>
