@@ -18,9 +18,9 @@ struct LinkTriangle {
   std::array<std::int32_t, 3> vertices;
 };
 
-/// Adds them by link, of each link in the order given, and says how many each has; and puts the
-/// shares of each vertex in order. The place of the first one whose link is none of `ofLink`'s, if
-/// there is one: then nothing is added.
+/// Adds the triangles by link, each link's in the order given, says how many each has, and puts the
+/// shares of each vertex in order. Returns the place of the first triangle whose link is not one of
+/// `ofLink`'s, if there is one: then nothing is added.
 inline std::optional<std::size_t> addTriangles(const std::vector<LinkTriangle>& triangles,
                                                std::vector<std::size_t>& ofLink, Skin& skin) {
   std::vector<std::vector<std::array<std::int32_t, 3>>> perLink(ofLink.size());

@@ -24,9 +24,9 @@ static_assert(static_cast<int>(AskUnknown::Open) == FT_ASK_OPEN);
 static_assert(kMostCorners == 1024);  // as the header says
 static_assert(kEveryObject == FT_EVERY_OBJECT);
 
-/// As many as a world has bodies.
+/// As many as a world may have bodies.
 constexpr std::size_t kMaxParts = 100'000;
-/// In one call; their answers fit into memory.
+/// The most in one call; their answers fit into memory.
 constexpr std::size_t kMaxQuestions = 10'000'000;
 
 ft_ask_whom everybody() {

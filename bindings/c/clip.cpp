@@ -21,7 +21,7 @@ ft_clip_options defaultClipOptions() {
   return options;
 }
 
-/// Of a clip: its rows are a microsecond apart at least.
+/// The highest rate of a clip: its rows are at least a microsecond apart.
 constexpr double kMostRowsPerSecond = 1e6;
 
 /// How to read a clip, and its placement.

@@ -7,9 +7,9 @@
 
 namespace foretouch::c {
 
-/// But for its size.
+/// Fills all but the size.
 [[nodiscard]] ft_contact contactOf(const LinkContact& contact, const Scene& scene);
-/// Of two own links: the other link's triangle is none of the scene's.
+/// For two own links: the other link's triangle is not one of the scene's.
 [[nodiscard]] ft_contact contactOf(PairContact contact, const Scene& scene);
 
 }  // namespace foretouch::c

@@ -106,7 +106,7 @@ ft_part partOf(const ft_world& world, const WorldPart& part) {
   return c;
 }
 
-/// One that has not ended, until where is followed.
+/// A part that has not ended, up to where the world is followed.
 WorldPart partOf(const OpenPart& open, std::int64_t untilUs) {
   WorldPart part;
   part.kind = open.kind;

@@ -114,7 +114,7 @@ struct ft_near {
   foretouch::NearQuery question;
   foretouch::NearDetail detail = foretouch::NearDetail::Reduced;
   foretouch::Scratch scratch;
-  foretouch::ChainMotion still;  // of the pose that is asked
+  foretouch::ChainMotion still;  // holds the pose that is asked
   foretouch::Pose pose;
   std::vector<foretouch::LinkState> states;
   std::vector<double> reach;
@@ -150,7 +150,7 @@ void destroy(const char* function, Handle* handle) noexcept {
   delete handle;
 }
 
-/// Copies a pose of C arrays, unchecked but for its number of joints. `name`: of the argument.
+/// Copies a pose from C arrays; checks only its number of joints. `name`: the argument's.
 /// Reuses `pose`: allocates nothing once it has grown.
 [[nodiscard]] ft_status copyPose(const ft_pose* given, const char* name, const Skeleton& skeleton,
                                  Pose& pose);

@@ -31,7 +31,7 @@ ft_status readReach(const double* given, std::size_t count, std::size_t links,
                    "reach: expected one per link, %zu of them, found %zu", links, count);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    if (given[i] <= kMaxCoordinate) continue;  // not so NaN
+    if (given[i] <= kMaxCoordinate) continue;  // NaN is not
     return failure(FT_ERROR_OUT_OF_RANGE, static_cast<std::int64_t>(i),
                    "reach: expected at most 1e7 metres, found %g", given[i]);
   }

@@ -33,7 +33,7 @@ struct ft_brackets {
 namespace foretouch::c {
 namespace {
 
-/// A step is shorter, and a gap too.
+/// The most seconds that a step or a gap may last.
 constexpr double kMaxSeconds = 1e6;
 
 ft_bracket_options defaultOptions() {

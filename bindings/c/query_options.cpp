@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMaxIgnoredPairs = std::size_t{1} << 20;
 constexpr std::size_t kMaxObjectPolicies = std::size_t{1} << 12;
 
-/// Those that the numbers from 1 on stood for.
+/// The fidelities that the numbers from 1 on stood for.
 constexpr std::array<const char*, 3> kGoneFidelities{"limb", "avatar", "ellipsoid"};
 
 ft_status readFidelity(std::int32_t given, std::int64_t link, Fidelity& fidelity) {
@@ -72,7 +72,7 @@ ft_status readPolicies(const ft_query_options& given, QueryOptions& options) {
   return FT_OK;
 }
 
-/// What a policy leaves out is FT_UNCHANGED; a tolerance that is, 0.
+/// What a policy leaves out is FT_UNCHANGED; for a tolerance, 0.
 ft_status readObjectPolicy(const ft_object_policy& given, std::int64_t place,
                            ObjectPolicy& policy) {
   if (given.link != FT_EVERY_LINK) policy.links = {given.link};

@@ -18,7 +18,7 @@ namespace foretouch::c {
 /// Refuses an avatar without triangles at FT_FIDELITY_EXACT.
 [[nodiscard]] ft_status checkedTriangles(const AvatarParts& avatar);
 
-/// Checks their number alone.
+/// Checks only their number.
 [[nodiscard]] ft_status readIgnored(const ft_ignored_pair* given, std::size_t count,
                                     std::vector<IgnoredPair>& ignored);
 

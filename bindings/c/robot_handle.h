@@ -28,7 +28,7 @@ struct ft_edges {
   std::vector<foretouch::Scene> props;  // their scenes
   foretouch::EdgeQuery question;
   foretouch::WorkerPool pool;
-  std::vector<foretouch::EdgeAnswer> answers;        // of the last list; of a path, its one
+  std::vector<foretouch::EdgeAnswer> answers;        // of the last list; for a path, its one
   std::vector<foretouch::EdgeClearance> clearances;  // memory
   bool hasAnswers = false;
 };

@@ -10,13 +10,13 @@
 
 namespace foretouch::c {
 
-/// Sizes are in such words. Of structs that any version of the header declares, none ends within a
-/// field: all of them end where their widest field may, which is at eight bytes, or, where pointers
-/// have four, at four.
+/// Sizes are in such words. No struct that any version of the header declares ends within a field:
+/// all of them end where their widest field may, which is at eight bytes, or, where pointers have
+/// four, at four.
 inline constexpr std::size_t kStructWord = sizeof(void*);
 static_assert(kStructWord == 8 || kStructWord == 4);
 
-/// No struct will ever be larger; a larger size means that nobody set it.
+/// No struct will ever be larger; a larger size means that it was never set.
 inline constexpr std::size_t kMaxStructSize = 4096;
 
 namespace internal {

@@ -16,7 +16,7 @@ ft_status checkedTick(const ft_solid* solid) {
   return failure(FT_ERROR_NO_STEP, kNoIndex, "expected ft_solid_follow() to be answered before");
 }
 
-/// What an exception left half written is made anew, and goes on from where it was.
+/// Makes anew what an exception left half written; it goes on from where it was.
 ft_status mended(ft_solid& solid) {
   if (!solid.isSuspect) return FT_OK;
   FORETOUCH_TRY_OR(solidFailure, auto made,
@@ -43,7 +43,7 @@ void copyTracked(const std::uint8_t* given, std::size_t joints, std::vector<std:
   if (given != nullptr) flags.assign(given, given + joints);
 }
 
-/// Of the tick that is done. Cannot fail: `last` has its size from the beginning.
+/// Writes the tick that is done. Cannot fail: `last` has its size from the beginning.
 void takeTick(ft_solid& solid) {
   std::swap(solid.tick, solid.next);
   solid.hasTick = true;

@@ -26,7 +26,7 @@ struct ft_solid {
   foretouch::Scene scene;
   foretouch::SolidAvatar solid;
   bool isSuspect = false;  // an exception left `solid` half written
-  foretouch::Pose last;    // that it goes on from
+  foretouch::Pose last;    // where it goes on from
   bool hasLast = false;
   foretouch::Pose given;
   std::vector<std::uint8_t> isTracked;
@@ -43,7 +43,7 @@ namespace foretouch::c {
 /// An error about an option or argument names it as C does.
 [[nodiscard]] ft_status solidFailure(Error error);
 
-/// Where, and how hard, a solid avatar presses: the same of what stands and of what moves.
+/// Where, and how hard, a solid avatar presses: the same for what stands and for what moves.
 template <typename Contact, typename Answer>
 void copyPress(const Contact& contact, Answer& c) {
   Eigen::Map<Eigen::Vector3d>(c.point) = contact.p_W;

@@ -22,7 +22,7 @@ ft_status checkedSolids(const ft_world* world) {
                  "world: expected one of ft_solid_world_create(), found one of ft_world_create()");
 }
 
-/// Null, and the failure: none of the last tick.
+/// Null, and the failure, if the last tick has none.
 const SolidBodyTick* tickOf(const ft_world* world, std::int32_t body, ft_status& status) {
   status = checkedSolids(world);
   if (status == FT_OK) status = checkedBody(*world, body);
@@ -95,7 +95,7 @@ ft_solid_crush crushOf(const SolidCrush& crush) {
   return c;
 }
 
-/// Those of the first list, then of the second, then of the third.
+/// What hands hold: all of the first list, then of the second, then of the third.
 ft_solid_held heldOf(const SolidBodyTick& tick, std::size_t i) {
   ft_solid_held c{};
   for (const auto* const list : {&tick.tools, &tick.looseTools, &tick.letGo}) {

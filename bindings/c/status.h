@@ -9,7 +9,7 @@
 #include "articulated/result.h"
 #include "bindings/c/include/foretouch/foretouch.h"
 
-/// As printf() takes it: on Windows, what stands in for it.
+/// The format as printf() takes it; on Windows, as its stand-in does.
 #ifdef __MINGW_PRINTF_FORMAT
 #define FORETOUCH_PRINTF_FORMAT __MINGW_PRINTF_FORMAT
 #else
@@ -22,7 +22,7 @@ namespace foretouch::c {
 inline constexpr std::size_t kMessageBytes = 1024;
 
 /// Stores the message for this thread, prefixed with the current C function's name, and returns
-/// `status`. `index`: of the joint, link, frame, triangle or body at fault; kNoIndex: none.
+/// `status`. `index`: the joint, link, frame, triangle or body at fault; kNoIndex: none.
 inline constexpr std::int64_t kNoIndex = -1;
 [[gnu::format(FORETOUCH_PRINTF_FORMAT, 3, 4)]] ft_status failure(ft_status status,
                                                                  std::int64_t index,

@@ -40,7 +40,7 @@ ft_status readTriggerOptions(const ft_trigger_options* given, TriggerOptions& op
   return FT_OK;
 }
 
-/// `shape`: of a trigger whose triangles an event may name.
+/// `shape`: the trigger's, if events may name its triangles.
 ft_status add(ft_world& world, const Result<TriggerVolume>& volume, std::optional<Scene> shape,
               const ft_trigger_options* given, std::int32_t* trigger, std::int32_t* body) {
   FORETOUCH_CHECK_OR(worldFailure, volume);

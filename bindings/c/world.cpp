@@ -1,4 +1,4 @@
-// bindings/c/world.cpp: ft_world: its bodies, where they are, and who carries whom.
+// bindings/c/world.cpp: ft_world: its bodies, where they are, and what carries what.
 #include <memory>
 #include <utility>
 

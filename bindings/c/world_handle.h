@@ -22,18 +22,18 @@ struct ft_world {
   static constexpr auto kMark = foretouch::c::Mark::World;
   static constexpr const char* kName = "world";
 
-  /// Of an avatar or of a mesh.
+  /// What a body is made of: an avatar or a mesh.
   struct Body {
     std::shared_ptr<const foretouch::c::AvatarParts> avatar;
     std::optional<foretouch::Scene> mesh;
   };
 
-  /// Of the solid avatars of a solid world.
+  /// What a solid world has for its solid avatars.
   struct Solids {
     explicit Solids(foretouch::SolidWorld made) : world(std::move(made)) {}
     foretouch::SolidWorld world;
     std::vector<foretouch::Pose> poses;              // of the targets
-    std::vector<std::vector<std::uint8_t>> tracked;  // likewise
+    std::vector<std::vector<std::uint8_t>> tracked;  // their joints
     std::vector<foretouch::SolidBodyTarget> targets;
     std::vector<foretouch::SolidBodyTick> ticks, next;
     bool isBroken = false;  // memory ran out within a tick
@@ -68,11 +68,11 @@ struct ft_world {
   struct Asked {
     foretouch::WorldQuestion question;
     std::vector<foretouch::WorldQuestion> questions;
-    foretouch::WorldAnswer answer, next;  // of many questions: one after the other
+    foretouch::WorldAnswer answer, next;  // many questions' answers: one after the other
     std::vector<foretouch::WorldAnswer> answers;
     foretouch::FlightQuestion flight;
     foretouch::FlightAnswer flown;
-    std::vector<foretouch::UnknownBody> unknown;  // of the last of both
+    std::vector<foretouch::UnknownBody> unknown;  // to the last of both
     bool hasAnswer = false, hasUnknown = false;
   };
   Asked asked;
@@ -94,13 +94,13 @@ namespace foretouch::c {
 [[nodiscard]] ft_body_options defaultBodyOptions();
 /// NULL: the usual ones. The library itself checks the values.
 [[nodiscard]] ft_status readWorldOptions(const ft_world_options* given, WorldOptions& options);
-/// `avatar`: the body's; null of a mesh.
+/// `avatar`: the body's; null for a mesh.
 [[nodiscard]] ft_status readBodyOptions(const ft_body_options* given, const AvatarParts* avatar,
                                         BodyOptions& options);
-/// 0 or 1; `name`: of the argument.
+/// Reads 0 or 1; `name`: the argument's.
 [[nodiscard]] ft_status readTruth(std::int32_t given, const char* name, bool& truth);
 
-/// Of a body of one joint, as meshes and triggers are.
+/// The skeleton of a body of one joint, as meshes and triggers are.
 [[nodiscard]] const Skeleton& skeletonOfMesh();
 
 /// FT_ERROR_UNKNOWN_NAME with the body's number, unless it was added.
@@ -108,7 +108,7 @@ namespace foretouch::c {
 /// Copies the pose of a body, which the world itself checks.
 [[nodiscard]] ft_status copyBodyPose(const ft_world& world, std::int32_t body, const ft_pose* given,
                                      Pose& pose);
-/// `object`: of its triangle; -1: none.
+/// `object`: its triangle's; -1: none.
 [[nodiscard]] ft_world_side sideOf(const ContactSide& side, ObjectId object);
 /// An error about an option or argument names it as C does.
 [[nodiscard]] ft_status worldFailure(Error error);

@@ -19,7 +19,7 @@ ft_status readSilent(std::int32_t given, WhenSilent& silent) {
   return FT_OK;
 }
 
-/// `avatar`: null of a mesh.
+/// `avatar`: null for a mesh.
 ft_status readSurface(std::int32_t fidelity, const AvatarParts* avatar, BodyOptions& options) {
   if (fidelity == FT_FIDELITY_LINK) return FT_OK;
   if (fidelity != FT_FIDELITY_EXACT) {

@@ -56,7 +56,7 @@ auto column(Element LinkContact::*field) {
   };
 }
 
-/// Computed, as only what is told of a contact says whether its depth is known.
+/// Computed for each contact: only the contact says whether its depth is known.
 template <typename Holder>
 py::array depthsOf(const Holder& holder) {
   const Frame frame = frameOf(holder);
@@ -136,7 +136,7 @@ py::list contactList(const Step& step) {
   return list;
 }
 
-/// Of the step's part of a list, whose parts end there.
+/// The step's part of a list; `end` has where each step's part ends.
 std::pair<std::size_t, std::size_t> placesIn(const std::vector<std::size_t>& end,
                                              const Step& step) {
   return {step.step == 0 ? 0 : end[step.step - 1], end[step.step]};

@@ -25,7 +25,7 @@ struct Answers {
   AnsweredMotions motions;
   std::vector<LinkContact> contacts = {};          ///< Step after step, every link of it in order.
   std::vector<QueryCounters> counters = {};        ///< One per step.
-  std::vector<foretouch::PairContact> pairs = {};  ///< Of own links, step after step.
+  std::vector<foretouch::PairContact> pairs = {};  ///< Pairs of own links, step after step.
   std::vector<std::size_t> pairsEnd = {};          ///< One per step: where its pairs end.
   std::vector<LinkContact> perObject = {};         ///< By object, step after step.
   std::vector<std::size_t> perObjectEnd = {};
@@ -40,13 +40,13 @@ struct Answers {
 };
 using SharedAnswers = std::shared_ptr<const Answers>;
 
-/// One step's part of them.
+/// One step's part of the answers.
 struct Step {
   SharedAnswers answers;
   std::size_t step = 0;
 };
 
-/// All of them.
+/// All of the answers.
 struct Steps {
   SharedAnswers answers;
 };

@@ -121,7 +121,7 @@ void readShape(py::handle given, Lss& shape, std::vector<Eigen::Vector3d>& hull)
   py::object place = py::reinterpret_borrow<py::object>(given);
   if (py::isinstance<py::tuple>(given)) {
     const auto tuple = py::reinterpret_borrow<py::tuple>(given);
-    // An array counts as a number as well.
+    // An array counts as a number, too.
     if (tuple.size() == 3 && PySequence_Check(tuple[0].ptr()) != 0) {
       shape = lssFrom(given, "shape");
       return;
@@ -139,7 +139,7 @@ void readShape(py::handle given, Lss& shape, std::vector<Eigen::Vector3d>& hull)
   }
 }
 
-/// Whom a question is about.
+/// What a question is about.
 struct Whom {
   const py::object &only, &without, &groups;
   const Shown<shown::Truth>& still;
@@ -152,7 +152,7 @@ void complete(World& world, const Whom& whom, AskWhom& question) {
   appendParts(world, whom.without, "without", question.without);
 }
 
-/// What a thread's questions keep: of the world that it asked last.
+/// What a thread's questions keep, for the world that it asked last.
 Scratch& scratchOfThread() {
   thread_local Scratch scratch;
   return scratch;

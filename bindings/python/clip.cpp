@@ -18,7 +18,7 @@ namespace {
 
 using SharedClip = std::shared_ptr<Clip>;
 
-/// What only another kind of file can use is refused: nobody finds out later that it had no effect.
+/// Refuses what only another kind of file can use, which would silently have no effect.
 void refuseUnused(ClipFormat format, const ClipFileOptions& options) {
   if (format != ClipFormat::Model && !options.animation.empty()) {
     refuse(ErrorCode::Mismatch, "animation", "expected none: only models hold several animations");

@@ -63,8 +63,8 @@ py::object penetrationOf(const Contact& contact) {
   return py::float_(c.penetration);
 }
 
-// Of a member whose meaning is its type alone; None for what only a contact has where the link is
-// clear or undecided.
+// The value of a member whose type alone says its meaning; None for what only a contact has where
+// the link is clear or undecided.
 
 py::object valueOf(const LinkContact& c, std::int32_t LinkContact::*member) {
   if (!isTouching(c) || c.*member < 0) return py::none();

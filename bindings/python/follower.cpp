@@ -1,4 +1,4 @@
-// bindings/python/follower.cpp: foretouch.Follower, and what it tells as plain data.
+// bindings/python/follower.cpp: foretouch.Follower, and what it reports as plain data.
 #include <limits>
 #include <memory>
 #include <utility>
@@ -104,11 +104,11 @@ class Follower {
   Follower(World& world, std::int64_t fromUs, const FollowOptions& options)
       : world_(world), follower_(followedValue(WorldFollower::start(fromUs, options))) {}
 
-  /// Of a rigid body.
+  /// Weighs a rigid body.
   void weigh(BodyId body, const Mass& mass) {
     world_.with("body", [&](foretouch::World&) { return follower_.weigh(body, mass); });
   }
-  /// Its LSS weigh so much in all.
+  /// Weighs an avatar: its LSS weigh so much in all.
   void weighLss(BodyId body, const Avatar& avatar, double kg) {
     world_.with("kg", [&](foretouch::World&) -> Result<Done> {
       auto masses = massesOfLinks(avatar, kg);

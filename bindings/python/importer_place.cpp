@@ -30,7 +30,7 @@ std::string importerPlace(py::handle argument) {
   const char* const named = std::getenv("FORETOUCH_IMPORTER");
   const fs::path folder = packageFolder();
   if ((named != nullptr && *named != '\0') || folder.empty()) return "";
-  // The first is that of a wheel, which has all of an installation inside.
+  // The first is a wheel's, which has all of an installation inside.
   for (const char* place :
        {"_installed/libexec/foretouch/foretouch-import", FORETOUCH_INSTALLED_IMPORTER_FROM_PACKAGE,
         FORETOUCH_BUILT_IMPORTER_FROM_PACKAGE}) {

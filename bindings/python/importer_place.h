@@ -1,5 +1,5 @@
-// bindings/python/importer_place.h: where foretouch-import is, for a module that runs in somebody
-// else's program. In this order: the argument `importer`; the environment variable
+// bindings/python/importer_place.h: where foretouch-import is, for a module that runs in another
+// program. In this order: the argument `importer`; the environment variable
 // FORETOUCH_IMPORTER; the package's installation or build tree; the installation path configured at
 // build time. The library's own rule, "beside the running program", would look beside the Python
 // interpreter.

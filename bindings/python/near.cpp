@@ -65,7 +65,7 @@ std::vector<double> reachFrom(py::handle given, std::size_t links) {
     all.assign(reach.data(), reach.data() + links);
   }
   for (std::size_t i = 0; i < links; ++i) {
-    if (all[i] <= kMaxCoordinate) continue;  // not so NaN
+    if (all[i] <= kMaxCoordinate) continue;  // NaN is not
     refuse(ErrorCode::OutOfRange, "reach", "expected at most 1e7 metres",
            static_cast<std::int64_t>(i));
   }

@@ -105,7 +105,7 @@ PairRules asking(SharedAvatar avatar, const Shown<shown::Items>& asked) {
   return {std::move(avatar), std::move(rules)};
 }
 
-/// Its name let people believe that its list was of the pairs to ask.
+/// The old name let people believe that its list was of the pairs to ask.
 [[noreturn]] void exactly(const SharedAvatar&, const Shown<shown::Items>&,
                           const Shown<shown::Items>&) {
   refuse(ErrorCode::Mismatch, "PairRules.exactly",

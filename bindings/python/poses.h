@@ -14,9 +14,9 @@ namespace foretouch::python {
 /// A foretouch.Pose, or any pair (rotations, translations). Checked against the skeleton; unit
 /// rotations stay the same, bit for bit.
 [[nodiscard]] Pose poseFrom(const Skeleton& skeleton, py::handle given, const std::string& what);
-/// Of what has no joints of its own: one, for its place.
+/// The skeleton of what has no joints of its own: one joint, for its place.
 [[nodiscard]] const Skeleton& skeletonOfProp();
-/// Of one joint: (rotation, translation) of the shapes (4,) and (3,) will do for poseFrom().
+/// Makes one joint's (rotation, translation), of shapes (4,) and (3,), what poseFrom() takes.
 [[nodiscard]] py::object withJointAxis(const py::object& given);
 /// A foretouch.Poses, or any pair of stacks.
 [[nodiscard]] std::vector<Pose> posesFrom(const Skeleton& skeleton, py::handle given,

@@ -106,8 +106,8 @@ void applyPolicies(const py::object& given, const Avatar& avatar, const Scene& s
                               static_cast<std::int32_t>(scene.objectNames().size()), options));
 }
 
-/// The library takes up to 1e7 m, for scenes of planets. Near a body nobody means more than this:
-/// who gives 1.0 took it for a share, or for millimetres.
+/// The library takes up to 1e7 m, for scenes of planets. Near a body no caller means more than
+/// this: one who gives 1.0 took it for a share, or for millimetres.
 constexpr double kCoarseTolerance = 0.1;
 
 double toleranceFrom(py::handle given) {

@@ -182,7 +182,7 @@ py::object edgesOf(const std::vector<EdgeAnswer>& answers, const SharedRobot& ro
       points, columnOf<std::int32_t>(answers, [](A a) { return a.prop; }), robot.avatar, scenes);
 }
 
-/// Slopes are None where nobody asked for them.
+/// Slopes are None where they were not asked for.
 py::object clearancesOf(const std::vector<EdgeClearance>& answers, py::object slopes0,
                         py::object slopes1) {
   const auto columnOfAll = [&](auto type, const auto& of) {

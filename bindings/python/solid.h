@@ -59,7 +59,7 @@ struct GivenSolidOptions {
       mostLimbDeviation, patience, maySnap, snapNotice, aroundPerTick, aroundInAll, placingReach,
       ignore, selfPairs, workBudget;
 };
-/// TypeError for a keyword that is none of these.
+/// TypeError for a keyword that is not one of these.
 [[nodiscard]] GivenSolidOptions solidKeywords(const py::kwargs& given);
 
 /// Looks up the names of links and objects. The library itself checks the values.
@@ -68,7 +68,7 @@ struct GivenSolidOptions {
 /// An error about an option is one about its keyword.
 [[nodiscard]] Error withKeywordsOfSolid(Error error);
 
-/// Booleans, or integers of which 0 is lost; empty of None.
+/// Booleans, or integers of which 0 is lost; empty for None.
 [[nodiscard]] std::vector<std::uint8_t> flagsFrom(const py::object& given, const Avatar& avatar);
 
 void bindSolidTick(py::module_& module);

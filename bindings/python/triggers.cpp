@@ -31,14 +31,14 @@ T triggerValue(Result<T> result) {
   return std::move(result).value();
 }
 
-/// What the body of a trigger is made of, for who asks the world about it.
+/// What the body of a trigger is made of, for those who ask the world about it.
 BodyShape shapeOf(const TriggerVolume& volume) {
   const auto& parts = volume.parts();
   if (parts.solid) return {std::make_shared<const Avatar>(*parts.solid), nullptr};
   return {nullptr, std::make_shared<const Scene>(parts.mesh->scene())};
 }
 
-/// Volumes of one world, and who follows it for them.
+/// Volumes of one world, and the follower that they listen to.
 class TriggersOf {
  public:
   TriggersOf(World& world, const Shown<shown::Integer>& fromUs)

@@ -31,7 +31,7 @@ class World {
  public:
   /// Throws if the library refuses the options.
   World(std::shared_ptr<const Scene> still, const WorldOptions& options);
-  /// Somebody else's world, which outlives this one.
+  /// A world of another owner, which outlives this one.
   World(std::shared_ptr<const Scene> still, const WorldOptions& options, foretouch::World& world);
 
   BodyId add(BodyShape shape, const BodyOptions& options);
@@ -50,13 +50,13 @@ class World {
 
   /// Calls a function of the library's world without the GIL, and with no other thread in it.
   void with(const char* place, const std::function<Result<Done>(foretouch::World&)>& call);
-  /// The same of one that adds a body of this shape.
+  /// The same for one that adds a body of this shape.
   BodyId addWith(BodyShape shape, const std::function<Result<BodyId>(foretouch::World&)>& call);
 
   /// Null: nothing stands still.
   [[nodiscard]] const std::shared_ptr<const Scene>& still() const { return still_; }
   [[nodiscard]] double tolerance() const { return tolerance_; }
-  /// Of all bodies so far.
+  /// The shapes of all bodies so far.
   [[nodiscard]] std::shared_ptr<const BodyShapes> shapes();
   /// Throws if the body is unknown.
   [[nodiscard]] BodyShape shape(BodyId body);
@@ -83,11 +83,11 @@ class World {
 [[nodiscard]] inline py::object depthOrNone(double depth) {
   return std::isnan(depth) ? py::object(py::none()) : py::float_(depth);
 }
-/// One side of an event of a world: foretouch.ContactSide. `object`: of the event; it counts where
+/// One side of an event of a world: foretouch.ContactSide. `object`: the event's; it counts where
 /// no triangle says which it is.
 [[nodiscard]] py::object sideToPython(const ContactSide& side, ObjectId object, const Scene* still,
                                       const BodyShapes& shapes);
-/// What was told of a world: foretouch.WorldEvents.
+/// What was reported of a world: foretouch.WorldEvents.
 [[nodiscard]] py::object toPython(const WorldEvents& events, World& world);
 
 /// The keywords of a world, and of what a body does when it is silent.

@@ -16,7 +16,7 @@ py::object numberOrNone(std::int32_t number) {
   return py::int_(number);
 }
 
-/// The object of a triangle of the scene, or of a mesh.
+/// The object of a triangle of the scene or of a mesh.
 py::object objectNameOf(const Scene& scene, TriangleId triangle) {
   if (triangle < 0) return py::none();
   return readable(scene.objectNames()[slotOf(scene.object(triangle))]);

@@ -1,4 +1,4 @@
-// Questions to a world at an instant, of the past too: what a ray hits, what a moved sphere, capsule
+// Questions to a world at an instant, also in the past: what a ray hits, what a moved sphere, capsule
 // or convex solid hits first, what a shape overlaps, what is nearest, what a point is inside of; and
 // what something that flies hits first while the bodies move. Task by task: docs/ask.md. Metres, W.
 
@@ -17,7 +17,7 @@ export type AskPart = number | { readonly body?: number; readonly link?: number;
 /** Microseconds, or these and a fraction of one more. */
 export type AskTime = number | readonly [number, number];
 
-/** Whom a question is about: everybody, unless it says less. */
+/** What a question is about: everything, unless it says less. */
 export interface AskWhom {
   /** Nothing but these. */
   readonly only?: readonly AskPart[];
@@ -25,7 +25,7 @@ export interface AskWhom {
   readonly without?: readonly AskPart[];
   /** Bodies of these groups. */
   readonly groups?: readonly number[];
-  /** What stands still as well; left out: true. */
+  /** What stands still, too; left out: true. */
   readonly still?: boolean;
 }
 
@@ -34,7 +34,7 @@ export const askWhich = ["closest", "any", "all"] as const;
 export type AskWhich = (typeof askWhich)[number];
 
 export interface AskOptions extends AskWhom {
-  /** The shape moves along it, up to `reach`: what does it hit? Of any length but zero. */
+  /** The shape moves along it, up to `reach`: what does it hit? Any length but zero. */
   readonly direction?: ArrayLike<number>;
   /** How far it moves; left out: 1000. */
   readonly reach?: number;
@@ -44,7 +44,7 @@ export interface AskOptions extends AskWhom {
   readonly which?: AskWhich;
   /** Closed objects of meshes and of what stands still are solid: what begins inside one touches it, and an object that is not closed is unknown where its box holds the shape's place. Left out: surfaces count. */
   readonly solids?: boolean;
-  /** These bodies at instants of their own: what a player saw, who sees others late. */
+  /** These bodies at instants of their own: for what a player saw who sees others late. */
   readonly instants?: ReadonlyMap<number, AskTime>;
 }
 
@@ -55,15 +55,15 @@ export const askUnknowns = ["assumed", "silent", "not_there", "unresolved", "ope
 
 /** One of two that meet. */
 export interface ContactSide {
-  /** Or stillScene; of what is unresolved it may be everyBody. */
+  /** Or stillScene; where something is unresolved, it may be everyBody. */
   readonly body: number;
-  /** 0 of a mesh and of what stands still; or everyLink. */
+  /** 0 for a mesh and for what stands still; or everyLink. */
   readonly link: number;
   /** Which of the link's LSS; -1: none. */
   readonly lss: number;
-  /** Of a mesh, or of what stands still; -1: none. */
+  /** The triangle of a mesh, or of what stands still; -1: none. */
   readonly triangle: number;
-  /** Of that mesh, or of what stands still (Scene.objectNames); -1: none. */
+  /** The object of that mesh, or of what stands still (Scene.objectNames); -1: none. */
   readonly object: number;
   /** On its surface, W. */
   readonly point: Point;
@@ -71,12 +71,12 @@ export interface ContactSide {
 
 /** An LSS or a triangle that was hit or is near; or, without either, an object that is solid and holds the shape's place. */
 export interface WorldHit {
-  /** Of a cast: along the way, free before. Else how far apart. Rounded down. */
+  /** For a cast, how far along the way, free before; else how far apart. Rounded down. */
   readonly distance: number;
   readonly what: ContactSide;
-  /** Unit, to the shape; zero if none is told. */
+  /** Unit, to the shape; zero if none is reported. */
   readonly normal: Point;
-  /** Of a triangle: the point as a sum of its corners; else zero. */
+  /** For a triangle, the point as a sum of its corners; else zero. */
   readonly weights: Point;
   /** It rests on a body that was silent, and was taken to hold still. */
   readonly isAssumed: boolean;
@@ -88,7 +88,7 @@ export interface UnknownBody {
   readonly body: number;
   /** `assumed`: taken to hold still. `open`: not closed. Others were left out. */
   readonly why: (typeof askUnknowns)[number];
-  /** Of one that is open, unless it is a link's surface; else -1. */
+  /** The one that is open, unless it is a link's surface; else -1. */
   readonly object: number;
 }
 

@@ -52,12 +52,12 @@ export class Foretouch {
     return Avatar.parsed(this.machine, typeof file === "string" ? file : JSON.stringify({ format: "foretouch-avatar", version: 1, links: file }));
   }
 
-  /** Capsules, `most` at most, of which at least one contains each triangle: of these nine numbers each. */
+  /** Capsules, `most` at most: at least one of them contains each triangle. Nine numbers per triangle. */
   fit(triangles: ArrayLike<number>, { most = 4 }: { most?: number } = {}): Lss[] {
     return fitted(this.machine, triangles, most);
   }
 
-  /** A BVH file, for an avatar, or with one made of it. `scale`: metres per unit of the file. */
+  /** A BVH file, for an avatar, or with one made from it. `scale`: metres per unit of the file. */
   clip(bvh: string, { avatar, scale = 1 }: { avatar?: Avatar; scale?: number } = {}): Clip {
     return new Clip(this.machine, bvh, scale, avatar ?? null);
   }

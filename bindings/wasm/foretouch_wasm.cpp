@@ -1,5 +1,5 @@
 // bindings/wasm/foretouch_wasm.cpp: what the module foretouch.wasm has beside functions of the C
-// interface (bindings/c), which JavaScript calls by itself: files as texts in memory, for there are
+// interface (bindings/c), which JavaScript calls by itself: files as texts in memory, as there are
 // no others, and what C does not have. As there a status tells, and ft_last_error() why. One
 // thread.
 #include <cstdint>
@@ -56,8 +56,8 @@ std::vector<std::uint32_t> lastIndices;
 
 }  // namespace
 
-/// LSS of which at least one contains each triangle, a, b and radius of each in `lss`. Of the
-/// triangles nine finite numbers each, which JavaScript has checked.
+/// LSS of which at least one contains each triangle, a, b and radius of each in `lss`. For the
+/// triangles, nine finite numbers each, which JavaScript has checked.
 FTW_EXPORT ft_status ftw_fit(const double* triangles, std::uint32_t count, std::int32_t most,
                              const double** lss, std::uint32_t* lssCount) {
   return guarded(__func__, [&]() -> ft_status {
@@ -109,7 +109,7 @@ FTW_EXPORT ft_status ftw_avatar_file(const ft_avatar* avatar, const char** text)
   });
 }
 
-/// As ft_bounds_read(), of a file's text, or the name of a preset.
+/// As ft_bounds_read(), from a file's text or the name of a preset.
 FTW_EXPORT ft_status ftw_bounds(const char* file, std::size_t length, const ft_avatar* avatar,
                                 std::int32_t between, double rateHz, ft_link_bound* bounds,
                                 std::size_t capacity, std::size_t* required) {
@@ -122,7 +122,7 @@ FTW_EXPORT ft_status ftw_bounds(const char* file, std::size_t length, const ft_a
   });
 }
 
-/// Of the last step, for one link: spans and planes that show that it touches nothing, as
+/// For one link in the last step, spans and planes that show that it touches nothing, as
 /// foretouch-verify reads them; empty where none were found.
 FTW_EXPORT ft_status ftw_query_certificate(const ft_query* query, std::int32_t link,
                                            const char** text) {
@@ -135,7 +135,7 @@ FTW_EXPORT ft_status ftw_query_certificate(const ft_query* query, std::int32_t l
   });
 }
 
-/// Of the last step: what one LSS sweeps on [0, end], `error` metres too large at most.
+/// What one LSS sweeps on [0, end] of the last step, `error` metres too large at most.
 FTW_EXPORT ft_status ftw_query_swept(const ft_query* query, std::int32_t link, std::int32_t lss,
                                      double end, double error, ftw_swept* swept) {
   return guarded(__func__, [&]() -> ft_status {

@@ -1,5 +1,5 @@
 // The module in memory: how its functions are called, and how the structs of the C interface
-// (bindings/c/include/foretouch) are written and read there. Options that are left out are those of C.
+// (bindings/c/include/foretouch) are written and read there. Options that are left out are C's.
 
 export type Point = readonly [number, number, number];
 
@@ -103,14 +103,14 @@ function writeField(memory: DataView, at: number, field: Field, value: unknown, 
   else memory.setFloat64(at, real(given, name), true);
 }
 
-// What JavaScript is given: WebAssembly would make 0 of what is no number.
+// What JavaScript is given: WebAssembly would make 0 of what is not a number.
 
 /** What is not known is NaN in C, and null here. */
 export function known(value: number): number | null {
   return Number.isNaN(value) ? null : value;
 }
 
-/** C judges its value: NaN is refused there by what is expected of it. */
+/** A number. C judges its value, and refuses NaN by what it expects. */
 export function real(value: unknown, name: string): number {
   if (typeof value !== "number") throw new ForetouchError(`${name}: expected a number, found ${String(value)}`);
   return value;
@@ -154,7 +154,7 @@ export class Machine {
     return (this.exports[name] as Call)(...values);
   }
 
-  /** The same of what answers with a status. */
+  /** The same for a function that answers with a status. */
   ask(name: string, ...values: (number | bigint)[]): void {
     if (this.call(name, ...values) !== 0) throw new ForetouchError(inWordsOfJavaScript(this.text(this.call("ft_last_error"))));
   }
@@ -251,7 +251,7 @@ export class Room {
     return at;
   }
 
-  /** One after the other, each zero but for what is given. */
+  /** Structs one after the other, each zero but for what is given. */
   array<M extends Fields>(struct: Struct<M>, given: readonly Writes<M>[], what: string): number {
     const at = this.take(struct.size * given.length);
     new Uint8Array(this.machine.view().buffer, at, struct.size * given.length).fill(0);
@@ -264,7 +264,7 @@ export class Room {
     return at;
   }
 
-  /** `name`: of C's struct, whose defaults stay where nothing else is given. */
+  /** `name`: C's struct, whose defaults stay where nothing else is given. */
   options<M extends Fields>(name: string, struct: Struct<M>, given: Writes<M>): number {
     const at = this.take(struct.size);
     this.machine.ask(`${name}_init`, at, struct.size);
@@ -283,7 +283,7 @@ export class Room {
     return this.machine.view().getInt32(place, true);
   }
 
-  /** All that a call lists, of which the last three arguments are an array, its capacity and how many there are. */
+  /** All that a call lists; its last three arguments are an array, its capacity and how many there are. */
   list<M extends Fields>(struct: Struct<M>, name: string, ...values: (number | bigint)[]): Values<M>[] {
     return this.listed(struct, (memory, at) => struct.read(memory, at), name, ...values);
   }
@@ -303,7 +303,7 @@ export class Room {
 
 const inCamelCase = (name: string): string => (name === "utime_us" ? "timeUs" : name.replace(/_(\w)/g, (_, letter: string) => letter.toUpperCase()));
 
-/** Without the function of C that says it; what it is about, and other functions, as they are called here. */
+/** A message without the name of the C function; arguments and other functions have their names here. */
 function inWordsOfJavaScript(message: string): string {
   return message
     .replace(/^ftw?_\w+: /, "")
@@ -350,7 +350,7 @@ function surroundings(): WebAssembly.Imports {
   return { wasi_snapshot_preview1: anything, env: anything } as unknown as WebAssembly.Imports;
 }
 
-/** What a server sends in its place is told, not compiled. */
+/** What a server sends in its place is reported, not compiled. */
 export async function moduleOf(answer: Response): Promise<ArrayBuffer> {
   const where = answer.url === "" ? "" : ` at ${answer.url}`;
   if (!answer.ok) throw new ForetouchError(`expected foretouch.wasm${where}, found ${`${answer.status} ${answer.statusText}`.trim()}: copy it there, or name where it is`);

@@ -11,7 +11,7 @@ export type MotionModel = (typeof motionModels)[number];
 export const bracketVerdicts = ["unclaimed", "excluded", "possible", "certain"] as const;
 export type BracketVerdict = (typeof bracketVerdicts)[number];
 
-/** A claim about one link: how far the person may be from the model. What is left out is not claimed; of errors: there is none. */
+/** A claim about one link: how far the person may be from the model. What is left out is not claimed; an `error` left out is none. */
 export interface LinkBound {
   /** Of a pose, m. */
   readonly error?: number;
@@ -40,11 +40,11 @@ export interface PosedStep {
   readonly secondsAfter?: number;
 }
 
-/** Of one link: t of the step. Nothing is touched before possibleFrom and after possibleUntil. */
+/** One link's, in t of the step. Nothing is touched before possibleFrom and after possibleUntil. */
 export interface LinkBracket {
   readonly link: number;
   readonly verdict: BracketVerdict;
-  /** Of the scene, that is, or may be, touched first; -1: none, or not known. */
+  /** The scene's that is, or may be, touched first; -1: none, or not known. */
   readonly triangle: number;
   readonly object: number;
   readonly possibleFrom: number;
@@ -77,12 +77,12 @@ export class BracketQuery extends Held {
     return this.told("ft_brackets_answer", step, bounds);
   }
 
-  /** Poses were lost between `from` and `to`: of the bounds, `speed` and `error` count. */
+  /** Poses were lost between `from` and `to`: only the bounds' `speed` and `error` count. */
   answerGap(step: PosedStep, bounds: LinkBound | readonly LinkBound[]): LinkBracket[] {
     return this.told("ft_brackets_answer_gap", step, bounds);
   }
 
-  /** What comes: t is 0 at the step's `to` and 1 after `horizon` seconds. Links are excluded, or possible from possibleFrom on. */
+  /** Looks ahead: t is 0 at the step's `to` and 1 after `horizon` seconds. Links are excluded, or possible from possibleFrom on. */
   lookAhead(step: PosedStep, horizon: number, bounds: LinkBound | readonly LinkBound[]): LinkBracket[] {
     return this.told("ft_brackets_look_ahead", step, bounds, real(horizon, "horizon"));
   }
@@ -123,7 +123,7 @@ function writtenBounds(room: Room, bounds: LinkBound | readonly LinkBound[], lin
   return { at, count: all.length };
 }
 
-/** Of a file of bounds as text, or of "preset:NAME": one per link, for poses of this rate. */
+/** Bounds from a file as text, or from "preset:NAME": one per link, for poses of this rate. */
 export function readBounds(machine: Machine, file: string, avatar: Avatar, between: MotionModel, rateHz: number): LinkBound[] {
   return machine.within((room) => {
     const text = room.text(file), model = numberOf(motionModels, between, "between");

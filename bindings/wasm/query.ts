@@ -17,9 +17,9 @@ export interface Contact {
   readonly toi: number;
   readonly freeUntil: number;
   readonly separation: number;
-  /** Of `starts_in_contact`; null if it is not known, as of triangles, which have no inside. */
+  /** For `starts_in_contact`; null if it is not known, as for triangles, which have no inside. */
   readonly penetration: number | null;
-  /** Of the scene; -1: none. */
+  /** The scene's; -1: none. */
   readonly triangle: number;
   readonly object: number;
   /** Which of the link's LSS; -1: none. */
@@ -40,7 +40,7 @@ const [linkAt, verdictAt, reasonAt, toiAt, freeUntilAt] = (["link", "verdict", "
 const [separationAt, penetrationAt, triangleAt, objectAt, lssAt] = (["separation", "penetration", "triangle", "object", "lss"] as const).map((name) => struct.placeOf(name));
 const [pointSceneAt, pointLinkAt, normalAt] = (["pointScene", "pointLink", "normal"] as const).map((name) => struct.placeOf(name));
 
-/** Field by field: there is one of every link in every step, which Struct.read() would take longer for than the step. */
+/** Field by field: every link has one in every step, and Struct.read() would take longer for them than the step. */
 function contactAt(memory: DataView, at: number): Contact {
   return {
     link: memory.getInt32(at + linkAt, true),
@@ -82,12 +82,12 @@ export class Query extends Held {
     });
   }
 
-  /** Of the last step: spans of t and planes that show that a link touches nothing, as `foretouch-verify` reads them; empty if none were found. */
+  /** Spans of t of the last step, and planes, that show that a link touches nothing, as `foretouch-verify` reads them; empty if none were found. */
   certificate(link: number): string {
     return this.machine.within((room) => this.machine.text(room.answered("ftw_query_certificate", this.handle, whole(link, "link"))));
   }
 
-  /** Of the last step: a closed surface around all that one LSS sweeps until `end`, at most `error` metres from it. */
+  /** A closed surface around all that one LSS sweeps in the last step until `end`, at most `error` metres from it. */
   swept(link: number, lss: number, { end = 1, error = 2e-3 }: { end?: number; error?: number } = {}): SweptSurface {
     return this.machine.within((room) => {
       const at = room.zeroed(structs.ftw_swept);

@@ -3,13 +3,13 @@
 import { ForetouchError, Held, handleOf, type Machine, type Point, pointAt, real, type Room, whole } from "./machine.js";
 import * as structs from "./structs.js";
 
-/** Of every joint in its parent's frame, roots in W: w, x, y, z per joint, and x, y, z per joint. */
+/** Every joint in its parent's frame, roots in W: w, x, y, z per joint, and x, y, z per joint. */
 export interface Pose {
   readonly rotations: Float64Array;
   readonly translations: Float64Array;
 }
 
-/** The same of any numbers: `{ rotations: [1, 0, 0, 0], translations: [0, 1, 0] }` of one joint. */
+/** The same, any numbers: `{ rotations: [1, 0, 0, 0], translations: [0, 1, 0] }` for one joint. */
 export interface PoseLike {
   readonly rotations: ArrayLike<number>;
   readonly translations: ArrayLike<number>;
@@ -39,7 +39,7 @@ export interface SceneArrays {
   readonly indices?: ArrayLike<number>;
   /** The object of each triangle; left out: all are object 0. */
   readonly objects?: ArrayLike<number>;
-  /** Of the objects; left out: "object 0" and so on. */
+  /** The objects' names; left out: "object 0" and so on. */
   readonly objectNames?: readonly string[];
 }
 
@@ -47,9 +47,9 @@ export interface SceneArrays {
 export interface SkinArrays {
   /** Three vertices each. */
   readonly triangles: ArrayLike<number>;
-  /** Of each triangle the link whose hit it is. */
+  /** For each triangle, the link whose hit it is. */
   readonly triangleLinks: ArrayLike<number>;
-  /** So many links per vertex. */
+  /** How many links each vertex has. */
   readonly influences: number;
   readonly links: ArrayLike<number>;
   /** How much each counts; a vertex' add up to 1, to a billionth: floats want to be divided by their sum. Where it is 0, the link does not count. */
@@ -125,7 +125,7 @@ export class Avatar extends Held {
     return this.machine.within((room) => this.machine.text(room.answered("ftw_avatar_file", this.handle)));
   }
 
-  /** From now on questions meet bodies of this avatar, which are added later, by these triangles, as they are bent at the instant. First contacts and events go on by LSS. */
+  /** Questions meet bodies of this avatar by these triangles, as they are bent at the instant, if the bodies are added after this call. First contacts and events go on by LSS. */
   setSkin({ triangles, triangleLinks, influences, links, weights, points }: SkinArrays): void {
     const vertices = weights.length / whole(influences, "influences", 1);
     if (!Number.isInteger(vertices) || links.length !== weights.length || points.length !== 3 * weights.length) {
@@ -210,7 +210,7 @@ export function poseFrom(machine: Machine, name: string, joints: number, ...valu
   });
 }
 
-/** `name`: of the argument. */
+/** `name`: the argument's. */
 export function writtenPose(room: Room, pose: PoseLike, joints: number, name: string): number {
   const { rotations, translations } = pose ?? {};
   if (rotations?.length !== 4 * joints || translations?.length !== 3 * joints) {

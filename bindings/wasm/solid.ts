@@ -53,7 +53,7 @@ export interface SolidTick {
 export interface SolidOptions {
   /** Gap that it keeps to surfaces where it can. */
   readonly skin?: number;
-  /** Of the proofs; left out: a quarter of the skin. */
+  /** The proofs' tolerance; left out: a quarter of the skin. */
   readonly tolerance?: number;
   /** A tracked body whose feet are below the floor is lifted whole; left out: it is. */
   readonly liftsFeet?: boolean;
@@ -121,7 +121,7 @@ export class Solid extends Held {
   }
 }
 
-// The same of a solid avatar in a world, whose functions have other names and one argument more.
+// The same for a solid avatar in a world, whose functions have other names and one argument more.
 
 export function writtenSolidOptions(room: Room, { liftsFeet, visibility, feet, tolerance, ...others }: SolidOptions): number {
   return room.options("ft_solid_options", structs.ft_solid_options, {
@@ -139,7 +139,7 @@ export function writtenFlags(room: Room, links: number, isTracked: ArrayLike<boo
   return room.bytes(Array.from({ length: links }, (_, joint) => (isTracked[joint] === false ? 0 : 1)));
 }
 
-/** `at`: a filled ft_solid_tick; `prefix`: of the functions that tell the rest of it. */
+/** `at`: a filled ft_solid_tick; `prefix`: that of the functions that report the rest of it. */
 export function tickFrom(room: Room, at: number, prefix: string, links: number, ...of: number[]): SolidTick {
   const { state, limit, isCertified, hasAppeared, deviation, lift, clearance, snapInS, wayCount } = room.read(structs.ft_solid_tick, at);
   return {

@@ -1,5 +1,5 @@
 // Solid avatars in a world in which other things move: doors push them, what they hold is solid with
-// them, two of them meet and neither passes; and what they press against is told from enter to leave.
+// them, two of them meet and neither passes; and what they press against is reported from enter to leave.
 
 import { handleOf, instant, type Machine, numberOf } from "./machine.js";
 import { Avatar, type Pose, type PoseLike, Scene, writtenPose } from "./shapes.js";
@@ -10,41 +10,41 @@ import { type BodyOptions, Follower, World, type WorldEvents, type WorldOptions,
 export const reaches = ["skin", "surface"] as const;
 
 export interface SolidWorldOptions extends WorldOptions {
-  /** Solid avatars are found in contact with what they press against ("skin", if left out), or with what crushes them alone ("surface"). */
+  /** Solid avatars are found in contact with what they press against ("skin", if left out), or only with what crushes them ("surface"). */
   readonly reach?: (typeof reaches)[number];
 }
 
 /** A moving body that holds or pushes a solid avatar: `link` is the avatar's, the place is on the body's surface, what the body's own motion adds to the push is in it, and the slip is along that surface, which moves. */
 export interface SolidBodyContact extends SolidContact {
   readonly body: number;
-  /** Of the link's LSS; those of tools in its hand come after its own. */
+  /** Which of the link's LSS; those of tools in its hand come after its own. */
   readonly lss: number;
-  /** Of a mesh; -1: none. */
+  /** The mesh's; -1: none. */
   readonly triangle: number;
 }
 
-/** A body that nobody holds back has left a solid avatar no proven way: between the two nothing is claimed from `sinceUs` on. Everything else stays proven. */
+/** A body that nothing holds back has left a solid avatar no proven way: between the two nothing is claimed from `sinceUs` on. Everything else stays proven. */
 export interface SolidCrush {
   readonly body: number;
   /** Where it was met; while they overlap, the link that is deepest. */
   readonly link: number;
   readonly sinceUs: number;
-  /** It ended at the tick's begin, where the two are proven apart; told once. */
+  /** It ended at the tick's begin, where the two are proven apart; reported once. */
   readonly isOver: boolean;
-  /** Of a link's axis below the body's surface at the tick's end; 0: no overlap there. */
+  /** How deep a link's axis is below the body's surface at the tick's end; 0: no overlap there. */
   readonly depth: number;
 }
 
 /** What a solid avatar among moving bodies shows at one tick, and what they do to it. */
 export interface SolidBodyTick {
   readonly body: number;
-  /** As of a Solid; its contacts are those with what stands still. Moving bodies are part of what it proves. */
+  /** As for a Solid; its contacts are those with what stands still. Moving bodies are part of what it proves. */
   readonly tick: SolidTick;
   readonly contacts: readonly SolidBodyContact[];
   readonly crushes: readonly SolidCrush[];
   /** What its hands hold and is solid with it. */
   readonly tools: readonly number[];
-  /** What they hold, and touched something where it was taken: nothing is claimed of it yet. */
+  /** What they hold that touched something where it was taken: nothing is claimed of it yet. */
   readonly looseTools: readonly number[];
   /** What they let go of and still touch: the two are not asked until they are apart. */
   readonly letGo: readonly number[];
@@ -61,9 +61,9 @@ export interface SolidTarget {
 }
 
 export class SolidWorld {
-  /** Add what moves by itself, push its poses, attach what hands hold. Solid avatars are moved by tick() alone. */
+  /** Add what moves by itself, push its poses, attach what hands hold. Only tick() moves solid avatars. */
   readonly world: World;
-  /** Weighs bodies, and says who is in contact now. */
+  /** Weighs bodies, and says what is in contact now. */
   readonly follower: Follower;
   private readonly machine: Machine;
   private readonly solids = new Set<number>();
@@ -78,7 +78,7 @@ export class SolidWorld {
     this.follower = this.world.followedBy(new Follower(this.world, beginUs));
   }
 
-  /** A solid avatar, by its number among all bodies; it is there from its first target on. Options: as of a Solid, without `maySnap`, and as of World.add(). */
+  /** Adds a solid avatar and returns its number among all bodies; it is there from its first target on. Options: a Solid's, without `maySnap`, and those of World.add(). */
   add(avatar: Avatar, { group, whenSilent, ...options }: SolidOptions & BodyOptions = {}): number {
     return this.machine.within((room) => {
       const shape = handleOf(avatar, Avatar, this.machine, "avatar");
@@ -90,8 +90,8 @@ export class SolidWorld {
   }
 
   /**
-   * One tick, from the last one's end until `timeUs`. Whoever has no target keeps his last one. Answers
-   * of all that have had one, by their numbers: what to draw is `tick.shown` of each.
+   * One tick, from the last one's end until `timeUs`. An avatar without a target keeps its last. Answers
+   * for all that have had one, by their numbers: what to draw is `tick.shown` of each.
    */
   tick(timeUs: number, targets: readonly SolidTarget[]): SolidBodyTick[] {
     return this.machine.within((room) => {

@@ -1,5 +1,5 @@
-// Moving worlds: avatars, rigid props and what they carry, each known at instants of its own; who
-// meets whom between two of these, from enter to leave; and volumes that tell who is in them. What
+// Moving worlds: avatars, rigid props and what they carry, each known at instants of its own; which
+// two meet between two of these, from enter to leave; and volumes that report what is in them. What
 // it is good for, and where it ends: docs/moving.md. Instants are whole microseconds since any epoch.
 
 import { type AskOptions, type AskQuestion, type AskShape, type AskTime, type AskWhom, type ContactSide, type FlightAnswer, flown, manyProbed, probed, type WorldAnswer } from "./ask.js";
@@ -10,7 +10,7 @@ import * as structs from "./structs.js";
 
 /** In place of a body: what stands still. It is always b. */
 export const stillScene = -1;
-/** In place of a body, of what is unresolved: whatever a is asked about. */
+/** In place of a body, where something is unresolved: everything that a is asked about. */
 export const everyBody = -2;
 /** In place of a link: every link, or every one that has no line of its own. */
 export const everyLink = -1;
@@ -25,7 +25,7 @@ export const eventKinds = ["leave", "unresolved_to", "starts_inside", "enter", "
 /** `enter`: the two were free. `leave`: they are, from here on. `starts_inside`: they are in contact where they are known first. `unresolved_from`, `unresolved_to`: nothing is claimed. */
 export type EventKind = (typeof eventKinds)[number];
 export const leaveCauses = ["apart", "not_asked", "moved"] as const;
-/** `apart`: proven. `not_asked`: one carries the other, or ask() says so. `moved`: one of the two, or who carries it, is put elsewhere there, with a jump. */
+/** `apart`: proven. `not_asked`: one carries the other, or ask() says so. `moved`: one of the two, or what carries it, is put elsewhere there, with a jump. */
 export type LeaveCause = (typeof leaveCauses)[number];
 
 export interface WorldOptions {
@@ -35,9 +35,9 @@ export interface WorldOptions {
   readonly asksMeshes?: boolean;
   /** Evaluations (about 10 ns each) that two bodies may cost in a window, and a body by itself between two poses. Beyond it: undecided. */
   readonly workPerPair?: number;
-  /** The same of all pairs of a window together, shared by bodies; left out: no bound. */
+  /** The same for all pairs of a window together, shared by bodies; left out: no bound. */
   readonly workPerWindow?: number;
-  /** Who may meet more than so many others in a window is crowded: two of them are not asked about each other, and are `silent`. */
+  /** A body that may meet more than so many others in a window is crowded: two of them are not asked about each other, and are `silent`. */
   readonly mostNear?: number;
 }
 
@@ -52,13 +52,13 @@ export interface BodyOptions {
 export interface WorldContact {
   /** `starts_in_contact`: they touch where the window begins, or where one of them appears or is attached. `undecided`: free until then, nothing claimed after it. */
   readonly verdict: Verdict;
-  /** Of `undecided`. */
+  /** For `undecided`. */
   readonly reason: Reason;
   /** Whole microseconds, rounded down: never later than the first touch. */
   readonly timeUs: number;
   /** Of one microsecond more, in [0, 1). */
   readonly timeFraction: number;
-  /** The body with the lower number, or of one body the lower link. */
+  /** The body with the lower number, or, within one body, the lower link. */
   readonly a: ContactSide;
   readonly b: ContactSide;
   readonly separation: number;
@@ -98,7 +98,7 @@ export interface EventPoint {
 /** One thing that happens to two links, or to a link and an object of a mesh or of what stands still. Metres, seconds, kilograms, W. */
 export interface WorldEvent {
   readonly kind: EventKind;
-  /** Of a leave. Where it is not `apart`, all places and speeds are the last ones before. */
+  /** For a leave. Where it is not `apart`, all places and speeds are the last ones before. */
   readonly cause: LeaveCause;
   /** Of what is unresolved. */
   readonly reason: Reason;
@@ -106,24 +106,24 @@ export interface WorldEvent {
   readonly timeUs: number;
   /** Of one microsecond more, in [0, 1). */
   readonly timeFraction: number;
-  /** When that began which ends here; else as the time. */
+  /** When what ends here began; else as the time. */
   readonly sinceUs: number;
   readonly sinceFraction: number;
   readonly a: ContactSide;
   readonly b: ContactSide;
   readonly separation: number;
-  /** How deep the axis lies, of one that starts inside; null: as in WorldContact. */
+  /** How deep the axis lies where one starts inside; null: as in WorldContact. */
   readonly penetration: number | null;
-  /** Unit, from b to a; zero if none is told. */
+  /** Unit, from b to a; zero if none is reported. */
   readonly normal: Point;
-  /** Of a's point less b's, m/s. */
+  /** Velocity of a's point less b's, m/s. */
   readonly velocity: Point;
   /** Along the normal, above zero while the two approach, m/s. */
   readonly approachSpeed: number;
   /** If these two points touch, they do so at a speed between this one and the next. Below zero: a graze, perhaps. */
   readonly approachLower: number;
   readonly approachUpper: number;
-  /** Along the normal, of those that were weighed; infinite if neither was. */
+  /** Along the normal, of the bodies that were weighed; infinite if neither was. */
   readonly effectiveMass: number;
   /** Up to four, the nearest first. */
   readonly points: readonly EventPoint[];
@@ -151,12 +151,12 @@ export interface WorldPart {
   readonly isAssumed: boolean;
 }
 
-/** Who enters or leaves a trigger. An enter is never later than it is, a leave never earlier. */
+/** What enters or leaves a trigger. An enter is never later than it is, a leave never earlier. */
 export interface TriggerEvent {
   readonly kind: EventKind;
   readonly trigger: number;
   readonly body: number;
-  /** Which enters or leaves; everyLink: none by itself. */
+  /** The link that enters or leaves; everyLink: none by itself. */
   readonly link: number;
   readonly timeUs: number;
   readonly timeFraction: number;
@@ -165,11 +165,11 @@ export interface TriggerEvent {
   readonly isAssumed: boolean;
 }
 
-/** Who is inside a trigger, or may be. */
+/** What is inside a trigger, or may be. */
 export interface Occupant {
   readonly trigger: number;
   readonly body: number;
-  /** Of a trigger that looks at each link by itself; else everyLink. */
+  /** The link, where the trigger looks at each by itself; else everyLink. */
   readonly link: number;
   readonly isUnresolved: boolean;
   readonly sinceUs: number;
@@ -184,7 +184,7 @@ export interface WorldEvents {
   readonly events: readonly WorldEvent[];
   /** By pair, then by time. */
   readonly parts: readonly WorldPart[];
-  /** Of World.triggers. */
+  /** Those of World.triggers. */
   readonly triggers: readonly TriggerEvent[];
 }
 
@@ -197,7 +197,7 @@ export interface Depth {
   /** Moved by it, the body is proven clear; not longer than upper. */
   readonly wayOut: Point;
   readonly isCertified: boolean;
-  /** Of pieces that have, or may have, a point in common. */
+  /** Pairs of pieces that have, or may have, a point in common. */
   readonly pairCount: number;
   readonly isAssumed: boolean;
   /** Of the deepest pair; -1: none. */
@@ -227,7 +227,7 @@ export class World extends Held {
     }));
   }
 
-  /** A body, by its number: 0, 1, 2, ... Of an avatar the LSS touch; of a scene, in the prop's own frame, the triangles. It is there from its first pose on. */
+  /** Adds a body and returns its number: 0, 1, 2, ... An avatar touches by its LSS; a scene, in the prop's own frame, by its triangles. It is there from its first pose on. */
   add(shape: Avatar | Scene, options: BodyOptions = {}): number {
     return this.machine.within((room) => {
       if (shape instanceof Scene) return this.added(1, room.answered("ft_world_add_mesh", this.handle, handleOf(shape, Scene, this.machine, "shape"), writtenBodyOptions(room, options)));
@@ -242,14 +242,14 @@ export class World extends Held {
     return body;
   }
 
-  /** Of a mesh or trigger 1. */
+  /** How many joints a body has; a mesh or trigger has 1. */
   jointsOf(body: number): number {
     const joints = this.joints[whole(body, "body")];
     if (joints === undefined) throw new ForetouchError(`body: expected one of the ${this.bodies} that were added, found ${body}`);
     return joints;
   }
 
-  /** Triggers among them. */
+  /** How many bodies there are, triggers among them. */
   get bodies(): number {
     return this.joints.length;
   }
@@ -267,17 +267,17 @@ export class World extends Held {
     });
   }
 
-  /** From then on nobody carries it; `pose`: there, in W. */
+  /** From then on nothing carries it; `pose`: there, in W. */
   detach(body: number, timeUs: number, pose: PoseLike): void {
     this.machine.within((room) => this.machine.ask("ft_world_detach", this.handle, body, instant(timeUs, "timeUs"), this.poseOf(room, body, pose)));
   }
 
-  /** Whether bodies of two groups are asked if they meet; everything is, to begin with. */
+  /** Sets whether bodies of two groups are asked if they meet; at first all are. */
   ask(a: number, b: number, isAsked: boolean): void {
     this.machine.ask("ft_world_ask", this.handle, whole(a, "a"), whole(b, "b"), isAsked ? 1 : 0);
   }
 
-  /** The same of bodies of a group and what stands still. */
+  /** The same for bodies of a group and what stands still. */
   askStill(group: number, isAsked: boolean): void {
     this.machine.ask("ft_world_ask_still", this.handle, whole(group, "group"), isAsked ? 1 : 0);
   }
@@ -287,7 +287,7 @@ export class World extends Held {
     return this.known()?.untilUs ?? null;
   }
 
-  /** The body that knownUntilUs waits for; null: nobody. */
+  /** The body that knownUntilUs waits for; null: none. */
   get waitsFor(): number | null {
     const body = this.known()?.waitsFor ?? -1;
     return body < 0 ? null : body;
@@ -327,7 +327,7 @@ export class World extends Held {
     });
   }
 
-  /** What the poses that are kept take: 56 n + 256 of one of n joints. */
+  /** The bytes that kept poses take: 56 n + 256 for one of n joints. */
   poseBytes(): number {
     return this.machine.within((room) => {
       const bytes = room.integers([0]);
@@ -341,7 +341,7 @@ export class World extends Held {
     this.machine.ask("ft_world_thin_before", this.handle, instant(timeUs, "timeUs"), real(metres, "metres"));
   }
 
-  /** Follows the world from an instant on: nothing before is told, and who is in contact there starts inside. A world has one follower: another one takes its place. */
+  /** Follows the world from an instant on: nothing before is reported, and what is in contact there starts inside. A world has one follower: another one takes its place. */
   follower(fromUs: number, options: FollowOptions = {}): Follower {
     this.machine.within((room) => {
       const written = room.options("ft_follow_options", structs.ft_follow_options, { ...options });
@@ -378,7 +378,7 @@ export class World extends Held {
     });
   }
 
-  /** What a shape meets at an instant, of the past too: with a direction, what it hits on its way; within a distance, what is nearest to it; else what it overlaps. */
+  /** What a shape meets at an instant, also in the past: with a direction, what it hits on its way; within a distance, what is nearest to it; else what it overlaps. */
   probe(time: AskTime, shape: AskShape, options: AskOptions = {}): WorldAnswer {
     return probed(this.machine, this.handle, time, shape, options);
   }
@@ -424,7 +424,7 @@ export interface FollowOptions {
   readonly cutUs?: number;
 }
 
-/** Tells who enters and leaves whom, each once, at its own instant, however many happen between two poses. */
+/** Reports which body enters and leaves which, each once, at its own instant, however many happen between two poses. */
 export class Follower {
   /** For the classes beside this one. */
   hasFollowed = false;
@@ -435,7 +435,7 @@ export class Follower {
   ) {}
 
   /**
-   * What a body weighs, for effective masses; others are moved by nothing. Alone, `kg` is what the LSS
+   * What a body weighs, for effective masses; nothing moves the others. Alone, `kg` is what the LSS
    * of an avatar weigh in all. A rigid body may say its `center` and its `inertia` about that, nine
    * numbers, row after row, in its frame; a mesh must.
    */
@@ -469,7 +469,7 @@ export class Follower {
     });
   }
 
-  /** Who is in contact, or unresolved, where the last follow() ended, and since when. */
+  /** What is in contact, or unresolved, where the last follow() ended, and since when. */
   get open(): readonly WorldPart[] {
     const { machine, handle } = this.followed();
     return machine.within((room) => room.list(structs.ft_part, "ft_world_open_parts", handle).map(partOf));
@@ -494,7 +494,7 @@ export interface TriggerOptions {
   readonly byLink?: boolean;
 }
 
-/** Volumes of a world that tell who is in them, in what its follower tells. Each is a body of the world: stand() puts it somewhere, or World.push() and attach() move body(trigger). */
+/** Volumes of a world that report what is in them, along with what its follower reports. Each is a body of the world: stand() puts it somewhere, or World.push() and attach() move body(trigger). */
 export class Triggers {
   private readonly bodies: number[] = [];
 
@@ -527,12 +527,12 @@ export class Triggers {
     machine.within((room) => machine.ask("ft_world_stand_trigger", handle, whole(trigger, "trigger"), instant(fromUs, "fromUs"), writtenPose(room, pose, 1, "pose")));
   }
 
-  /** Looks at this body, or at this link of it, and no more at everybody. Before the follower's first follow(). */
+  /** Looks at this body, or at this link of it, instead of at all bodies. Before the follower's first follow(). */
   watch(trigger: number, body: number, link: number = everyLink): void {
     this.world.machine.ask("ft_world_watch", this.world.handle, whole(trigger, "trigger"), whole(body, "body"), whole(link, "link"));
   }
 
-  /** Who is inside, or may be, where the last follow() ended. */
+  /** What is inside, or may be, where the last follow() ended. */
   get occupants(): readonly Occupant[] {
     if (!this.world.isFollowed()) return [];
     return this.world.machine.within((room) => this.world.list(room, structs.ft_occupant, "ft_world_occupants").map((occupant) => ({

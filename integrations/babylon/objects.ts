@@ -5,13 +5,13 @@ import { Matrix, Quaternion } from "@babylonjs/core/Maths/math.vector.js";
 import { ForetouchError } from "foretouch";
 import type { HostMesh, Note } from "foretouch/host";
 
-/** What a world knows of: nodes, and a scene as what stands still. */
+/** What a world knows: nodes, and a scene as what stands still. */
 export type Thing = TransformNode | Scene;
 
 export const isScene = (thing: Thing | Node): thing is Scene => "rootNodes" in thing;
 export const nameOf = (thing: Thing): string => (isScene(thing) ? "the scene" : thing.name === "" ? `${thing.getClassName()} ${thing.uniqueId}` : thing.name);
 
-/** Where a node is; of what was disposed of Babylon.js goes on to say where it was last. */
+/** Where a node is; for one that was disposed of, Babylon.js goes on to say where it was last. */
 export function worldOf(node: TransformNode): Matrix {
   if (node.isDisposed()) throw new ForetouchError(`${nameOf(node)} was disposed of; remove it from the world, too`);
   return node.computeWorldMatrix(true);
@@ -33,7 +33,7 @@ export function meshesOf(root: Thing, note: Note<Thing>, isOut: (thing: Thing) =
   const add = (mesh: AbstractMesh): void => {
     if (mesh.skeleton !== null) return note(`${nameOf(mesh)} has a skeleton and is left out of what stands still: add it as a body, world.addBody(mesh)`, mesh);
     if (mesh.morphTargetManager) note(`${nameOf(mesh)} has morph targets: it is taken without them`, mesh);
-    // A node of nothing but a place is a Mesh as well, as loaders make them.
+    // A node of nothing but a place is a Mesh, too, as loaders make them.
     const positions = mesh.getVerticesData("position");
     if (positions === null && mesh.getChildren().length > 0) return;
     if ((mesh as Mesh).hasThinInstances) return note(`${nameOf(mesh)} has thin instances and is left out of what stands still: expected a mesh, or instances by createInstance()`, mesh);
@@ -49,4 +49,4 @@ export function meshesOf(root: Thing, note: Note<Thing>, isOut: (thing: Thing) =
   return all;
 }
 
-/** `isRightHanded`: as of Scene.useRightHandedSystem. */
+/** `isRightHanded`: as Scene.useRightHandedSystem says. */

@@ -10,7 +10,7 @@ export class SkinnedNodes implements Skinned<Thing> {
   readonly bones: readonly HostBone[];
   readonly skins: readonly HostSkin<Thing>[];
   private readonly skeleton: Skeleton;
-  /** Which says where the skeleton is. */
+  /** The one that says where the skeleton is. */
   private readonly mesh: AbstractMesh;
   private readonly own: readonly Bone[];
   private readonly above: readonly (Bone | null)[];

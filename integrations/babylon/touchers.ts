@@ -1,4 +1,4 @@
-// What is added to a world: it tells what it touches by observables.
+// What is added to a world: it reports what it touches by observables.
 
 import type { Scene } from "@babylonjs/core";
 import { Quaternion, Vector3 } from "@babylonjs/core/Maths/math.vector.js";
@@ -10,7 +10,7 @@ import type { Thing } from "./objects.js";
 
 /** A touch: `object` is what is touched. */
 export type Touch = Omit<HostTouch<Thing>, "point" | "normal"> & {
-  /** On the surface of the one that is told. */
+  /** On the surface of the one that it is reported to. */
   readonly point: Vector3;
   /** Unit, from the other to it. */
   readonly normal: Vector3;
@@ -20,7 +20,7 @@ export type Pressing = Omit<Press<Thing>, "point" | "normal"> & { readonly point
 
 const placed = <T extends { readonly point: ArrayLike<number>; readonly normal: ArrayLike<number> }>(told: T) => ({ ...told, point: Vector3.FromArray(told.point), normal: Vector3.FromArray(told.normal) });
 
-/** What tells touches. */
+/** What reports touches. */
 export class Teller {
   readonly onEnterObservable = new Observable<Touch>();
   readonly onLeaveObservable = new Observable<Touch>();
@@ -64,12 +64,12 @@ export class Body extends Toucher {
     super(object);
   }
 
-  /** Of a solid one, as of the last update. */
+  /** How a solid one is, as of the last update. */
   get tick(): SolidBodyTick | null {
     return this.member?.tick ?? null;
   }
 
-  /** "held", "sliding", "equal" and so on; null: it is not solid, or nobody has seen it yet. */
+  /** "held", "sliding", "equal" and so on; null: it is not solid, or has not been seen yet. */
   get state(): SolidState | null {
     return this.tick === null ? null : stateOf(this.tick);
   }
@@ -90,7 +90,7 @@ export class Hand extends Body {
   /** A node per joint, by WebXR's names, where nothing is in its way: parent your meshes to them. */
   readonly joints: Readonly<Record<string, TransformNode>>;
   readonly root: TransformNode;
-  /** Of each joint, metres. */
+  /** Each joint's radius, metres. */
   readonly radii = new Map<string, number>();
 
   constructor(scene: Scene, world: SceneWorld<Thing>, handedness: string) {

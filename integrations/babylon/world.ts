@@ -1,5 +1,5 @@
 // A world of Babylon.js: what stands still, what moves, skeletons, and hands of WebXR that pass through
-// nothing; and who touches whom, as observables tell it.
+// nothing; and what touches what, as observables report it.
 
 import type { Scene, TransformNode } from "@babylonjs/core";
 import type { BodyOptions, Foretouch, SolidOptions } from "foretouch";
@@ -14,7 +14,7 @@ export type WorldOptions = SceneWorldOptions<Thing> & {
   readonly still?: TransformNode | null;
 };
 
-/** Tells every touch once, from its first side; what was added is told its own ones. */
+/** Reports every touch once, from its first side; what was added gets its own ones. */
 export class TouchWorld extends Teller {
   private readonly things: SceneWorld<Thing>;
 
@@ -24,7 +24,7 @@ export class TouchWorld extends Teller {
     this.things = new SceneWorld<Thing>(library, babylon(scene.useRightHandedSystem), still === undefined ? scene : still, this.tell, options);
   }
 
-  /** What stands still is another one, or has changed: read anew with the next update, which begins anew. */
+  /** What stands still is another node, or has changed: the next update reads it anew and begins anew. */
   stand(still?: TransformNode | Scene | null): void {
     this.things.stand(still);
   }
@@ -50,7 +50,7 @@ export class TouchWorld extends Teller {
     return hand;
   }
 
-  /** Is in the way of nobody, and hears nothing more. */
+  /** Removes it: it is in nothing's way, and hears nothing more. */
   remove({ object }: Toucher): void {
     this.things.remove(object);
   }
@@ -64,7 +64,7 @@ export class TouchWorld extends Teller {
     if (member !== null) this.things.letGo(member);
   }
 
-  /** Once per frame, with its time in milliseconds, before it is rendered: of scene.onBeforeRenderObservable. A promise where the engine is in a worker; nobody needs to wait for it. */
+  /** Once per frame, with its time in milliseconds, before it is rendered: of scene.onBeforeRenderObservable. A promise where the engine is in a worker; there is no need to wait for it. */
   update(timeMs: number): void | Promise<void> {
     return this.things.update(timeMs);
   }

@@ -7,7 +7,7 @@ import type { HostMesh, Note } from "foretouch/host";
 /** As three.js tells people apart: by name, else by kind. */
 export const nameOf = (object: Object3D): string => (object.name === "" ? `${object.type} ${object.id}` : object.name);
 
-/** Its place in the world, of now, whatever is above it. */
+/** Its place in the world now, whatever is above it. */
 export function refresh(object: Object3D, withChildren: boolean): void {
   if (object.parent !== null) refresh(object.parent, false);
   object.updateWorldMatrix(false, withChildren, true);

@@ -11,7 +11,7 @@ export class SkinnedTree implements Skinned<Object3D> {
   readonly bones: readonly HostBone[];
   readonly skins: readonly HostSkin<Object3D>[];
   private readonly own: readonly Bone[];
-  /** Which no other bone is above; they need not be below the root. */
+  /** Those that no other bone is above; they need not be below the root. */
   private readonly tops: readonly Bone[];
   private readonly above: readonly (Object3D | null)[];
   private readonly skeletons: readonly { readonly skeleton: Skeleton; readonly bones: readonly Bone[] }[];

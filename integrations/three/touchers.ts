@@ -6,7 +6,7 @@ import { type Frames, handJoints, type JointMember, type Press, type RigidMember
 
 /** A touch, as its listeners have it: `object` is what is touched. */
 export type Touch = Omit<HostTouch<Object3D>, "kind" | "point" | "normal"> & {
-  /** On the surface of the one that is told. */
+  /** On the surface of the one that it is reported to. */
   readonly point: Vector3;
   /** Unit, from the other to it. */
   readonly normal: Vector3;
@@ -46,12 +46,12 @@ export class Body extends Toucher {
     super(object);
   }
 
-  /** Of a solid one, as of the last update. */
+  /** How a solid one is, as of the last update. */
   get tick(): SolidBodyTick | null {
     return this.member?.tick ?? null;
   }
 
-  /** "held", "sliding", "equal" and so on; null: it is not solid, or nobody has seen it yet. */
+  /** "held", "sliding", "equal" and so on; null: it is not solid, or has not been seen yet. */
   get state(): SolidState | null {
     return this.tick === null ? null : stateOf(this.tick);
   }

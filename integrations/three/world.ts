@@ -1,5 +1,5 @@
 // A world of three.js: what stands still, what moves, skeletons, and hands of WebXR that pass through
-// nothing; and who touches whom, as EventDispatcher tells it.
+// nothing; and what touches what, as EventDispatcher reports it.
 
 import { EventDispatcher, type Object3D } from "three";
 import { type BodyOptions, type Foretouch, ForetouchError, type SolidOptions } from "foretouch";
@@ -11,7 +11,7 @@ import { Body, Hand, type HandSpace, Rigid, threes, type Touches, type Toucher }
 
 export type WorldOptions = SceneWorldOptions<Object3D>;
 
-/** Tells every touch once, from its first side; what was added is told its own ones. */
+/** Reports every touch once, from its first side; what was added gets its own ones. */
 export class TouchWorld extends EventDispatcher<Touches> {
   private readonly scene: SceneWorld<Object3D>;
 
@@ -21,7 +21,7 @@ export class TouchWorld extends EventDispatcher<Touches> {
     this.scene = new SceneWorld(library, three, still, (touch) => this.dispatchEvent(threes(touch)), options);
   }
 
-  /** What stands still is another one, or has changed: read anew with the next update, which begins anew. */
+  /** What stands still is another object, or has changed: the next update reads it anew and begins anew. */
   stand(still?: Object3D | null): void {
     this.scene.stand(still);
   }
@@ -48,7 +48,7 @@ export class TouchWorld extends EventDispatcher<Touches> {
     return hand;
   }
 
-  /** Is in the way of nobody, and hears nothing more. */
+  /** Removes it: it is in nothing's way, and hears nothing more. */
   remove({ object }: Toucher): void {
     this.scene.remove(object);
   }
@@ -62,7 +62,7 @@ export class TouchWorld extends EventDispatcher<Touches> {
     if (member !== null) this.scene.letGo(member);
   }
 
-  /** Once per frame, with its time in milliseconds, before it is rendered. A promise where the engine is in a worker; nobody needs to wait for it. */
+  /** Once per frame, with its time in milliseconds, before it is rendered. A promise where the engine is in a worker; there is no need to wait for it. */
   update(timeMs: number): void | Promise<void> {
     return this.scene.update(timeMs);
   }

@@ -1,5 +1,5 @@
 // swing.cs: the forearm of swing.c, in C#, by the binding in ../dotnet; and a forearm that is led
-// into the pole and back, of which nothing that is shown passes through it.
+// into the pole and back, and whose shown motion never passes through it.
 //   d=../dotnet/Runtime; mcs -unsafe -langversion:latest -r:System.Core swing.cs $d/*.cs $d/{Native,Engine}/*.cs
 // Unity needs no command: docs/integrations.md has the package.
 using System;

@@ -2,7 +2,7 @@
 # # A hand through a railing
 #
 # The dancer of the bundled example sweeps the left arm along the stairs. A tracker sees the body ten
-# times a second. Between two poses the hand passes bars of 14 mm: which does it meet, and when?
+# times per second. Between two poses the hand passes bars of 14 mm: which does it meet, and when?
 #
 # Run it as a program, or cell by cell in an editor that knows `# %%`. It writes nothing, unless
 # `--output FOLDER` says where: then the swept surface of the hand, and a plot if matplotlib is there.
@@ -28,7 +28,7 @@ avatar = foretouch.Avatar.load(folder / "dancer.avatar.json")
 clip = foretouch.Clip.load(folder / "dancer.bvh")
 print(scene, avatar, clip, sep="\n")
 
-# %% Ten poses a second, between 2.1 s and 3.6 s
+# %% Ten poses per second, between 2.1 s and 3.6 s
 RATE_HZ = 10
 every = round(1 / (RATE_HZ * clip.frame_time_s))
 poses = clip.poses(avatar)[::every]

@@ -30,7 +30,7 @@ def _cells(contact: Contact) -> str:
         shown = [contact.link, f"undecided ({contact.reason})",
                  f"free until {contact.free_until:.6g}", "", ""]
     else:
-        # Of two own links the other takes the place of the scene's object.
+        # For two own links, the other takes the place of the scene's object.
         other = getattr(contact, "other", None) or contact.object or ""
         apart = -contact.penetration if contact.penetration else contact.separation
         shown = [contact.link, _words(contact.verdict), f"{contact.toi:.6g}", other,

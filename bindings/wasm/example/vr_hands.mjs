@@ -1,7 +1,7 @@
-// A head and two controllers, as WebXR tells of them: the player stands on a lift that rises, leans
+// A head and two controllers, as WebXR reports them: the player stands on a lift that rises, leans
 // with one hand on its rail, catches a ball with the other, and a sliding door pushes that hand.
 // Prints what the hands meet and leave, as examples/cpp/vr_hands.cpp does; with an argument, each
-// place on every shown way as well.
+// place on every shown way, too.
 //   node vr_hands.mjs [ways]
 
 import { readFileSync } from "node:fs";

@@ -1,4 +1,4 @@
-// What a world of a host asks of the library: plain arrays in, records out, so that it can as well be
+// What a world of a host asks of the library: plain arrays in, records out, so that it can also be
 // in a worker (far_engine.ts).
 
 import type { Foretouch } from "../foretouch.js";
@@ -12,12 +12,12 @@ import type { BodyOptions, WorldEvents } from "../world.js";
 export type Shape = { readonly links: readonly Link[] } | { readonly mesh: SceneArrays };
 
 export interface BodyOrder {
-  /** As of Engine.shape(). */
+  /** As for Engine.shape(). */
   readonly shape: number;
-  /** A solid avatar, which follows its targets; else it moves as it is told. */
+  /** A solid avatar, which follows its targets; else it moves by its moves. */
   readonly isSolid: boolean;
   readonly options: SolidOptions & BodyOptions;
-  /** Where it is at the first instant; of a solid one there is no need to say. */
+  /** Where it is at the first instant; a solid one may leave it null. */
   readonly pose: PoseLike | null;
 }
 
@@ -105,7 +105,7 @@ export class Engine {
     const solids = all.tick(timeUs, targets);
     this.timeUs = timeUs;
     const { events } = all.follow();
-    // Whoever is held or let go of next, is so from this tick's end on.
+    // What is held or let go of next is so from this tick's end on.
     world.forgetBefore(beganUs);
     return { solids, events };
   }

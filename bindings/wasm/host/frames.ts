@@ -6,7 +6,7 @@ import type { Pose, PoseLike } from "../shapes.js";
 
 export type Matrix = ArrayLike<number>;
 
-/** In W, w, x, y, z and x, y, z each. */
+/** Rotations (w, x, y, z each) and places (x, y, z each) in W. */
 export interface Frames {
   readonly rotations: Float64Array;
   readonly places: Float64Array;
@@ -86,7 +86,7 @@ export function intoFrame({ rotations, places }: Frames, joint: number, points: 
   }
 }
 
-/** Hosts that are left-handed, as Babylon.js is unless told otherwise, have z the other way round. */
+/** Hosts that are left-handed, as Babylon.js is by default, have z the other way round. */
 export const mirrored = (isLeftHanded: boolean): 1 | -1 => (isLeftHanded ? -1 : 1);
 
 const cube = (x: number): number => x * x * x;
@@ -181,7 +181,7 @@ function invert(a: Float64Array, out: Float64Array): void {
   out.set([c0, c1, c2, a[5] * a[6] - a[3] * a[8], a[0] * a[8] - a[2] * a[6], a[2] * a[3] - a[0] * a[5], a[3] * a[7] - a[4] * a[6], a[1] * a[6] - a[0] * a[7], a[0] * a[4] - a[1] * a[3]].map((value) => value / volume));
 }
 
-/** Of a rotation, column after column. Numbers that are handed on one by one would be garbage. */
+/** A rotation's quaternion, column after column. Numbers handed on singly would be garbage. */
 function quaternionOf(r: Float64Array, out: Float64Array, at: number): void {
   const xx = r[0], yy = r[4], zz = r[8], dx = r[5] - r[7], dy = r[6] - r[2], dz = r[1] - r[3], sx = r[7] + r[5], sy = r[6] + r[2], sz = r[3] + r[1];
   let w = 1 + xx + yy + zz, x = dx, y = dy, z = dz;

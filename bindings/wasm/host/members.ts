@@ -27,7 +27,7 @@ export interface JointSource<O> {
   readonly name: string;
   /** By link; -1: a root. */
   readonly parents: Int32Array;
-  /** Null: not known yet, as of a hand before it is tracked. */
+  /** Null: not known yet, as for a hand before it is tracked. */
   links(): readonly Link[] | null;
   /** Where the joints are, in W. False: the tracker does not say. Throws in the host's words where the skeleton is another one. */
   read(frames: Frames): boolean;
@@ -55,13 +55,13 @@ export abstract class Member<O> {
   /** Reads where it is, into `pose`. False: it has not been seen yet. */
   abstract read(): boolean;
   abstract linkName(link: number): string | null;
-  /** Of a mesh; else what the whole is. */
+  /** The object of a mesh; else what the whole is. */
   abstract objectOf(object: number): O;
 }
 
 export class RigidMember<O> extends Member<O> {
   readonly frames = framesOf(1);
-  /** Who carries it, and where in that one's hand. */
+  /** What carries it, and where in that one's hand. */
   held: { readonly by: JointMember<O>; readonly link: number; readonly pose: Pose } | null = null;
 
   constructor(
@@ -101,7 +101,7 @@ export class JointMember<O> extends Member<O> {
   /** Where it is shown. */
   readonly shown: Frames;
   isTracked = false;
-  /** Of the last tick. */
+  /** The last tick's answer. */
   tick: SolidBodyTick | null = null;
   /** Where a solid one was shown before the world began anew, and begins. */
   resumes: Pose | null = null;

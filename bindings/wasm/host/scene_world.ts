@@ -32,7 +32,7 @@ export interface Host<O> {
 export interface Skinned<O> {
   readonly bones: readonly HostBone[];
   readonly skins: readonly HostSkin<O>[];
-  /** Of the bones to the world, as they are now. Throws in the host's words where they are other bones than they were. */
+  /** From the bones to the world, as they are now. Throws in the host's words where they are other bones than they were. */
   matrices(): readonly Matrix[];
   /** Puts bones there, parents before children. */
   place(bone: number, matrix: Float64Array): void;
@@ -49,7 +49,7 @@ export type Shown<O> = { readonly shown?: O | null };
 export class SceneWorld<O> {
   private readonly world: TouchWorld<O>;
   private readonly engine: EngineLike;
-  /** What is no part of what stands still. */
+  /** What is not part of what stands still. */
   private readonly apart = new Set<O>();
   private mustStand = true;
 
@@ -58,7 +58,7 @@ export class SceneWorld<O> {
     this.world = new TouchWorld<O>(this.engine, host.mirror, note ?? ((message) => console.warn(`Foretouch: ${message}`)), told, options);
   }
 
-  /** What stands still is another one, or has changed: read anew with the next update. */
+  /** What stands still is another object, or has changed: the next update reads it anew. */
   stand(still: O | null = this.still): void {
     this.still = still;
     this.mustStand = true;
@@ -99,7 +99,7 @@ export class SceneWorld<O> {
     this.world.addJoints(source, options, true, then);
   }
 
-  /** What has this object. */
+  /** Removes what has this object. */
   remove(object: O): void {
     this.world.remove(object);
     this.apart.delete(object);

@@ -18,7 +18,7 @@ export interface HostSkin<O> {
   readonly name: string;
   readonly positions: ArrayLike<number>;
   readonly indices: ArrayLike<number> | null;
-  /** So many bones per vertex, and how much each of them counts. */
+  /** How many bones each vertex has, which, and how much each of them counts. */
   readonly influences: number;
   readonly joints: ArrayLike<number>;
   readonly weights: ArrayLike<number>;
@@ -76,7 +76,7 @@ function owners<O>({ influences, joints, weights }: HostSkin<O>, corners: ArrayL
   return owner;
 }
 
-/** Of every link the triangles that move with it, nine numbers each, in its frame. */
+/** For every link, the triangles that move with it, nine numbers each, in its frame. */
 function trianglesOfLinks<O>(skins: Iterable<HostSkin<O>>, { bones, parts }: Omit<Rig, "links">, mirror: 1 | -1, note: Note<O>): number[][] {
   const all: number[][] = bones.map(() => []), linkOf = new Map(bones.map((bone, link) => [bone, link]));
   for (const skin of skins) {
@@ -94,7 +94,7 @@ function trianglesOfLinks<O>(skins: Iterable<HostSkin<O>>, { bones, parts }: Omi
   return all;
 }
 
-/** In the bone's own space, then with the scale that the bone has in the world. */
+/** A vertex in the bone's own space, then with the scale that the bone has in the world. */
 function inLink<O>({ name, positions: p, toBones: m }: HostSkin<O>, vertex: number, bone: number, { stretch: s }: RigidPart, mirror: 1 | -1): number[] {
   const x = p[3 * vertex], y = p[3 * vertex + 1], z = p[3 * vertex + 2], at = 16 * bone;
   const [u, v, w] = [0, 1, 2].map((row) => (row === 2 ? mirror : 1) * (m[at + row] * x + m[at + 4 + row] * y + m[at + 8 + row] * z + m[at + 12 + row]));

@@ -1,6 +1,6 @@
 // A world of a host's things: what stands still, what moves, skeletons, hands that pass through
-// nothing; and who touches whom, told from enter to leave. A host (three.js, Babylon.js) says how its
-// objects are read, and tells events in its own way.
+// nothing; and what touches what, from enter to leave. A host (three.js, Babylon.js) says how its
+// objects are read, and reports events in its own way.
 
 import { ForetouchError, type Point } from "../machine.js";
 import type { SolidContact, SolidOptions } from "../solid.js";
@@ -13,7 +13,7 @@ import { gathered, type HostMesh, type Note } from "./geometry.js";
 import { JointMember, type JointSource, type Member, RigidMember, type RigidSource } from "./members.js";
 import type { Press, Touch } from "./touches.js";
 
-/** Two meshes are not asked about each other: a world that tells touches cannot. */
+/** Two meshes are not asked about each other: a world that reports touches cannot. */
 export interface TouchWorldOptions extends Omit<SolidWorldOptions, "asksMeshes"> {
   /** Seconds between two updates beyond which nothing is swept: the page was away. Left out: 0.5. Solid bodies go on from where they are shown, or after five seconds from where they are tracked. */
   readonly longestStep?: number;
@@ -42,7 +42,7 @@ export class TouchWorld<O> {
   private isAnew = true;
   private running: Promise<void> | null = null;
 
-  /** `note`: what a person should know; `of`: about which of the host's objects. Each is told once. */
+  /** `note`: what a person should know; `of`: about which of the host's objects. Each comes once. */
   constructor(
     private readonly engine: EngineLike,
     readonly mirror: 1 | -1,
@@ -76,7 +76,7 @@ export class TouchWorld<O> {
     else add(links);
   }
 
-  /** All that has this object. */
+  /** Removes all that has this object. */
   remove(object: O): void {
     for (const member of this.members) if (member.source.object === object) this.leave(member);
     const kept = this.waiting.filter(({ source }) => source.object !== object);
@@ -108,7 +108,7 @@ export class TouchWorld<O> {
     this.mustBegin = this.isAnew = true;
   }
 
-  /** Once per frame, `timeMs` on any clock that goes on: reads where all are, and shows and tells what follows. With an engine in a worker it goes on meanwhile, and frames that come too early are left out. */
+  /** Once per frame, `timeMs` on any clock that goes on: reads where all are, and shows and reports what follows. With an engine in a worker it goes on meanwhile, and frames that come too early are left out. */
   update(timeMs: number): Later {
     if (this.running !== null) return this.running;
     const timeUs = Math.round(1000 * timeMs);
@@ -118,7 +118,7 @@ export class TouchWorld<O> {
     this.isAnew = this.isAnew || timeUs <= this.timeUs || timeUs - this.timeUs > longestAway;
     const isGap = timeUs <= this.timeUs || timeUs - this.timeUs > 1e6 * (this.options.longestStep ?? 0.5);
     const seen = this.members.filter((member) => this.reads(member));
-    // Of nobody there is nothing to ask: it begins with the first.
+    // Without members there is nothing to ask: it begins with the first.
     if (seen.length === 0) this.mustBegin = true;
     if (seen.length === 0 && this.byBody.length === 0) return;
     let done: Later;
@@ -146,7 +146,7 @@ export class TouchWorld<O> {
       slipSpeed: contact.slipSpeed,
       gap: contact.gap,
     });
-    // Own links, which keep each other apart, are no surface that it touches.
+    // Own links, which keep each other apart, are not a surface that it touches.
     const still = tick.contacts.filter(({ triangle }) => triangle >= 0);
     return [...still.map((contact) => press(contact, stillScene)), ...contacts.map((contact) => press(contact, contact.body))];
   }
@@ -176,7 +176,7 @@ export class TouchWorld<O> {
     this.mustBegin = true;
   }
 
-  /** Those whose links have become known. */
+  /** Lets in those whose links have become known. */
   private admit(): void {
     for (const one of this.waiting.splice(0)) {
       const links = one.source.links();
@@ -197,7 +197,7 @@ export class TouchWorld<O> {
     }
   }
 
-  /** Two moments before, of which the first is for being where one was: so there is an answer even where every frame takes too long. */
+  /** Begins two moments before; in the first, solid bodies are where they were: so there is an answer even where every frame takes too long. */
   private begins(timeUs: number, seen: readonly Member<O>[]): Later {
     this.begin(timeUs - 2 * moment, seen);
     return this.step(timeUs - moment, seen);
@@ -211,7 +211,7 @@ export class TouchWorld<O> {
       member.body = -1;
       if (member instanceof RigidMember) member.held = null;
       if (!(member instanceof JointMember)) continue;
-      // No wall is passed for a frame that took too long.
+      // Nothing passes a wall because a frame took too long.
       member.resumes = this.isAnew ? null : (member.tick?.tick.shown ?? member.resumes);
       member.tick = null;
     }
@@ -311,7 +311,7 @@ export class TouchWorld<O> {
   /** What a worker has been sent must have come to pass before what follows counts. */
   private send(answer: unknown): void {
     if (!isLater(answer)) return;
-    // Whoever waits for it is told; nobody else needs to be.
+    // What waits for it learns of the failure; nothing else needs to.
     answer.catch(() => undefined);
     this.sending.push(answer);
   }

@@ -1,4 +1,4 @@
-// Who touches whom, in the host's things.
+// What touches what, in the host's things.
 
 import type { Point } from "../machine.js";
 import type { EventKind, LeaveCause, Reason } from "../world.js";
@@ -6,24 +6,24 @@ import type { EventKind, LeaveCause, Reason } from "../world.js";
 /** `gap`: the page was away, or the world begins anew; nothing is known of the time between. */
 export type TouchCause = LeaveCause | "gap";
 
-/** What one body is told of a touch. Metres and seconds, in the host's world. */
+/** A touch as it is reported to one body. Metres and seconds, in the host's world. */
 export interface Touch<O> {
   /** "enter", "leave"; "starts_inside": it touches where it is known first; "unresolved_from", "unresolved_to": nothing is claimed. */
   readonly kind: EventKind;
-  /** Of a leave. */
+  /** For a leave. */
   readonly cause: TouchCause;
-  /** Of what is unresolved. */
+  /** For what is unresolved. */
   readonly reason: Reason;
   /** On the clock of update(): an enter is never later than it is, a leave never earlier. */
   readonly time: number;
   /** Its own bone or joint; null: all of it. */
   readonly link: string | null;
-  /** What it touches: a mesh, or what the other body was added as; null: whatever it is asked about. */
+  /** What it touches: a mesh, or what the other body was added as; null: everything it is asked about. */
   readonly object: O | null;
   readonly otherLink: string | null;
   /** On its own surface. */
   readonly point: Point;
-  /** Unit, from the other to it; zero if none is told. */
+  /** Unit, from the other to it; zero if none is reported. */
   readonly normal: Point;
   /** Above zero while the two approach. */
   readonly approachSpeed: number;

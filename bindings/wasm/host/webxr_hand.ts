@@ -24,7 +24,7 @@ export const handParents: Int32Array = /* @__PURE__ */ Int32Array.from(/* @__PUR
 /** Where a browser does not say how thick a joint is, metres. */
 export const usualRadius = 0.008;
 
-/** Of every joint, in W. */
+/** The places of all joints, in W. */
 export interface TrackedHand {
   readonly frames: Frames;
   readonly radii: Float64Array;
@@ -37,7 +37,7 @@ type JointPose = { readonly transform: { readonly position: Readonly<Record<"x" 
 export interface HandFrame { getJointPose?(joint: any, base: any): JointPose | null | undefined }
 export interface HandSource { readonly hand?: { get(name: any): unknown } | null | undefined }
 
-/** Of an XRFrame, an XRInputSource and an XRReferenceSpace. False where not every joint is tracked: then nothing is read. */
+/** Reads a hand of an XRFrame, by an XRInputSource and an XRReferenceSpace. False where not every joint is tracked: then nothing is read. */
 export function readHand(frame: HandFrame, { hand }: HandSource, space: unknown, { frames, radii }: TrackedHand): boolean {
   if (hand === undefined || hand === null || frame.getJointPose === undefined) return false;
   const poses: JointPose[] = [];

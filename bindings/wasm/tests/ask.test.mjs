@@ -53,7 +53,7 @@ test("rays, casts, overlaps and the nearest, now and then", () => {
   isAt(world.probe(0, { a: [0, 1, 0], b: [0, 2, 0], radius: 0.25 }, { within: 5 }).hits[0].distance, 0.25);
   assert.equal(world.probe(0, { a: [0, 1, 0], radius: 0.6 }).verdict, "hit");
   assert.equal(world.probe(0, { a: [0, 1, 0], radius: 0.4 }).verdict, "clear");
-  // Whom.
+  // What a question is about.
   const onWall = (options) => assert.equal(world.probe(0, [-3, 0, 0], { direction: [1, 0, 0], ...options }).hits[0].what.body, stillScene);
   onWall({ without: [body] });
   onWall({ without: [{ body, link: 0 }] });
@@ -158,7 +158,7 @@ test("what flies hits where the ball is by then", () => {
   assert.deepEqual([passing.verdict, passing.hit, passing.timeUs], ["clear", null, null]);
 });
 
-/** Numbers with few digits, so that a world file and the module are told the same. */
+/** Numbers with few digits, so that a world file and the module get the same. */
 function draws(seed) {
   let state = seed;
   return () => ((state = (state * 1103515245 + 12345) % 2147483648) / 2147483648) * 2 - 1;

@@ -62,7 +62,7 @@ link = "Head"
 position = [0, 0, 0]
 `;
 
-/** What the native program tells of it: a header and events. */
+/** What the native program reports of it: a header and events. */
 export function nativeEvents() {
   const folder = mkdtempSync(join(tmpdir(), "foretouch-world-"));
   try {

@@ -65,7 +65,7 @@ test("a dancer, a door and a ball: the events of the native program", { skip }, 
     assert.deepEqual(events.map(({ kind }) => kind), native.get(pair).map(({ event }) => event), pair);
     events.forEach((our, i) => {
       const their = native.get(pair)[i];
-      // Either may tell an event anywhere within the tolerance (docs/machines.md).
+      // Either may report an event anywhere within the tolerance (docs/machines.md).
       near(exact(our), their.utime + their.fraction, 1000);
       near(our.separation, their.separation, 2e-3);
       for (const axis of [0, 1, 2]) near(our.normal[axis], their.normal[axis], 0.05);
@@ -207,7 +207,7 @@ test("a door pushes it, a press crushes it", () => {
   const kinds = [], crushes = [];
   let pushed = 0, shown = 0, height = 0;
   for (let k = 1; k <= 120; ++k) {
-    // The door goes sideways as well, at 0.5 m/s.
+    // The door also goes sideways, at 0.5 m/s.
     world.world.push(door, tickUs * k, at(Math.min(-1 + 0.02 * k, 0.94), 0.005 * k));
     const [told] = world.tick(tickUs * k, [{ body: hand, pose: at(0) }]);
     kinds.push(...world.follow().events.map(({ kind, b }) => [kind, b.body]));

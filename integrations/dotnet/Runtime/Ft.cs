@@ -25,7 +25,7 @@ namespace Foretouch {
   public static unsafe partial class Ft {
     static bool isChecked;
 
-    /// <summary>"0.1.0", of the library that runs.</summary>
+    /// <summary>The running library's: "0.1.0".</summary>
     public static string Version {
       get { CheckLibrary(); return TextAt(FtNative.ft_version()); }
     }

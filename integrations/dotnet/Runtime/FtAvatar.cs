@@ -11,7 +11,7 @@ namespace Foretouch {
     string[] names;
     int count;
 
-    /// <summary>`parents`: of an earlier joint, or -1. `offsets`: x, y, z per joint in its parent's frame;
+    /// <summary>`parents`: an earlier joint's, or -1. `offsets`: x, y, z per joint in its parent's frame;
     /// empty `rotations` (w, x, y, z): none. `lssLinks`: the joint that each LSS moves with.</summary>
     public static FtAvatar Create(string[] names, ReadOnlySpan<int> parents, ReadOnlySpan<double> offsets,
                                   ReadOnlySpan<double> rotations, ReadOnlySpan<FtLss> lss, ReadOnlySpan<int> lssLinks) {
@@ -50,7 +50,7 @@ namespace Foretouch {
       return avatar;
     }
 
-    /// <summary>The same of a text in memory, a TextAsset, say; errors call it `name`.</summary>
+    /// <summary>The same from a text in memory, a TextAsset, say; errors call it `name`.</summary>
     public static FtAvatar Parse(string json, string name) {
       Ft.CheckLibrary();
       byte[] bytes = Ft.Utf8(json);

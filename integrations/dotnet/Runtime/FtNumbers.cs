@@ -43,7 +43,7 @@ namespace Foretouch {
       Ft.Must(FtNative.ft_positions_from_floats(&position.x, 1, axes, &converted.x));
       return converted;
     }
-    /// <summary>Of a position or a velocity in W. Of a unit normal, too, where axes are in metres.</summary>
+    /// <summary>For a position or a velocity in W. For a unit normal, too, where axes are in metres.</summary>
     public static Float3 ToFloats(FtVector position, int axes) {
       var converted = new Float3();
       Ft.Must(FtNative.ft_positions_to_floats(&position.x, 1, axes, &converted.x));
@@ -54,7 +54,7 @@ namespace Foretouch {
       Ft.Must(FtNative.ft_rotations_from_floats(&xyzw.x, 1, axes, &converted.w));
       return converted;
     }
-    /// <summary>Metres, of a length in the engine's unit.</summary>
+    /// <summary>Metres, from a length in the engine's unit.</summary>
     public static double Length(float length, int axes) { return Position(new Float3(length, 0, 0), axes).x; }
   }
 }

@@ -1,5 +1,5 @@
-// FtPoseBuffer.cs: a pose in memory of its own, which the collector does not move: whoever steps 90
-// times a second pins nothing and makes no garbage.
+// FtPoseBuffer.cs: a pose in its own memory, which the collector does not move: code that steps 90
+// times per second pins nothing and makes no garbage.
 using System;
 using System.Runtime.InteropServices;
 
@@ -7,7 +7,7 @@ namespace Foretouch {
   public sealed unsafe class FtPoseBuffer : FtHandle {
     readonly int joints;
 
-    /// <summary>Of as many joints: every one at the origin of its parent, not turned.</summary>
+    /// <summary>A pose of as many joints, each at the origin of its parent, not turned.</summary>
     public FtPoseBuffer(int jointCount) {
       if (jointCount < 1) throw new ArgumentOutOfRangeException("jointCount", "expected 1 or more, found " + jointCount);
       joints = jointCount;
@@ -22,7 +22,7 @@ namespace Foretouch {
     public FtPoseBuffer(FtAvatar avatar) : this(avatar.JointCount) { avatar.RestPose(this); }
 
     public int JointCount { get { return joints; } }
-    /// <summary>For FtNative alone, and as long as somebody holds this.</summary>
+    /// <summary>For FtNative only, and only as long as this is held.</summary>
     public FtPose* Native {
       get {
         if (IsClosed) throw new ObjectDisposedException("FtPoseBuffer");
@@ -34,7 +34,7 @@ namespace Foretouch {
     /// <summary>x, y, z per joint, metres.</summary>
     public Span<double> Translations { get { return new Span<double>(Native->translations, 3 * joints); } }
 
-    /// <summary>Of one joint, in its parent's frame; of a root in W.</summary>
+    /// <summary>Sets one joint, in its parent's frame; a root in W.</summary>
     public void SetPosition(int joint, FtVector to) {
       Span<double> position = Translations.Slice(3 * joint, 3);
       position[0] = to.x;
@@ -62,7 +62,7 @@ namespace Foretouch {
       other.Translations.CopyTo(Translations);
     }
 
-    /// <summary>What an engine has, of all joints: FtAxes.YUpLeft is Unity's localRotation and
+    /// <summary>Takes all joints from an engine: FtAxes.YUpLeft is Unity's localRotation and
     /// localPosition.</summary>
     public void FromFloats(ReadOnlySpan<Float4> rotations, ReadOnlySpan<Float3> positions, int axes) {
       MustFit(rotations.Length, positions.Length);

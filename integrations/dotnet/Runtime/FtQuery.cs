@@ -35,7 +35,7 @@ namespace Foretouch {
       GC.KeepAlive(to);
     }
 
-    /// <summary>With pair rules: own links that are not clear of each other, and of each the other one.</summary>
+    /// <summary>With pair rules: own links that are not clear of each other, and for each the other one.</summary>
     public ReadOnlySpan<FtContact> Pairs(out ReadOnlySpan<FtOtherLink> otherLinks) {
       ulong count;
       int status;
@@ -50,7 +50,7 @@ namespace Foretouch {
       return pairs.First(count);
     }
 
-    /// <summary>What a check of that instant alone would see.</summary>
+    /// <summary>What a check of only that instant would see.</summary>
     public bool TouchesAt(int link, double t) {
       int touches;
       Ft.Must(FtNative.ft_touches_at(this, link, t, out touches));

@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 
 namespace Foretouch {
   public sealed unsafe partial class FtRobot {
-    /// <summary>One joint per joint of the avatar; `names`, of the coordinates, may be null.</summary>
+    /// <summary>One joint per joint of the avatar; `names`, the coordinates', may be null.</summary>
     public static FtRobot Create(FtAvatar avatar, ReadOnlySpan<FtRobotJoint> joints, string[] names = null) {
       Ft.CheckLibrary();
       var texts = new FtTexts(names);

@@ -1,4 +1,4 @@
-// FtScene.cs: static triangles, of arrays or of a file.
+// FtScene.cs: static triangles, from arrays or from a file.
 using System;
 using System.Runtime.InteropServices;
 

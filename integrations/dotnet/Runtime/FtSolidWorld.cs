@@ -31,7 +31,7 @@ namespace Foretouch {
       GC.KeepAlive(tracked);
     }
 
-    /// <summary>The same of several, one pose per body; with none of them, all keep their targets.</summary>
+    /// <summary>The same for several, one pose per body; with none of them, all keep their targets.</summary>
     public void Tick(long timeUs, ReadOnlySpan<int> bodies, FtPoseBuffer[] tracked) {
       if (tracked.Length != bodies.Length)
         throw new ArgumentException("tracked: expected one per body, " + bodies.Length + ", found " + tracked.Length);

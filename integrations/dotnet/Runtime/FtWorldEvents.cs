@@ -1,9 +1,9 @@
-// FtWorldEvents.cs: who enters whom and leaves, from FollowFrom() on; triggers; and depths.
+// FtWorldEvents.cs: what enters and leaves what, from FollowFrom() on; triggers; and depths.
 using System;
 
 namespace Foretouch {
   public sealed unsafe partial class FtWorld {
-    /// <summary>Events are told from here on.</summary>
+    /// <summary>Events are reported from here on.</summary>
     public void FollowFrom(long fromUs, int threads = 1, long cutUs = 0) {
       var options = new FtFollowOptions { size = (uint)sizeof(FtFollowOptions), threads = threads, cutUs = cutUs };
       Ft.Must(FtNative.ft_world_follow_from(this, fromUs, &options));

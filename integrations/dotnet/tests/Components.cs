@@ -1,4 +1,4 @@
-// Components.cs: the components in a player that FakeUnity.cs plays: what they tell, beside the library's
+// Components.cs: the components in a player that FakeUnity.cs plays: what they report, beside the library's
 // own answers in its own frame; and what they say about a host's bad habits.
 using System;
 using System.Collections.Generic;

@@ -26,7 +26,7 @@ namespace UnityEngine {
     }
   }
 
-  /// Of a transform whose scales do not skew.
+  /// The scale in the world of a transform whose scales do not skew.
   public struct Matrix4x4 {
     internal Transform of;
     public Vector3 MultiplyPoint3x4(Vector3 v) { return of.position + MultiplyVector(v); }
@@ -78,7 +78,7 @@ namespace UnityEngine {
     public Quaternion rotation { get { return parent == null ? localRotation : parent.rotation * localRotation; } }
     public Vector3 lossyScale { get { return parent == null ? localScale : Vector3.Scale(parent.lossyScale, localScale); } }
     public Matrix4x4 localToWorldMatrix { get { return new Matrix4x4 { of = this }; } }
-    /// Of one whose parents do not turn: those that hands are shown by in the tests.
+    /// For roots only: those that hands are shown by in the tests.
     public void SetPositionAndRotation(Vector3 to, Quaternion turn) {
       if (parent != null) throw new NotSupportedException("only of roots");
       localPosition = to;
@@ -135,7 +135,7 @@ namespace UnityEngine {
 
   /// The player's loop, as a test drives it.
   public static class Player {
-    /// Of game objects: all that get fixed updates.
+    /// The game objects' scripts: all that get fixed updates.
     public static readonly List<MonoBehaviour> Scripts = new List<MonoBehaviour>();
     public static void Call(MonoBehaviour of, string message, params object[] arguments) {
       MethodInfo method = null;

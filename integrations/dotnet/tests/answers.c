@@ -162,7 +162,7 @@ static ft_scene* panel(void) {
   return made;
 }
 
-/* Where the panel is in its frame k: of rational numbers, so that nobody's sine counts. */
+/* Where the panel is in its frame k: by rational numbers, so that no library's sine counts. */
 static ft_pose panel_at(int k, double* turn, double* place) {
   ft_pose at;
   const double p = 0.01 * (k % 100), norm = 1 + p * p;

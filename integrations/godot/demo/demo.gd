@@ -1,5 +1,5 @@
 # A tracked hand (here, a path) reaches through a railing, presses a button and pushes a door; the shown hand
-# passes through none of them. What the hand pushes, this script moves, and tells the scene.
+# passes through none of them. This script moves what the hand pushes, and reports it to the scene.
 extends Spatial
 
 # Where the tracker is, and when.
@@ -45,7 +45,7 @@ func _on_released(_joint: String, object: String) -> void:
 	print("%.2f s: leaves %s" % [_seconds, object])
 
 
-# What gives way moves by what the hand presses, and not faster than 1 cm a frame.
+# What gives way moves by what the hand presses, and not faster than 1 cm per frame.
 func _on_push(_joint: String, object: String, point: Vector3, _normal: Vector3, push: float) -> void:
 	var way := min(push, 0.01)
 	if object == "Button" and not _is_pressed:

@@ -310,7 +310,7 @@ static bool make_of_node(Body* body, void* node) {
   return false;
 }
 
-/* build(Skeleton or Spatial): of the joints and capsules that were added. */
+/* build(Skeleton or Spatial): from the joints and capsules that were added. */
 static void build(void* self, const Value* arguments, Value* result) {
   Body* body = self;
   forget_made(body);
@@ -360,7 +360,7 @@ static void load_clip(void* self, const Value* arguments, Value* result) {
   result->integer = (int64_t)info.frame_count;
 }
 
-/* use_scene(FtScene, tolerance): what steps are asked of; the next one begins anew. */
+/* use_scene(FtScene, tolerance): what steps are asked about; the next one begins anew. */
 static void use_scene(void* self, const Value* arguments, Value* result) {
   Body* body = self;
   const Scene* scene = scene_of_owner(arguments[0].object);

@@ -35,7 +35,7 @@ typedef struct Body {
   size_t joint_count;
   Capsule* capsules;
   size_t capsule_count;
-  int64_t bone_count; /* of the skeleton that it was made of */
+  int64_t bone_count; /* of the skeleton that it was made from */
   bool is_of_file;    /* load(): its poses come from a clip, else from nodes */
   ft_avatar* avatar;
   ft_clip* clip;
@@ -72,7 +72,7 @@ ft_pose as_pose(const Body* body, const Pose* pose);
 /* Bytes of a result; NULL: no memory. */
 uint8_t* bytes_of(Body* body, size_t count);
 
-/* Of steps.c and solid.c, for the table of methods. */
+/* Functions of steps.c and solid.c, for the table of methods. */
 void body_step(void* self, const Value* arguments, Value* result);
 void body_step_clip(void* self, const Value* arguments, Value* result);
 void body_sweep(void* self, const Value* arguments, Value* result);

@@ -24,7 +24,7 @@ enum { GX_LEVEL_SCENE = 2 }; /* of initialisation */
 enum { GX_METHOD_NORMAL = 1 };
 enum { GX_CALL_OK = 0, GX_CALL_INVALID_ARGUMENT = 2, GX_CALL_TOO_MANY = 3, GX_CALL_TOO_FEW = 4 };
 
-/* Of builds whose real_t is float, on machines of 64 bits. */
+/* Values of builds whose real_t is float, on machines of 64 bits. */
 typedef struct gx_variant {
   uint64_t opaque[3];
 } gx_variant;
@@ -76,7 +76,7 @@ typedef struct gx_method {
   void** defaults;
 } gx_method;
 
-/* The first shape of it, which later Godots take as well. */
+/* The first shape of it, which later Godots take, too. */
 typedef struct gx_class {
   gx_bool is_virtual, is_abstract;
   gx_function set, get, get_list, free_list, can_revert, get_revert, notify, to_string, reference,

@@ -36,7 +36,7 @@ static double determinant(const double m[9]) {
          m[2] * (m[3] * m[7] - m[4] * m[6]);
 }
 
-/* Of a rotation matrix times `scale`, by its largest component, so that nothing cancels. */
+/* A rotation matrix times `scale` to a quaternion, by its largest component: nothing cancels. */
 static void quaternion_of(const double m[9], double scale, double q[4]) {
   const double trace[4] = {m[0] + m[4] + m[8], m[0] - m[4] - m[8], m[4] - m[0] - m[8],
                            m[8] - m[0] - m[4]};
@@ -69,7 +69,7 @@ bool place_of(const Affine* from, Place* place, double scales[3]) {
     is_even = is_even && isfinite(from->origin[i]) && fabs(squares[i] - squares[0]) <= 2 * SCALE_SLACK * squares[0];
   }
   place->scale = sqrt(squares[0]);
-  /* Of axes at right angles the volume is the product of their lengths, and below it where they are mirrored. */
+  /* For axes at right angles the volume is the product of their lengths, and below it where they are mirrored. */
   if (!is_even || !(volume > 0) || !isfinite(place->scale) ||
       !(volume * volume > (1 - 2 * SCALE_SLACK * SCALE_SLACK) * squares[0] * squares[1] * squares[2])) {
     for (i = 0; i < 3; ++i) scales[i] = sqrt(squares[i]);

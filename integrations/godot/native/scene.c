@@ -10,7 +10,7 @@
 
 struct Scene {
   void* owner;
-  Scene* next; /* of all that live */
+  Scene* next; /* in the list of all that live */
   ft_scene* handle;
   double* positions; /* nine per triangle */
   int32_t* objects;  /* one per triangle */

@@ -4,7 +4,7 @@
 
 #include <foretouch/foretouch.h>
 
-/* The scene of Godot's object; NULL: it is no FtScene. */
+/* The scene of Godot's object; NULL: it is not an FtScene. */
 typedef struct Scene Scene;
 Scene* scene_of_owner(const void* owner);
 /* NULL: it was not built. */

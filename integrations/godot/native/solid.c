@@ -46,7 +46,7 @@ static bool has_press_room(Body* body) {
   return true;
 }
 
-/* To `body->to`; the number of surfaces that hold it, or -1. */
+/* Follows to `body->to`; the number of surfaces that hold it, or -1. */
 static int64_t follow_on(Body* body, double dt_s) {
   const ft_pose to = as_pose(body, &body->to);
   if (!(dt_s >= shortest_tick_s)) dt_s = shortest_tick_s;

@@ -42,7 +42,7 @@ void body_step(void* self, const Value* arguments, Value* result) {
     result->integer = step_on(body, goes_on);
 }
 
-/* step_clip(frame): likewise, to a frame of the clip. */
+/* step_clip(frame): the same, to a frame of the clip. */
 void body_step_clip(void* self, const Value* arguments, Value* result) {
   Body* body = self;
   const bool goes_on = body->has_begun;
@@ -142,7 +142,7 @@ void contact_normal(void* self, const Value* arguments, Value* result) {
   to_floats(contact(self, arguments)->normal, result->vector);
 }
 
-/* All of the last step without rounding, for whoever wants doubles: the pose it ended with (w, x, y, z per
+/* All of the last step without rounding, for callers that want doubles: the pose it ended with (w, x, y, z per
  * joint, then x, y, z), and ft_contact of foretouch.h per joint, clear ones too. */
 void step_bytes(void* self, const Value* arguments, Value* result) {
   Body* body = self;

@@ -110,7 +110,7 @@ static Matrix product(const Matrix* a, const Matrix* b) {
   return to;
 }
 
-/* Of a joint of a pose, in its parent's frame. */
+/* The place of one joint of a pose, in its parent's frame. */
 static Matrix matrix_of(const double* q, const double* p) {
   const double w = q[0], x = q[1], y = q[2], z = q[3];
   const Matrix to = {{{w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y), p[0]},

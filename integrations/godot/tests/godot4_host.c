@@ -258,7 +258,7 @@ static Variant of_floats(int32_t type, const float* from) { Variant to; from_typ
 
 static const float corners[18] = {0, -5, -5, 0, 5, -5, 0, 5, 5, 0, -5, -5, 0, 5, 5, 0, -5, 5};
 
-/* Of a ball in C, by the library itself. */
+/* The share before a ball's touch in C, by the library itself. */
 static double share_in_c(void) {
   static const double zero[3] = {0, 0, 0}, one[4] = {1, 0, 0, 0}, far[3] = {1, 0, 0};
   double positions[18];

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The add-on for Godot, run by Debian's godot3-server, without a screen: what nodes tell and what they say of bad
+# The add-on for Godot, run by Debian's godot3-server, without a screen: what nodes report and what they say of bad
 # habits, all answers beside those of C, the demo, and the entry for Godot 4 in a host of our own.
 #   godot_test.sh FOLDER_OF_LIBRARY IMPORTER FOLDER_OF_EXAMPLES                all tests
 #   godot_test.sh FOLDER_OF_LIBRARY IMPORTER FOLDER_OF_EXAMPLES --cost         what the border costs, measured

@@ -1,4 +1,4 @@
-# Hands led at a board of 4 mm, at up to 10 m/s, turning, at 60 frames a second: how many end behind it, and how
+# Hands led at a board of 4 mm, at up to 10 m/s, turning, at 60 frames per second: how many end behind it, and how
 # many have a finger through it, by ForetouchBody.rotate_and_collide() and by KinematicBody.move_and_collide(). The
 # judge is closed form: the two ends of the capsule's axis, where it was left in each frame.
 extends "check.gd"

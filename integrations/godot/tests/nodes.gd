@@ -1,4 +1,4 @@
-# The nodes: what they tell, and what they say about a host's bad habits. The script beside this one holds the
+# The nodes: what they report, and what they say about a host's bad habits. The script beside this one holds the
 # errors that Godot prints against the words after "expect:".
 extends "check.gd"
 
@@ -303,7 +303,7 @@ func _bad_bodies(level):
 
 
 func _freed():
-	# What it follows, the scene, and itself, each freed by whoever is told in the middle of a step.
+	# What it follows, the scene, and itself, each freed by a listener in the middle of a step.
 	for victim in ["node", "level", "body", "child"]:
 		var level = scene()
 		var holder := Spatial.new()

@@ -69,7 +69,7 @@ function objOf(text) {
   return { OBJ: { positions, indices }, mesh: new THREE.Mesh(geometry) };
 }
 
-/** A hand that wanders through a room and a swinging door; what is shown and told at each tick, by `update`. */
+/** A hand that wanders through a room and a swinging door; what is shown and reported at each tick, by `update`. */
 function wander(world, hand, space, door, count, each) {
   const turn = new THREE.Euler();
   for (let i = 1; i <= count; ++i) {

@@ -79,7 +79,7 @@ for (let i = 2; i <= count; ++i) {
   border.push(ours.at(-1) - bare.at(-1));
   queried.push(asked);
 }
-// Hands alone, of an engine that answers at once: what is read and placed, with nothing between that takes the caches.
+// Hands alone, with an engine that answers at once: what is read and placed, and nothing between that takes the caches.
 const ignored = () => undefined, atOnce = { fit: () => [], stands: ignored, shape: ignored, forget: ignored, begin: ignored, join: ignored, dispose: ignored };
 const { tick: template } = hands[0], answered = ({ body, pose }) => ({ ...template, body, contacts: [], tick: { ...template.tick, shown: pose, contacts: [] } });
 const alone = new TouchWorld({ ...atOnce, tick: ({ targets }) => ({ solids: targets.map(answered), events: [] }) }, null), shown = spaces.map((space) => alone.addHand(space));

@@ -1,4 +1,4 @@
-// A hand of WebXR in three.js, without a page: it meets a board, a drawer and a platform, is told of it,
+// A hand of WebXR in three.js, without a page: it meets a board, a drawer and a platform, hears of it,
 // and passes through nothing.
 
 import assert from "node:assert/strict";

@@ -34,7 +34,7 @@ const browser = await chromium.launch({ executablePath: chromiumAt, args: ["--no
 const complaints = [];
 
 /** A 72nd of a second per frame, whatever one takes here: a frame that takes long is a gap to hands, and where
- * platforms are after it is nobody's doing. Of an engine in a worker no more than five frames are left out. */
+ * platforms are after it is left to chance. With an engine in a worker no more than five frames are left out. */
 function clockOfFrames() {
   let now = 0, waited = 0;
   const ask = window.requestAnimationFrame.bind(window);

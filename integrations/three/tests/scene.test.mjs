@@ -115,7 +115,7 @@ test("what a host's bad habits are told, and what happens then", async () => {
   const nan = box("nan", [1, 1, 1], [Number.NaN, 0, 0]);
   refuses(() => worldOf(nan).update(0), /nan: its vertex 0 is at no place/);
 
-  // A skeleton that changes: it is told, that body stops, all others go on.
+  // A skeleton that changes: it is reported, that body stops, all others go on.
   const body = await world.addBody(skinned), space = handSpace(), hand = world.addHand(space);
   let now = frames(world, 5, () => lead(space, [1, 0, 0]), 1000);
   assert.ok(body.member.body >= 0 && hand.state === "equal");

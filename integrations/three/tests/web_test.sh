@@ -2,7 +2,7 @@
 # The packages for three.js and Babylon.js: compiled, packed into build/npm, tested in node, used from an empty
 # folder as their pages say, and their examples opened in Chromium with an emulated headset.
 #   web_test.sh           all of it; without a screen, the network but for npm, or a headset
-#   web_test.sh --node    the tests in node alone, of what is installed already
+#   web_test.sh --node    only the tests in node, of what is installed already
 #   web_test.sh --cost    what a step costs, measured
 # Exit code 77, and why: foretouch for JavaScript is not built, or nothing is installed.
 set -euo pipefail
@@ -16,7 +16,7 @@ node --eval 'process.exit(parseInt(process.versions.node) >= 18 ? 0 : 1)' 2>/dev
 command -v npm >/dev/null || skip "there is no npm (Debian: apt install npm)"
 [ -f "$foretouch" ] || skip "there is no $foretouch (./run npm makes it)"
 
-# Compiled against the package, as anybody's own code is.
+# Compiled against the package, as users' own code is.
 prepare() (  # prepare HOST
   cd "integrations/$1"
   if [ package-lock.json -nt node_modules/.package-lock.json ]; then

@@ -1,7 +1,7 @@
 /* ask.h: questions to a moving world at an instant, in C99 and C++: what a ray hits, what a moved
  * sphere, capsule or convex solid hits first, what a shape overlaps, what is nearest, what a point
- * is inside of; and what a shape that flies hits first while the bodies move. At any instant that
- * the world knows, of the past and between poses too. What they are good for, task by task:
+ * is inside of; and what a shape that flies hits first while the bodies move. The instant may be
+ * any that the world knows, also past ones and between poses. What they are good for, task by task:
  * docs/ask.md. Units, frames, errors, memory and sizes of structs are as in foretouch.h; time is as
  * in world.h. */
 #ifndef FORETOUCH_ASK_H
@@ -27,13 +27,13 @@ typedef struct ft_skin {
   const double* share_weights;   /* above 0 */
   const double* share_points;    /* the vertex in the link's frame, where it was bound; metres */
   const int32_t* triangles;      /* three vertices each */
-  const int32_t* triangle_links; /* whose hit each is */
+  const int32_t* triangle_links; /* the link whose hit each is */
   size_t triangle_count;
 } ft_skin;
 
-/* From now on questions meet bodies of this avatar, which are added later, by the skin, as it is
- * bent at the instant; links without triangles of it as they touch. First contacts and events go on
- * by LSS or triangles. The arrays are not kept. Errors: bad arrays; ft_last_error_index() is the
+/* Questions meet bodies of this avatar by the skin, as it is bent at the instant, if the bodies are
+ * added after this call; links without triangles of it as they touch. First contacts and events go
+ * on by LSS or triangles. The arrays are not kept. Errors: bad arrays; ft_last_error_index() is the
  * vertex or triangle. */
 FT_API ft_status ft_avatar_set_skin(ft_avatar* avatar, const ft_skin* skin);
 
@@ -46,8 +46,8 @@ typedef struct ft_ask_part {
   int32_t object; /* or FT_EVERY_OBJECT */
 } ft_ask_part;
 
-/* A body that is asked about at an instant of its own, with all that carries it: what a player saw,
- * who sees others late. */
+/* A body that is asked about at an instant of its own, with all that carries it: for what a player
+ * saw who sees others late. */
 typedef struct ft_ask_instant {
   int32_t body;
   int32_t reserved; /* 0 */
@@ -55,13 +55,13 @@ typedef struct ft_ask_instant {
   double time_fraction; /* of one more microsecond, in [0, 1) */
 } ft_ask_instant;
 
-/* Whom a question is about: everybody, unless it says less. */
+/* What a question is about: everything, unless it says less. */
 typedef struct ft_ask_whom {
   uint32_t size;
   uint32_t groups;         /* bit g: bodies of group g; default all */
-  int32_t asks_still;      /* 1, the default: what is still as well; 0 */
+  int32_t asks_still;      /* 1, the default: what is still, too; 0: not */
   int32_t reserved;        /* 0 */
-  const ft_ask_part* only; /* nothing but these; none: everybody */
+  const ft_ask_part* only; /* nothing but these; none: everything */
   size_t only_count;
   const ft_ask_part* without; /* not these */
   size_t without_count;
@@ -91,11 +91,11 @@ typedef struct ft_question {
   /* Where it begins; solid. Both ends alike: a sphere. No radius either: a point, whose cast is a
    * ray. */
   ft_lss shape;
-  double direction[3]; /* of a cast: of any length but zero */
-  double reach;        /* of a cast: how far it moves; of nearest: no farther; up to 1e8 m */
+  double direction[3]; /* a cast's: any length but zero */
+  double reach;        /* how far a cast moves, or nearest looks; up to 1e8 m */
   int64_t time_us;     /* the instant, */
   double time_fraction;
-  const ft_ask_whom* whom;        /* NULL: everybody */
+  const ft_ask_whom* whom;        /* NULL: everything */
   const ft_ask_instant* instants; /* these bodies at these instants, all others at time_us */
   size_t instant_count;
   /* Three numbers each, from shape.a: corners of the convex solid that takes the place of the axis,
@@ -114,13 +114,13 @@ FT_API ft_status ft_question_init(ft_question* question, size_t size);
 enum {
   FT_ASK_CLEAR = 0,  /* nothing is hit or near, proven */
   FT_ASK_HIT = 1,    /* something is; what is unknown may be nearer */
-  FT_ASK_UNKNOWN = 2 /* nothing that is known is; of what is unknown nothing is claimed */
+  FT_ASK_UNKNOWN = 2 /* nothing that is known is; nothing is claimed of what is unknown */
 };
 
 /* Answers, and stores FT_ASK_CLEAR, _HIT or _UNKNOWN in *verdict, which may be NULL. Never missed,
  * never late: what the shape hits, where everything truly is at the instant, has a hit, no farther
  * than it is, and at most 1e-9 m nearer where doubles resolve it. Questions at the instant of the
- * last one, while nobody changes the world, are cheapest. Allocates nothing once memory has grown.
+ * last one, while nothing changes the world, are cheapest. Allocates nothing once memory has grown.
  * Errors name the field: a shape, direction or reach that is not finite, out of range, or without
  * length; unknown bodies and links; an instant before what was forgotten. After an error the last
  * answer stays. */
@@ -132,9 +132,9 @@ typedef struct ft_world_hit {
   uint32_t size;
   int32_t is_assumed; /* 1: it rests on a body that was silent, and was taken to hold still */
   ft_world_side what; /* its point: on its surface */
-  double distance;    /* of a cast: along the way, free before; else how far apart; rounded down */
-  double normal[3];   /* unit, to the shape, W; zero if none is told */
-  double weights[3];  /* of a triangle: the point as a sum of its corners; else zero */
+  double distance;    /* a cast's: along the way, free before; else how far apart; rounded down */
+  double normal[3];   /* unit, to the shape, W; zero if none is reported */
+  double weights[3];  /* a triangle's: the point as a sum of its corners; else zero */
 } ft_world_hit;
 
 /* What one of many questions found: its hits are the next hit_count of ft_world_hits(), after those
@@ -151,9 +151,9 @@ typedef struct ft_probed {
 FT_API ft_status ft_world_probe_many(ft_world* world, const ft_question* questions, size_t count,
                                      ft_probed* probed);
 
-/* Of the last ft_world_probe(): by distance, then by body, link, LSS and triangle; of the last
- * ft_world_probe_many(), question after question. In arrays, the first element's size applies to
- * all. FT_ERROR_NO_STEP before the first answer. O(n). */
+/* The last ft_world_probe()'s hits, by distance, then by body, link, LSS and triangle; those of the
+ * last ft_world_probe_many(), question after question. In arrays, the first element's size applies
+ * to all. FT_ERROR_NO_STEP before the first answer. O(n). */
 FT_API ft_status ft_world_hits(const ft_world* world, ft_world_hit* hits, size_t capacity,
                                size_t* required);
 
@@ -161,9 +161,9 @@ enum {
   FT_ASK_ASSUMED = 0,    /* silent, and taken to hold still: hits of it are assumed */
   FT_ASK_SILENT = 1,     /* nothing is known after its last pose; it was left out */
   FT_ASK_NOT_THERE = 2,  /* before its first pose; it was left out */
-  FT_ASK_UNRESOLVED = 3, /* of a flight: more triangles, or steps, than are followed in motion */
+  FT_ASK_UNRESOLVED = 3, /* in a flight: more triangles, or steps, than are followed in motion */
   FT_ASK_OPEN =
-      4 /* of solids: an object of it, or of what is still, has no inside: it is not closed */
+      4 /* with solids: an object of it, or of what is still, has no inside: it is not closed */
 };
 
 /* A body that was asked about and is not known then; or an object that has no inside. */
@@ -171,11 +171,11 @@ typedef struct ft_unknown_body {
   uint32_t size;
   int32_t body;   /* or FT_STILL_SCENE */
   int32_t why;    /* FT_ASK_ASSUMED to FT_ASK_OPEN */
-  int32_t object; /* of FT_ASK_OPEN, unless it is a link's surface; else FT_EVERY_OBJECT */
+  int32_t object; /* for FT_ASK_OPEN, unless it is a link's surface; else FT_EVERY_OBJECT */
 } ft_unknown_body;
 
-/* Of the last ft_world_probe(), ft_world_probe_many() or ft_world_fly(), whichever came last; by
- * body, of many questions one after the other. */
+/* What was unknown to the last ft_world_probe(), ft_world_probe_many() or ft_world_fly(), whichever
+ * came last; by body, question after question. */
 FT_API ft_status ft_world_unknown(const ft_world* world, ft_unknown_body* bodies, size_t capacity,
                                   size_t* required);
 
@@ -188,7 +188,7 @@ typedef struct ft_flight {
   ft_lss shape;      /* where it is at from_us */
   double way[3];     /* to where it is at to_us; zero: it waits */
   int64_t from_us, to_us;
-  const ft_ask_whom* whom; /* NULL: everybody */
+  const ft_ask_whom* whom; /* NULL: everything */
   const double* hull;      /* as in ft_question */
   size_t hull_count;
 } ft_flight;
@@ -198,7 +198,7 @@ FT_API ft_status ft_flight_init(ft_flight* flight, size_t size);
 /* The first hit of all. */
 typedef struct ft_flight_hit {
   uint32_t size;
-  int32_t verdict; /* FT_ASK_CLEAR, _HIT or _UNKNOWN: the rest is zero but of FT_ASK_HIT */
+  int32_t verdict; /* FT_ASK_CLEAR, _HIT or _UNKNOWN: the rest is zero unless FT_ASK_HIT */
   int64_t time_us; /* rounded down: nothing is hit before */
   double time_fraction;
   int32_t is_assumed; /* as in ft_world_hit, as all that follows */
@@ -209,7 +209,7 @@ typedef struct ft_flight_hit {
   double weights[3];
 } ft_flight_hit;
 
-/* The bodies' true motion and the shape's own, not a cast against where they were. Never missed and
+/* By the bodies' true motion and the shape's own, not a cast against where they were. Never missed,
  * never late, in time as in place. Errors: as ft_world_probe(); a time without length. */
 FT_API ft_status ft_world_fly(ft_world* world, const ft_flight* flight, ft_flight_hit* hit);
 

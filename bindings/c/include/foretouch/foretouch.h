@@ -54,12 +54,12 @@ extern "C" {
 
 /* ---- Versions ---- */
 
-/* Of this header and those beside it. Every new function or field increments it; programs built
- * with an older header still work. A change that would break them changes the library's soname
- * instead. */
+/* The version of this header and those beside it. Every new function or field increments it;
+ * programs built with an older header still work. A change that would break them changes the
+ * library's soname instead. */
 #define FT_ABI_VERSION 11
 
-/* Of the library that runs: "0.1.0", a text that lives for ever, and its FT_ABI_VERSION. */
+/* The running library's version, "0.1.0", a text that lives for ever, and its FT_ABI_VERSION. */
 FT_API const char* ft_version(void);
 FT_API uint32_t ft_abi_version(void);
 
@@ -73,7 +73,7 @@ typedef struct ft_near ft_near;
 typedef int32_t ft_status;
 enum {
   FT_OK = 0,
-  /* Of the call itself. */
+  /* Errors of the call itself. */
   FT_ERROR_NULL_ARGUMENT = 1, /* NULL for a required pointer. */
   FT_ERROR_WRONG_HANDLE = 2,  /* Not a handle of this kind. */
   FT_ERROR_STRUCT_SIZE = 3,   /* A size that no version of the struct has, or its newer fields. */
@@ -82,7 +82,7 @@ enum {
   FT_ERROR_NO_STEP = 6,          /* No step has been answered yet. */
   FT_ERROR_OUT_OF_MEMORY = 7,
   FT_ERROR_INTERNAL = 8, /* A bug in Foretouch. */
-  /* Of the input. */
+  /* Errors of the input. */
   FT_ERROR_FILE_NOT_FOUND = 100,
   FT_ERROR_FILE_UNREADABLE = 101,
   FT_ERROR_FILE_UNWRITABLE = 102,
@@ -127,7 +127,7 @@ typedef struct ft_scene_arrays {
   size_t object_count;             /* 0 counts as 1 if `objects` is NULL */
 } ft_scene_arrays;
 
-/* Writes zeroes and the size, at most `size` bytes. Likewise all ft_*_init(). */
+/* Writes the defaults, here zeroes, and the size, at most `size` bytes. So do all ft_*_init(). */
 FT_API ft_status ft_scene_arrays_init(ft_scene_arrays* arrays, size_t size);
 
 /* Triangles are two-sided. Keeps those without area; drops and counts those that are not finite
@@ -139,13 +139,13 @@ enum { FT_UP_FILE = -1, FT_UP_Y = 0, FT_UP_Z = 1 };
 
 typedef struct ft_import_options {
   uint32_t size;
-  /* Of the file, in place of what it says itself; default FT_UP_FILE. Z: (x, y, z) becomes
+  /* The up axis, in place of what the file says; default FT_UP_FILE. Z: (x, y, z) becomes
    * (x, z, -y). */
   int32_t up;
-  double scale; /* metres per unit, likewise; default 0: as the file says, else 1 */
-  /* Of the importing process; default 8 GiB. At most half of the machine's memory is used. */
+  double scale; /* metres per unit, in place of the file's; default 0: as the file says, else 1 */
+  /* The importing process' limit; default 8 GiB. It uses at most half of the machine's memory. */
   uint64_t memory_limit_bytes;
-  double time_limit_s; /* likewise; default 60 */
+  double time_limit_s; /* that process' limit, too; default 60 */
   /* Path of the program foretouch-import. NULL: $FORETOUCH_IMPORTER; else in the library's folder;
    * else in libexec/foretouch of the library's prefix, beside the running program, and where
    * Foretouch was installed. */
@@ -244,8 +244,8 @@ typedef struct ft_pose {
 
 FT_API ft_status ft_pose_init(ft_pose* pose, size_t size);
 
-/* Axes and units of an engine's floats, and their conversion; quaternions in the order x, y, z, w.
- * */
+/* Axes and units of an engine's floats, and their conversion; quaternions in the order
+ * x, y, z, w. */
 enum {
   FT_AXES_Y_UP_RIGHT = 0, /* metres, as here: Godot, OpenXR, glTF */
   FT_AXES_Y_UP_LEFT = 1,  /* metres, left-handed: Unity. Negates z */
@@ -264,17 +264,17 @@ FT_API ft_status ft_rotations_to_floats(const double* wxyz, size_t count, int32_
 
 typedef struct ft_clip_options {
   uint32_t size;
-  int32_t up;       /* of the file, as in ft_import_options */
-  double scale;     /* likewise */
+  int32_t up;       /* the file's, as in ft_import_options */
+  double scale;     /* as in ft_import_options */
   double yaw_deg;   /* then turned about +Y, */
   double origin[3]; /* then moved. */
   /* Since FT_ABI_VERSION 11. */
-  const char* skeleton; /* of an .amc: its .asf; NULL: the one beside it. Of others: NULL */
-  double row_rate_hz;   /* poses a second of an .amc or a session of WebXR; 0: as the file has it */
+  const char* skeleton; /* for an .amc: its .asf; NULL: the one beside it. For others: NULL */
+  double row_rate_hz;   /* poses per second of an .amc or a WebXR session; 0: as the file has it */
 } ft_clip_options;
 
 FT_API ft_status ft_clip_options_init(ft_clip_options* options, size_t size);
-/* Reads a BVH clip, the first animation of a model (.glb, .gltf, .fbx, .dae, .x) in 30 poses a
+/* Reads a BVH clip, the first animation of a model (.glb, .gltf, .fbx, .dae, .x) at 30 poses per
  * second, or motions of Acclaim (.amc), Xsens (.mvnx) and WebXR (.json). Its joints drive those of
  * the avatar that have the same name; the others keep their rest pose. Error if no name matches.
  * `options` may be NULL. */
@@ -301,7 +301,7 @@ enum {
   FT_PAIR_ADJACENT = 1,     /* one moves the other: between the two is no other link with LSS */
   FT_PAIR_REST_OVERLAP = 2, /* their LSS overlap in the rest pose */
   FT_PAIR_ALWAYS = 3,       /* they touch in nearly all usual poses */
-  FT_PAIR_USER = 4          /* somebody wanted it so */
+  FT_PAIR_USER = 4          /* the user wants it so */
 };
 
 /* Two links, in either order. */
@@ -354,19 +354,19 @@ FT_API ft_status ft_pair_rules_create_from_file(const char* path, const ft_avata
 typedef struct ft_pair_rules_info {
   uint32_t size;
   uint32_t reserved; /* 0 */
-  uint64_t pairs;    /* of different links that both have LSS */
-  uint64_t asked;    /* of these */
+  uint64_t pairs;    /* pairs of different links that both have LSS */
+  uint64_t asked;    /* how many of these are asked */
   uint64_t left_out, radii;
 } ft_pair_rules_info;
 
 FT_API ft_status ft_pair_rules_get_info(const ft_pair_rules* rules, ft_pair_rules_info* info);
-/* By a, then by b; a < b. */
+/* Sorted by a, then by b; a < b. */
 FT_API ft_status ft_pair_rules_left_out(const ft_pair_rules* rules, ft_left_out_pair* pairs,
                                         size_t capacity, size_t* required);
 FT_API ft_status ft_pair_rules_radii(const ft_pair_rules* rules, ft_pair_radius* radii,
                                      size_t capacity, size_t* required);
-/* Of every pair of links with LSS, by a, then by b: in how many of the usual poses the two touch.
- * None of rules that were not derived from poses. */
+/* In how many of the usual poses two links touch: every pair of links with LSS, by a, then by b.
+ * Rules that were not derived from poses have none. */
 typedef struct ft_pair_touches {
   int32_t a, b;
   int64_t touches;
@@ -386,7 +386,7 @@ enum {
 enum {
   FT_SCOPE_EVERY_LINK = 0,      /* every link's own first contact */
   FT_SCOPE_FIRST_OF_AVATAR = 1, /* the links that touch first; others: undecided, after_first */
-  FT_SCOPE_EVERY_OBJECT = 2     /* every link's own first contact with each object as well
+  FT_SCOPE_EVERY_OBJECT = 2     /* also every link's own first contact with each object
                                    (ft_query_objects); FT_FIDELITY_LINK or _EXACT, no budget */
 };
 #define FT_EVERY_OBJECT (-1)
@@ -406,7 +406,7 @@ typedef struct ft_link_policy {
 #define FT_EVERY_LINK (-1)
 #define FT_UNCHANGED (-1)
 
-/* What a link has with one object, if objects differ. Later policies win; what one leaves out stays
+/* A link's policy for one object, if objects differ. Later policies win; what one leaves out stays
  * as earlier ones set it, or else as for all links. A link's tolerance is the least of those that
  * it has with the objects that it does not ignore. */
 typedef struct ft_object_policy {
@@ -466,31 +466,31 @@ enum {
   FT_REASON_NONE = 0,
   FT_REASON_WORK_BUDGET = 1, /* or the deadline */
   FT_REASON_RESOLUTION = 2,  /* doubles cannot resolve the tolerance at these coordinates */
-  FT_REASON_GAP = 4,         /* of events alone: a body is silent, and nobody knows where it is */
+  FT_REASON_GAP = 4,         /* in events only: a body is silent, and where it is is unknown */
   FT_REASON_AFTER_FIRST = 3  /* FT_SCOPE_FIRST_OF_AVATAR: another link's contact is earlier */
 };
 enum { FT_FEATURE_VERTEX = 0, FT_FEATURE_EDGE = 1, FT_FEATURE_FACE = 2 };
 
 /* What one link meets first. Sound: toi and free_until never exceed the true time of contact. In
- * arrays, the first element's size applies to all, and the library sets the others'. How deep
- * triangles begin, which have no inside, is not known: penetration is NaN then, here and in
+ * arrays, the first element's size applies to all, and the library sets the others'. Triangles have
+ * no inside, so how deep they are at the start is not known: penetration is NaN then, here and in
  * ft_world_contact and ft_event. */
 typedef struct ft_contact {
   uint32_t size;
   int32_t link;
   int32_t verdict;
-  int32_t reason;        /* of FT_VERDICT_UNDECIDED */
+  int32_t reason;        /* for FT_VERDICT_UNDECIDED */
   double toi;            /* time of impact, [0, 1], rounded down; valid for contacts */
   double free_until;     /* toi for contacts, 1 for clear */
   double separation;     /* metres at toi */
-  double penetration;    /* metres, of FT_VERDICT_STARTS_IN_CONTACT; NaN: not known */
+  double penetration;    /* metres, for FT_VERDICT_STARTS_IN_CONTACT; NaN: not known */
   double point_scene[3]; /* witness point on the triangle, W */
   double point_link[3];  /* witness point on the link's surface, W */
   double normal[3];      /* unit, from the scene to the link, W */
   int32_t triangle;      /* -1: none */
-  int32_t object;        /* of the triangle; -1: none */
+  int32_t object;        /* the triangle's; -1: none */
   int32_t lss;           /* which of the link's LSS; -1: none */
-  int32_t link_triangle; /* at exact fidelity, of the link's triangles; else -1 */
+  int32_t link_triangle; /* at exact fidelity, which of the link's triangles; else -1 */
   int32_t link_feature, scene_feature; /* at exact fidelity */
 } ft_contact;
 
@@ -517,8 +517,8 @@ typedef struct ft_other_link {
 
 /* All asked pairs of own links of the last step that are not clear, in the order of
  * ft_query_contacts(), then of the other link; every other asked pair is proven clear. In each
- * contact, `point_scene`, `triangle` and `scene_feature` are of the other link and its mesh, and
- * `object` is -1. FT_ERROR_MISMATCH without pair rules. */
+ * contact, `point_scene`, `triangle` and `scene_feature` belong to the other link and its mesh,
+ * and `object` is -1. FT_ERROR_MISMATCH without pair rules. */
 FT_API ft_status ft_query_pairs(const ft_query* query, ft_contact* contacts, ft_other_link* others,
                                 size_t capacity, size_t* required);
 
@@ -529,7 +529,7 @@ typedef struct ft_contact_point {
   double separation;     /* metres, as computed; below 0 where the two overlap */
   int32_t triangle;      /* -1: none, as for the next two */
   int32_t lss;           /* which of the link's LSS */
-  int32_t link_triangle; /* at exact fidelity, of the link's triangles */
+  int32_t link_triangle; /* at exact fidelity, which of the link's triangles */
   int32_t reserved;      /* 0 */
 } ft_contact_point;
 
@@ -546,12 +546,12 @@ typedef struct ft_contact_details {
   /* If these two points touch in the rest of the step, within the tolerance from here, they do so
    * at a speed between these along this normal. A lower bound below 0: perhaps they never touch. */
   double approach_lower, approach_upper;
-  /* Of what is within the tolerance: the nearest first, then points far from it and from each
-   * other. At FT_FIDELITY_LINK and _EXACT; elsewhere there are none. */
+  /* Points of what is within the tolerance: the nearest first, then others far from it and from
+   * each other. At FT_FIDELITY_LINK and _EXACT; elsewhere there are none. */
   ft_contact_point points[FT_MOST_CONTACT_POINTS];
 } ft_contact_details;
 
-/* Which of the last step's lists a contact is counted in. */
+/* The last step's lists of contacts. */
 enum {
   FT_LIST_LINKS = 0,    /* ft_query_links() */
   FT_LIST_CONTACTS = 1, /* ft_query_contacts() */
@@ -589,7 +589,7 @@ typedef struct ft_counters {
   uint32_t reserved; /* 0 */
   uint64_t nodes, leaves, candidates, cluster_steps, lane_steps, part_steps, advancements;
   uint64_t hierarchy_tests, plane_tests, leaf_tests, states;
-  uint64_t rung_tests; /* of volumes that are gone: 0 */
+  uint64_t rung_tests; /* always 0: the volumes that it counted are gone */
 } ft_counters;
 
 FT_API ft_status ft_query_counters(const ft_query* query, ft_counters* counters);
@@ -611,13 +611,13 @@ typedef struct ft_near_options {
 } ft_near_options;
 
 FT_API ft_status ft_near_options_init(ft_near_options* options, size_t size);
-/* Of the links' LSS; `options` may be NULL. For one thread. The first of a scene finds the edges
- * over which its surfaces go on flat: they are no features. */
+/* Asks about the links' LSS; `options` may be NULL. For one thread. A scene's first ft_near finds
+ * the edges over which its surfaces go on flat: they are not features. */
 FT_API ft_status ft_near_create(const ft_scene* scene, const ft_avatar* avatar,
                                 const ft_near_options* options, ft_near** near_query);
 
 /* Finds what is within `reach` of the links at `pose`: metres, one per link, at most 1e7; below 0:
- * the link is not asked. Allocates nothing once memory has grown. A call that fails leaves the last
+ * the link is left out. Allocates nothing once memory has grown. A call that fails leaves the last
  * answer, if its arguments were wrong. */
 FT_API ft_status ft_near_ask(ft_near* near_query, const ft_pose* pose, const double* reach,
                              size_t reach_count);
@@ -628,8 +628,8 @@ typedef struct ft_near_feature {
   uint32_t size;
   int32_t link, lss;
   int32_t triangle, object;
-  int32_t feature;       /* of the triangle: FT_FEATURE_* */
-  double along;          /* of the axis' nearest point, from its end a (0) to b (1) */
+  int32_t feature;       /* which part of the triangle: FT_FEATURE_* */
+  double along;          /* where the axis' nearest point is, from its end a (0) to b (1) */
   double gap;            /* lower bound on the separation, metres; below 0 where they overlap */
   double point_scene[3]; /* on the triangle, W */
   double point_link[3];  /* on the LSS's surface, W */
@@ -643,7 +643,7 @@ typedef struct ft_near_range {
   int32_t reserved; /* 0 */
 } ft_near_range;
 
-/* Of the last ft_near_ask(), by link, LSS, gap and triangle. FT_ERROR_NO_STEP if there was none. */
+/* The last ft_near_ask()'s features, by link, LSS, gap and triangle. FT_ERROR_NO_STEP before it. */
 FT_API ft_status ft_near_features(const ft_near* near_query, ft_near_feature* features,
                                   size_t capacity, size_t* required);
 /* One per link, in order. */

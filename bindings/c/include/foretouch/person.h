@@ -33,9 +33,9 @@ typedef struct ft_link_bound {
 
 /* Claims nothing, and no error. */
 FT_API ft_status ft_link_bound_init(ft_link_bound* bound);
-/* One per link, from a file of format "foretouch-bounds", or of a preset of docs/person.md, as
- * "preset:optical", for one way between poses of this rate.
- * Errors: those of the file; a name that is no link; no entry for them. */
+/* Reads one bound per link from a file of format "foretouch-bounds", or takes those of a preset of
+ * docs/person.md, as "preset:optical", for one way between poses of this rate.
+ * Errors: those of the file; a name that is not a link's; no entry for that way and rate. */
 FT_API ft_status ft_bounds_read(const char* path, const ft_avatar* avatar, int32_t between,
                                 double rate_hz, ft_link_bound* bounds, size_t capacity,
                                 size_t* required);
@@ -61,8 +61,8 @@ FT_API ft_status ft_bracket_options_init(ft_bracket_options* options, size_t siz
 FT_API ft_status ft_brackets_create(const ft_scene* scene, const ft_avatar* avatar,
                                     const ft_bracket_options* options, ft_brackets** brackets);
 
-/* Two poses and those around them: of a step of `seconds`, above 0. Where there is none before or
- * after, or it is not known yet, NULL. */
+/* The two poses of a step of `seconds`, above 0, and those around them: NULL where there is none
+ * before or after, or it is not known yet. */
 typedef struct ft_posed_step {
   uint32_t size;
   int32_t between; /* FT_BETWEEN_* */
@@ -74,14 +74,14 @@ typedef struct ft_posed_step {
 } ft_posed_step;
 
 FT_API ft_status ft_posed_step_init(ft_posed_step* step, size_t size);
-/* Of each link, what follows from its bound. `bounds`: one per link. Allocates nothing once memory
+/* Finds what follows from each link's bound. `bounds`: one per link. Allocates nothing once memory
  * has grown. A call that fails leaves the last answer, if its arguments were wrong. */
 FT_API ft_status ft_brackets_answer(ft_brackets* brackets, const ft_posed_step* step,
                                     const ft_link_bound* bounds, size_t count);
-/* Poses were lost between `from` and `to`: of the bounds, `speed` and `error` count. */
+/* Poses were lost between `from` and `to`: only `speed` and `error` of the bounds count. */
 FT_API ft_status ft_brackets_answer_gap(ft_brackets* brackets, const ft_posed_step* step,
                                         const ft_link_bound* bounds, size_t count);
-/* What comes: t is 0 at the step's `to` and 1 after `horizon` seconds, at most 1e6. The model goes
+/* Looks ahead: t is 0 at the step's `to` and 1 after `horizon` seconds, at most 1e6. The model goes
  * on as it went. Links are excluded, or possible from `possible_from` on. */
 FT_API ft_status ft_brackets_look_ahead(ft_brackets* brackets, const ft_posed_step* step,
                                         double horizon, const ft_link_bound* bounds, size_t count);
@@ -95,16 +95,16 @@ enum {
   FT_BRACKET_CERTAIN = 3 /* proven: the person touched something with it */
 };
 
-/* Nothing was touched on [0, possible_from) and (possible_until, 1]; of a certain one, something
- * was at certain_from and at certain_until, or, where certain_until comes first, at an instant
+/* Nothing was touched on [0, possible_from) and (possible_until, 1]. If certain, something was
+ * touched at certain_from and at certain_until, or, where certain_until comes first, at an instant
  * between the two, at which the link passed through a surface. */
 typedef struct ft_link_bracket {
   uint32_t size;
   int32_t link;
   int32_t other;    /* an own link above `link`; -1: the scene */
   int32_t verdict;  /* FT_BRACKET_* */
-  int32_t triangle; /* of the scene, that is, or may be, touched first; -1: none, or not known */
-  int32_t object;   /* that it belongs to; -1 */
+  int32_t triangle; /* the scene's that is, or may be, touched first; -1: none, or not known */
+  int32_t object;   /* the triangle's; -1: none */
   double possible_from, possible_until;
   double certain_from, certain_until;
   double growth; /* the largest distance between person and model, m */
@@ -113,7 +113,7 @@ typedef struct ft_link_bracket {
 /* One per link, in order. FT_ERROR_NO_STEP before the first answer. */
 FT_API ft_status ft_brackets_links(const ft_brackets* brackets, ft_link_bracket* links,
                                    size_t capacity, size_t* required);
-/* Own links: every asked pair that is not excluded. */
+/* Every asked pair of own links that is not excluded. */
 FT_API ft_status ft_brackets_pairs(const ft_brackets* brackets, ft_link_bracket* pairs,
                                    size_t capacity, size_t* required);
 FT_API void ft_brackets_destroy(ft_brackets* brackets);

@@ -24,7 +24,7 @@ enum {
   FT_JOINT_PLANAR = 4 /* a mobile base: x, y across the axis, and the angle about it */
 };
 
-/* How a joint moves against its parent: T_rest * T_joint(q). Of a fixed one, nothing else counts.
+/* How a joint moves against its parent: T_rest * T_joint(q). For a fixed one only the kind counts.
  */
 typedef struct ft_robot_joint {
   int32_t kind;
@@ -35,9 +35,9 @@ typedef struct ft_robot_joint {
   double mimic_offset;
 } ft_robot_joint;
 
-/* One joint per joint of the avatar, in order. `names`: of the coordinates; NULL: the joints'.
+/* One joint per joint of the avatar, in order. `names`: the coordinates'; NULL: the joints'.
  * Errors: another number of joints, limits the wrong way round, an axis that is zero, a joint that
- * follows itself, or one that follows or does not move. */
+ * follows itself, or one that itself follows or does not move. */
 FT_API ft_status ft_robot_create(const ft_avatar* avatar, const ft_robot_joint* joints,
                                  size_t joint_count, const char* const* names, ft_robot** robot);
 
@@ -57,17 +57,17 @@ FT_API ft_status ft_urdf_options_init(ft_urdf_options* options, size_t size);
  * not there. W is the frame of the root link, or MuJoCo's world. `options` may be NULL. */
 FT_API ft_status ft_robot_create_from_urdf(const char* path, const ft_urdf_options* options,
                                            ft_robot** robot);
-/* Another robot: this one with a tool, a link of its own that is fixed to `link`, with these LSS in
- * the frame of `link`. lss_links do not count. */
+/* Makes another robot: this one with a tool, a link of its own that is fixed to `link`, with these
+ * LSS in the frame of `link`. */
 FT_API ft_status ft_robot_create_with_tool(const ft_robot* robot, int32_t link, const char* name,
                                            const ft_lss* lss, size_t lss_count, ft_robot** tooled);
-/* The robot's links as an avatar: for pair rules, names and queries by poses. To be destroyed. */
+/* Makes an avatar of the robot's links: for pair rules, names and queries by poses. Destroy it. */
 FT_API ft_status ft_robot_avatar(const ft_robot* robot, ft_avatar** avatar);
 
 typedef struct ft_robot_coordinate {
   uint32_t size;
   int32_t joint;
-  const char* name; /* as long as the robot */
+  const char* name; /* lives as long as the robot */
   double lower, upper;
   int32_t is_angle;    /* rad; else m */
   int32_t is_periodic; /* a whole turn leads to the same place */
@@ -89,7 +89,7 @@ FT_API ft_status ft_robot_path(const ft_robot* robot, const double* q, size_t co
                                size_t coordinate_count, double* rotations, double* translations,
                                double* at, size_t capacity, size_t* required);
 
-/* Own links by configurations drawn within the robot's limits. */
+/* How to judge own links, by configurations drawn within the robot's limits. */
 typedef struct ft_robot_pair_options {
   uint32_t size;
   int32_t samples;              /* at least 1; default 10,000 */
@@ -111,7 +111,7 @@ FT_API void ft_robot_destroy(ft_robot* robot);
 
 /* ---- Edges ---- */
 
-/* A rigid thing in the way whose place may change between questions: ft_edges_place(). */
+/* A rigid obstacle whose place may change between questions: ft_edges_place(). */
 typedef struct ft_edge_prop {
   const ft_scene* scene;              /* in the prop's own frame */
   double rotation[4], translation[3]; /* of that frame in W: w, x, y, z; metres */
@@ -123,7 +123,7 @@ typedef struct ft_edge_prop {
 
 typedef struct ft_edge_options {
   uint32_t size;
-  int32_t threads;           /* of lists, the calling one among them; default 1, at most 256 */
+  int32_t threads;           /* for lists, the calling one among them; default 1, at most 256 */
   double tolerance;          /* metres; default 1e-3 */
   double clearance;          /* metres, default 0: clear proves that the robot keeps more away */
   const ft_pair_rules* self; /* own links, of ft_robot_avatar(); NULL: not asked */
@@ -131,7 +131,7 @@ typedef struct ft_edge_options {
   size_t ignored_count;
   const ft_edge_prop* props; /* obstacles beside the scene; default none */
   size_t prop_count;
-  /* Of ft_edges_clearance(), metres: how far its bounds may be apart, default 1e-3; and how far it
+  /* For ft_edges_clearance(), metres: how far its bounds may be apart, default 1e-3; how far it
    * looks, default infinity. */
   double clearance_tolerance, clearance_within;
 } ft_edge_options;
@@ -151,7 +151,7 @@ FT_API ft_status ft_edges_place(ft_edges* edges, size_t prop, const double* rota
 typedef struct ft_edge {
   uint32_t size;
   int32_t verdict;                  /* FT_VERDICT_* */
-  int32_t reason;                   /* of FT_VERDICT_UNDECIDED */
+  int32_t reason;                   /* for FT_VERDICT_UNDECIDED */
   int32_t is_usable;                /* 1: clear, and both ends within limits */
   double free_until;                /* the robot keeps its clearance on [0, free_until); 1: clear */
   int32_t breach_at_0, breach_at_1; /* a joint beyond its limits at that end; -1: none */
@@ -176,8 +176,8 @@ typedef struct ft_clearance {
   double normal[3]; /* unit, from the scene to the link; 0: they meet */
 } ft_clearance;
 
-/* As ft_edges_answer(): q0, q1 and what is refused. The clearance of the options and own links have
- * no part in it. `slopes0` and `slopes1`, which may be NULL, have room for count * coordinate_count
+/* q0, q1 and errors are as for ft_edges_answer(). The options' clearance and own links have no part
+ * in it. `slopes0` and `slopes1`, which may be NULL, have room for count * coordinate_count
  * numbers: how `upper` changes with q0 and q1; one way of several where is_alone is 0. */
 FT_API ft_status ft_edges_clearance(ft_edges* edges, const double* q0, const double* q1,
                                     size_t count, size_t coordinate_count, ft_clearance* clearances,
@@ -201,7 +201,7 @@ FT_API ft_status ft_edges_answer_path(ft_edges* edges, const double* q, size_t c
  * FT_ERROR_NO_STEP before; FT_ERROR_MISMATCH if that edge is clear. */
 FT_API ft_status ft_edges_contact(const ft_edges* edges, size_t index, ft_contact* contact,
                                   ft_other_link* other);
-/* Which prop that is, whose scene the contact's triangle and object are of; -1: none. Errors as
+/* Stores the prop whose scene has that contact's triangle and object; -1: none. Errors as
  * above. */
 FT_API ft_status ft_edges_contact_prop(const ft_edges* edges, size_t index, int32_t* prop);
 FT_API void ft_edges_destroy(ft_edges* edges);

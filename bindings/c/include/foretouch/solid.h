@@ -70,7 +70,7 @@ enum {
   FT_SOLID_AROUND = 5,    /* on a proven way around what is in between */
   FT_SOLID_SNAPPED = 6    /* appeared here: the only break of what is shown */
 };
-/* Of one joint and its link. */
+/* The state of one joint and its link. */
 enum {
   FT_SOLID_JOINT_FREE = 0,    /* no contact moves it from its tracked place */
   FT_SOLID_JOINT_SLIDING = 1, /* in contact, and moved */
@@ -137,7 +137,7 @@ typedef struct ft_solid_contact {
   int32_t link;
   int32_t lss;      /* which of the link's LSS */
   int32_t triangle; /* of the scene; -1: another own link is touched */
-  int32_t object;   /* of the triangle; -1: none */
+  int32_t object;   /* the triangle's; -1: none */
   int32_t other;    /* that own link; -1: none */
   double point[3];  /* on the surface that is touched, W */
   double normal[3]; /* unit, from that surface to the link, W */
@@ -148,7 +148,7 @@ typedef struct ft_solid_contact {
   double slip_speed; /* of the link's point along the surface, m/s */
 } ft_solid_contact;
 
-/* Of the last tick: all joints in order; all contacts by link, LSS, triangle, other. In arrays, the
+/* The last tick's joints, in order, and its contacts, by link, LSS, triangle, other. In arrays, the
  * first element's size applies to all, and the library sets the others'. O(n). */
 FT_API ft_status ft_solid_joints(const ft_solid* solid, ft_solid_joint* joints, size_t capacity,
                                  size_t* required);
@@ -169,8 +169,8 @@ FT_API ft_status ft_solid_way(const ft_solid* solid, size_t index, double* time,
  * tracked pose is the first again. */
 FT_API ft_status ft_solid_reset(ft_solid* solid);
 /* The same, but the avatar begins at `place`, which must be outside of everything, say a spawn
- * point: the next tracked pose must be reached from there. Errors: a pose that is none of the
- * avatar; FT_ERROR_MISMATCH if it touches something; then nothing has changed. */
+ * point: the next tracked pose must be reached from there. Errors: not a pose of the avatar;
+ * FT_ERROR_MISMATCH if it touches something; then nothing has changed. */
 FT_API ft_status ft_solid_reset_at(ft_solid* solid, const ft_pose* place);
 /* Goes on in another scene: a door has opened. Forgets the last tick's answer, but not the shown
  * pose. If that is inside something now, it stays there (FT_SOLID_LIMIT_INSIDE) until a tick finds

@@ -1,6 +1,6 @@
 /* solid_world.h: solid avatars in a world in which other things move, in C99 and C++: doors push
  * them, what they hold is solid with them, two of them meet and neither passes; and what a shown
- * body presses against is told from enter to leave. What it is good for: docs/solid.md. Units,
+ * body presses against is reported from enter to leave. What it is good for: docs/solid.md. Units,
  * frames, errors, memory and sizes of structs are as in foretouch.h; time is as in world.h. */
 #ifndef FORETOUCH_SOLID_WORLD_H
 #define FORETOUCH_SOLID_WORLD_H
@@ -14,7 +14,7 @@ extern "C" {
 
 /* ---- Making ---- */
 
-/* How far solid avatars reach for all that is asked of the world and told of it. */
+/* How far solid avatars reach in all that the world is asked and reports. */
 enum {
   /* To the gap at which they stop (ft_solid_options.skin): they are found in contact with what they
    * press against. */
@@ -30,11 +30,11 @@ enum {
  * scene, an instant out of range. */
 FT_API ft_status ft_solid_world_create(const ft_scene* still, int64_t begin_us, int32_t reach,
                                        const ft_world_options* options, ft_world** world);
-/* A solid avatar, which is there from its first target on. Its poses are pushed by ticks, and by
- * nobody else. Either of the options may be NULL. It reaches to its surface, whatever `reach` was,
+/* Adds a solid avatar, which is there from its first target on. Ticks push its poses, and nothing
+ * else does. Either of the options may be NULL. It reaches to its surface, whatever `reach` was,
  * if it has own links or touches by its triangles (ft_body_options). Errors: as ft_solid_create()
- * and ft_world_add_avatar(), `may_snap`, and FT_ERROR_MISMATCH of a world that is none of these, as
- * for the next two. */
+ * and ft_world_add_avatar(), `may_snap`, and FT_ERROR_MISMATCH if the world is not a solid world,
+ * as for the next two. */
 FT_API ft_status ft_solid_world_add(ft_world* world, const ft_avatar* avatar,
                                     const ft_solid_options* options, const ft_body_options* body,
                                     int32_t* number);
@@ -49,9 +49,9 @@ typedef struct ft_solid_target {
   const uint8_t* is_tracked; /* as of ft_solid_follow(); may be NULL */
 } ft_solid_target;
 
-/* One tick, from where the last one ended to `utime_us`. Whoever has no target in it keeps his last
- * one. What is not a solid avatar moves as the world knows it. Allocates nothing once memory has
- * grown, as long as nobody takes or lets go. Errors, of which each names its body and which change
+/* One tick, from where the last one ended to `utime_us`. Avatars without a target in it keep their
+ * last one. What is not a solid avatar moves as the world knows it. Allocates nothing once memory
+ * has grown, as long as no hand takes or lets go. Errors, each of which names its body and changes
  * nothing: an instant that is not 1 us to 10 s after the last one; a target that is none, of no
  * solid avatar, or two of one; a body that waits for its poses and is not known until then; a solid
  * avatar that is carried; what moves in its hand (ft_carrier.moves_in_frame), or changes hands
@@ -64,13 +64,13 @@ FT_API ft_status ft_solid_world_at(const ft_world* world, int64_t* utime_us);
 
 /* ---- What a solid avatar shows ---- */
 
-/* Of the last tick, and a solid avatar that has had a target; else FT_ERROR_NO_STEP. Otherwise as
+/* The last tick of a solid avatar that has had a target; else FT_ERROR_NO_STEP. Otherwise as
  * ft_solid_follow(), ft_solid_shown(), ft_solid_joints(), ft_solid_contacts() and ft_solid_way()
  * have them, with these differences. What is proven is proven of moving bodies, too: is_certified
  * and clearance are 0 while something crushes it. The contacts are those with what is still and
- * with own links. The times of the way are those of the world's poses: whole microseconds. In
- * *is_assumed 1 if a body around it was silent, and was taken to hold still or to be nowhere; it
- * may be NULL. */
+ * with own links. The times of the way are those of the world's poses: whole microseconds. Stores
+ * 1 in *is_assumed if a body around it was silent, and was taken to hold still or to be nowhere;
+ * it may be NULL. */
 FT_API ft_status ft_solid_world_get_tick(const ft_world* world, int32_t body, ft_solid_tick* tick,
                                          int32_t* is_assumed);
 FT_API ft_status ft_solid_world_shown(const ft_world* world, int32_t body, double* rotations,
@@ -91,7 +91,7 @@ typedef struct ft_solid_body_contact {
   int32_t link;     /* the avatar's */
   int32_t lss;      /* of the link; those of tools in its hand come after its own */
   int32_t triangle; /* of a mesh; -1: none */
-  int32_t object;   /* of the triangle; -1: none */
+  int32_t object;   /* the triangle's; -1: none */
   double point[3];  /* on the body's surface, W */
   double normal[3]; /* unit, from it to the avatar, W */
   double gap;
@@ -99,13 +99,13 @@ typedef struct ft_solid_body_contact {
   double slip_speed; /* of the link's point along that surface, which moves, m/s */
 } ft_solid_body_contact;
 
-/* A body that nobody holds back has left the avatar no proven way: between the two nothing is
+/* A body that nothing holds back has left the avatar no proven way: between the two nothing is
  * claimed from `since_us` on. Everything else stays proven. */
 typedef struct ft_solid_crush {
   uint32_t size;
   int32_t body;
   int32_t link;    /* where it was met; while they overlap, the link that is deepest */
-  int32_t is_over; /* 1: it ended at the tick's begin, where the two are proven apart; told once */
+  int32_t is_over; /* 1: it ended at the tick's begin, the two are proven apart; reported once */
   int64_t since_us;
   /* At the tick's end: the largest depth of a link's axis below the body's surface, its radius at
    * most. To part them takes at least as much. 0: they do not overlap there. */
@@ -126,7 +126,7 @@ typedef struct ft_solid_held {
   int32_t reserved; /* 0 */
 } ft_solid_held;
 
-/* All of the last tick; what its hands hold is by state. In arrays, the first element's size
+/* All of the last tick; what its hands hold is sorted by state. In arrays, the first element's size
  * applies to all. O(n). */
 FT_API ft_status ft_solid_world_body_contacts(const ft_world* world, int32_t body,
                                               ft_solid_body_contact* contacts, size_t capacity,

@@ -66,9 +66,9 @@ FT_API ft_status ft_world_add_mesh(ft_world* world, const ft_scene* mesh,
                                    const ft_body_options* options, int32_t* body);
 FT_API ft_status ft_world_body_count(const ft_world* world, size_t* count);
 
-/* Whether bodies of two groups are asked if they meet, 0 or 1; everything is, to begin with. */
+/* Sets whether bodies of two groups are asked if they meet, 0 or 1; at first all are. */
 FT_API ft_status ft_world_ask(ft_world* world, int32_t group, int32_t other, int32_t is_asked);
-/* The same of bodies of a group and what is still. */
+/* The same for bodies of a group and what is still. */
 FT_API ft_status ft_world_ask_still(ft_world* world, int32_t group, int32_t is_asked);
 
 /* ---- Time ---- */
@@ -76,12 +76,12 @@ FT_API ft_status ft_world_ask_still(ft_world* world, int32_t group, int32_t is_a
 /* The body's next pose: in W, or in the frame of what carries it and lets it move. A body is there
  * from its first pose on; before, nothing touches it. Allocates nothing once memory has grown, if
  * ft_world_forget_before() is called now and then. Errors: an unknown body (ft_last_error_index()),
- * an instant that is not after the last one or that is forgotten, a pose that is none, a body that
- * is held fast; then nothing has changed. */
+ * an instant that is not after the last one or that is forgotten, not a pose of the body, a body
+ * that is held fast; then nothing has changed. */
 FT_API ft_status ft_world_push(ft_world* world, int32_t body, int64_t utime_us,
                                const ft_pose* pose);
 
-/* Who moves a body. */
+/* What carries a body. */
 typedef struct ft_carrier {
   uint32_t size;
   int32_t body, link;
@@ -92,18 +92,18 @@ typedef struct ft_carrier {
 
 /* From `utime_us` on, the body is carried; `pose` is its pose there, in the frame of the carrier's
  * link. The body and that link are not asked whether they meet. Errors: unknown bodies and links,
- * who would carry himself (FT_ERROR_BAD_HIERARCHY), an instant at which one of the two is not
- * known, or that is not after the last change. */
+ * a body that would carry itself (FT_ERROR_BAD_HIERARCHY), an instant at which one of the two is
+ * not known, or that is not after the last change. */
 FT_API ft_status ft_world_attach(ft_world* world, int32_t body, const ft_carrier* carrier,
                                  int64_t utime_us, const ft_pose* pose);
-/* From `utime_us` on, nobody carries it; `pose` is its pose there, in W. Errors: likewise, and a
+/* From `utime_us` on, nothing carries it; `pose` is its pose there, in W. Errors: the same, and a
  * body that is not carried. */
 FT_API ft_status ft_world_detach(ft_world* world, int32_t body, int64_t utime_us,
                                  const ft_pose* pose);
 
 /* Stores in *utime_us until when all is known, or taken to be: the earliest last pose of the bodies
- * that wait for theirs; if nobody waits, the latest pose of all. In *waits_for the body with that
- * pose; -1: nobody waits. Either may be NULL. FT_ERROR_EMPTY if no body has a pose. O(bodies). */
+ * that wait for theirs; if none waits, the latest pose of all. In *waits_for the body with that
+ * pose; -1: none waits. Either may be NULL. FT_ERROR_EMPTY if no body has a pose. O(bodies). */
 FT_API ft_status ft_world_known_until(const ft_world* world, int64_t* utime_us, int32_t* waits_for);
 /* Lets go of what no window from `utime_us` on needs. Earlier poses and windows are refused from
  * now on. */
@@ -112,12 +112,12 @@ FT_API ft_status ft_world_forget_before(ft_world* world, int64_t utime_us);
  * `bytes`, or nothing is left before ft_world_known_until(). Stores in *utime_us the instant before
  * which it has forgotten; may be NULL. */
 FT_API ft_status ft_world_forget_beyond(ft_world* world, size_t bytes, int64_t* utime_us);
-/* What the poses that are kept take: of a pose of n joints 56 n + 256. */
+/* The bytes that kept poses take: 56 n + 256 for a pose of n joints. */
 FT_API ft_status ft_world_pose_bytes(const ft_world* world, size_t* bytes);
 /* Lets go of poses before `utime_us` between others that say nearly the same: no point of any body,
  * of what it carries included, is ever farther than `metres` from where all poses that were pushed
  * have it, however often this is called. Answers about instants from `utime_us` on stay as they
- * are, to the bit. Nobody can be attached before it any more. Errors: metres that are not finite,
+ * are, to the bit. Nothing can be attached before it any more. Errors: metres that are not finite,
  * or below 0. */
 FT_API ft_status ft_world_thin_before(ft_world* world, int64_t utime_us, double metres);
 
@@ -125,7 +125,7 @@ FT_API ft_status ft_world_thin_before(ft_world* world, int64_t utime_us, double 
 
 /* Finds the first contact, in the window, of every two links of different bodies that are asked, of
  * every link and what is still, and of own links where a body has rules. Allocates nothing once
- * memory has grown, as long as nobody is added or carried in another way. Errors: a window without
+ * memory has grown, as long as no body is added or carried in another way. Errors: a window without
  * length, that begins before what was forgotten, or ends after ft_world_known_until(); carriers
  * whose chains are too deep together. After an error the last answer stays. */
 FT_API ft_status ft_world_answer(ft_world* world, int64_t from_us, int64_t to_us);
@@ -152,12 +152,12 @@ typedef struct ft_world_side {
 typedef struct ft_world_contact {
   uint32_t size;
   int32_t verdict;
-  int32_t reason;       /* of FT_VERDICT_UNDECIDED */
+  int32_t reason;       /* for FT_VERDICT_UNDECIDED */
   int32_t is_assumed;   /* 1: it rests on a body that was silent, and was taken to hold still */
   int64_t time_us;      /* whole microseconds, rounded down, */
   double time_fraction; /* and a fraction of one more, in [0, 1) */
   double separation;    /* metres, then */
-  double penetration;   /* metres, of FT_VERDICT_STARTS_IN_CONTACT; NaN: not known */
+  double penetration;   /* metres, for FT_VERDICT_STARTS_IN_CONTACT; NaN: not known */
   double normal[3];     /* unit, from b to a, W */
   ft_world_side a, b;   /* a: the lower body, or of one body the lower link; what is still is b */
 } ft_world_contact;
@@ -179,7 +179,7 @@ typedef struct ft_silent_body {
   int32_t reserved; /* 0 */
 } ft_silent_body;
 
-/* By body. */
+/* Those of the last window, by body. */
 FT_API ft_status ft_world_silent(const ft_world* world, ft_silent_body* bodies, size_t capacity,
                                  size_t* required);
 

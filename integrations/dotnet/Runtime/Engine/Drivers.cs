@@ -10,7 +10,7 @@ namespace Foretouch {
     readonly FtPoseBuffer pose;
     bool hasBegun;
 
-    /// <summary>Keeps neither: who made scene and skeleton disposes of them, in any order.</summary>
+    /// <summary>Keeps neither: the maker of scene and skeleton disposes of them, in any order.</summary>
     public BodyStepper(FtScene scene, Skeleton skeleton, double tolerance) {
       this.scene = scene;
       this.skeleton = skeleton;
@@ -31,7 +31,7 @@ namespace Foretouch {
       hasBegun = true;
       if (!goesOn || tell == null) return;
       ReadOnlySpan<FtContact> contacts = query.Contacts();
-      // Who is told may destroy what tells.
+      // A listener may destroy what reports to it.
       for (int i = 0; i < contacts.Length && !query.IsClosed; ++i)
         tell(BodyTouch.Of(contacts[i], skeleton.Avatar, scene, skeleton.Axes));
     }
@@ -83,7 +83,7 @@ namespace Foretouch {
       return tick;
     }
 
-    /// <summary>Of the last Follow().</summary>
+    /// <summary>Reports the presses of the last Follow().</summary>
     public void TellPresses(Action<HandPress> tell) {
       ReadOnlySpan<FtSolidContact> contacts = solid.Contacts();
       for (int i = 0; i < contacts.Length && !solid.IsClosed; ++i)

@@ -1,4 +1,4 @@
-// EventTeller.cs: bodies and props that move, and who enters and leaves whom. For TouchEvents.
+// EventTeller.cs: bodies and props that move, and which enters and leaves which. For TouchEvents.
 using System;
 using System.Collections.Generic;
 
@@ -33,7 +33,7 @@ namespace Foretouch {
     /// <summary>A mesh that moves with a bone; in its own frame, as SceneMaker has it with isWorld false.</summary>
     public int AddProp(FtScene mesh, IBone bone) {
       int body = world.AddMesh(mesh);
-      // A skeleton of one, of which the capsule does not count.
+      // A skeleton of one, whose capsule does not count.
       var capsule = new BodyCapsule { joint = 0, radius = 1 };
       Follow(new Skeleton(owner, new IBone[] { new Unscaled(owner, bone) }, new[] { -1 }, new[] { capsule }, axes), mesh);
       return body;

@@ -4,8 +4,8 @@ using System.Collections.Generic;
 
 namespace Foretouch {
   public static class SceneMaker {
-    /// <summary>Meshes as they stand now. Those that have nothing to touch are told to `warn` and left out.
-    /// Of a prop that moves, `isWorld` is false: then it is in its own frame, with its scale.</summary>
+    /// <summary>Meshes as they stand now. `warn` hears of those that have nothing to touch; they are left out.
+    /// For a prop that moves, `isWorld` is false: then it is in its own frame, with its scale.</summary>
     public static FtScene Make(string owner, IReadOnlyList<IMesh> meshes, int axes, Action<string> warn, bool isWorld = true) {
       var positions = new List<double>();
       var indices = new List<int>();

@@ -1,5 +1,5 @@
-// Seam.cs: all that Foretouch asks of an engine: bones that have a place, and meshes. Whoever implements
-// these two has bodies, solid hands and events; for Unity, Runtime/Unity does.
+// Seam.cs: all that Foretouch asks of an engine: bones that have a place, and meshes. With these two
+// implemented it has bodies, solid hands and events; for Unity, Runtime/Unity does so.
 using System;
 
 namespace Foretouch {

@@ -4,7 +4,7 @@ using System.Collections.Generic;
 
 namespace Foretouch {
   /// <summary>Bones are read where they are in the world, so it does not matter what lies between two of
-  /// them in the engine's tree, nor that somebody hangs it elsewhere.</summary>
+  /// them in the engine's tree, nor whether it is hung elsewhere.</summary>
   public sealed class Skeleton : IDisposable {
     /// <summary>By so much, of itself, may the scale of one bone differ along its axes, and from what it was.</summary>
     const float ScaleSlack = 1e-3f;
@@ -20,7 +20,7 @@ namespace Foretouch {
     readonly FtPoseBuffer world;
     public readonly FtAvatar Avatar;
 
-    /// <summary>`parents`: of an earlier bone, or -1. `owner` begins what is said about problems.</summary>
+    /// <summary>`parents`: an earlier bone's, or -1. `owner` begins what is said about problems.</summary>
     public Skeleton(string owner, IBone[] bones, int[] parents, BodyCapsule[] capsules, int axes) {
       this.owner = owner;
       this.bones = bones;

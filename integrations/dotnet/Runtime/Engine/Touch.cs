@@ -1,4 +1,4 @@
-// Touch.cs: what components tell, in the engine's axes.
+// Touch.cs: what components report, in the engine's axes.
 namespace Foretouch {
   /// <summary>A link that meets an object of the scene, between two fixed updates.</summary>
   public struct BodyTouch {
@@ -40,11 +40,11 @@ namespace Foretouch {
     }
   }
 
-  /// <summary>Somebody enters or leaves somebody, or it is not known any more.</summary>
+  /// <summary>A body enters or leaves another, or it is not known any more.</summary>
   public struct TouchEvent {
     /// <summary>FtEvent.Enter, .Leave, .StartsInside, .UnresolvedFrom or .UnresolvedTo.</summary>
     public int kind;
-    /// <summary>Seconds since events are told.</summary>
+    /// <summary>Seconds since events are reported.</summary>
     public double time;
     /// <summary>`body` is the number that AddBody() and AddProp() returned; Ft.StillScene: what is still.</summary>
     public int body, otherBody;

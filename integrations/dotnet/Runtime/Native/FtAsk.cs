@@ -21,7 +21,7 @@ namespace Foretouch {
     public double* sharePoints;
     /// <summary>three vertices each</summary>
     public int* triangles;
-    /// <summary>whose hit each is</summary>
+    /// <summary>the link whose hit each is</summary>
     public int* triangleLinks;
     public ulong triangleCount;
   }
@@ -35,8 +35,8 @@ namespace Foretouch {
     /// <summary>or FT_EVERY_OBJECT</summary>
     public int @object;
   }
-  /// <summary>A body that is asked about at an instant of its own, with all that carries it: what a
-  /// player saw, who sees others late.</summary>
+  /// <summary>A body that is asked about at an instant of its own, with all that carries it: for what a
+  /// player saw who sees others late.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtAskInstant {
     public int body;
@@ -46,17 +46,17 @@ namespace Foretouch {
     /// <summary>of one more microsecond, in [0, 1)</summary>
     public double timeFraction;
   }
-  /// <summary>Whom a question is about: everybody, unless it says less.</summary>
+  /// <summary>What a question is about: everything, unless it says less.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public unsafe partial struct FtAskWhom {
     public uint size;
     /// <summary>bit g: bodies of group g; default all</summary>
     public uint groups;
-    /// <summary>1, the default: what is still as well; 0</summary>
+    /// <summary>1, the default: what is still, too; 0: not</summary>
     public int asksStill;
     /// <summary>0</summary>
     public int reserved;
-    /// <summary>nothing but these; none: everybody</summary>
+    /// <summary>nothing but these; none: everything</summary>
     public FtAskPart* only;
     public ulong onlyCount;
     /// <summary>not these</summary>
@@ -91,14 +91,14 @@ namespace Foretouch {
     /// <summary>Where it begins; solid. Both ends alike: a sphere. No radius either: a point, whose cast is
     /// a ray.</summary>
     public FtLss shape;
-    /// <summary>of a cast: of any length but zero</summary>
+    /// <summary>a cast's: any length but zero</summary>
     public FtVector direction;
-    /// <summary>of a cast: how far it moves; of nearest: no farther; up to 1e8 m</summary>
+    /// <summary>how far a cast moves, or nearest looks; up to 1e8 m</summary>
     public double reach;
     /// <summary>the instant,</summary>
     public long timeUs;
     public double timeFraction;
-    /// <summary>NULL: everybody</summary>
+    /// <summary>NULL: everything</summary>
     public FtAskWhom* whom;
     /// <summary>these bodies at these instants, all others at time_us</summary>
     public FtAskInstant* instants;
@@ -119,7 +119,7 @@ namespace Foretouch {
     public const int Clear = 0;
     /// <summary>something is; what is unknown may be nearer</summary>
     public const int Hit = 1;
-    /// <summary>nothing that is known is; of what is unknown nothing is claimed</summary>
+    /// <summary>nothing that is known is; nothing is claimed of what is unknown</summary>
     public const int Unknown = 2;
   }
   /// <summary>An LSS or a triangle that was hit or is near; or, without either, an object that is solid
@@ -131,11 +131,11 @@ namespace Foretouch {
     public int isAssumed;
     /// <summary>its point: on its surface</summary>
     public FtWorldSide what;
-    /// <summary>of a cast: along the way, free before; else how far apart; rounded down</summary>
+    /// <summary>a cast's: along the way, free before; else how far apart; rounded down</summary>
     public double distance;
-    /// <summary>unit, to the shape, W; zero if none is told</summary>
+    /// <summary>unit, to the shape, W; zero if none is reported</summary>
     public FtVector normal;
-    /// <summary>of a triangle: the point as a sum of its corners; else zero</summary>
+    /// <summary>a triangle's: the point as a sum of its corners; else zero</summary>
     public FtVector weights;
   }
   /// <summary>What one of many questions found: its hits are the next hit_count of ft_world_hits(), after
@@ -155,9 +155,10 @@ namespace Foretouch {
     public const int Silent = 1;
     /// <summary>before its first pose; it was left out</summary>
     public const int NotThere = 2;
-    /// <summary>of a flight: more triangles, or steps, than are followed in motion</summary>
+    /// <summary>in a flight: more triangles, or steps, than are followed in motion</summary>
     public const int Unresolved = 3;
-    /// <summary>of solids: an object of it, or of what is still, has no inside: it is not closed</summary>
+    /// <summary>with solids: an object of it, or of what is still, has no inside: it is not
+    /// closed</summary>
     public const int Open = 4;
   }
   /// <summary>A body that was asked about and is not known then; or an object that has no
@@ -169,7 +170,7 @@ namespace Foretouch {
     public int body;
     /// <summary>FT_ASK_ASSUMED to FT_ASK_OPEN</summary>
     public int why;
-    /// <summary>of FT_ASK_OPEN, unless it is a link's surface; else FT_EVERY_OBJECT</summary>
+    /// <summary>for FT_ASK_OPEN, unless it is a link's surface; else FT_EVERY_OBJECT</summary>
     public int @object;
   }
   /// <summary>A sphere, capsule or convex solid on its way, at constant speed and without a
@@ -185,7 +186,7 @@ namespace Foretouch {
     public FtVector way;
     public long fromUs;
     public long toUs;
-    /// <summary>NULL: everybody</summary>
+    /// <summary>NULL: everything</summary>
     public FtAskWhom* whom;
     /// <summary>as in ft_question</summary>
     public double* hull;
@@ -195,7 +196,7 @@ namespace Foretouch {
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtFlightHit {
     public uint size;
-    /// <summary>FT_ASK_CLEAR, _HIT or _UNKNOWN: the rest is zero but of FT_ASK_HIT</summary>
+    /// <summary>FT_ASK_CLEAR, _HIT or _UNKNOWN: the rest is zero unless FT_ASK_HIT</summary>
     public int verdict;
     /// <summary>rounded down: nothing is hit before</summary>
     public long timeUs;
@@ -232,9 +233,9 @@ namespace Foretouch {
   }
   public sealed unsafe partial class FtWorld {
     readonly FtBuffer<FtWorldHit> hitsBuffer = new FtBuffer<FtWorldHit>();
-    /// <summary>Of the last ft_world_probe(): by distance, then by body, link, LSS and triangle; of the
-    /// last ft_world_probe_many(), question after question. In arrays, the first element's size applies to
-    /// all. FT_ERROR_NO_STEP before the first answer. O(n).</summary>
+    /// <summary>The last ft_world_probe()'s hits, by distance, then by body, link, LSS and triangle; those
+    /// of the last ft_world_probe_many(), question after question. In arrays, the first element's size
+    /// applies to all. FT_ERROR_NO_STEP before the first answer. O(n).</summary>
     public ReadOnlySpan<FtWorldHit> Hits() {
       ulong count;
       int status;
@@ -247,8 +248,8 @@ namespace Foretouch {
       return hitsBuffer.First(count);
     }
     readonly FtBuffer<FtUnknownBody> unknownBuffer = new FtBuffer<FtUnknownBody>();
-    /// <summary>Of the last ft_world_probe(), ft_world_probe_many() or ft_world_fly(), whichever came last;
-    /// by body, of many questions one after the other.</summary>
+    /// <summary>What was unknown to the last ft_world_probe(), ft_world_probe_many() or ft_world_fly(),
+    /// whichever came last; by body, question after question.</summary>
     public ReadOnlySpan<FtUnknownBody> Unknown() {
       ulong count;
       int status;
@@ -272,35 +273,35 @@ namespace Foretouch {
     }
   }
   public static unsafe partial class FtNative {
-    /// <summary>From now on questions meet bodies of this avatar, which are added later, by the skin, as it
-    /// is bent at the instant; links without triangles of it as they touch. First contacts and events go on
-    /// by LSS or triangles. The arrays are not kept. Errors: bad arrays; ft_last_error_index() is the
-    /// vertex or triangle.</summary>
+    /// <summary>Questions meet bodies of this avatar by the skin, as it is bent at the instant, if the
+    /// bodies are added after this call; links without triangles of it as they touch. First contacts and
+    /// events go on by LSS or triangles. The arrays are not kept. Errors: bad arrays; ft_last_error_index()
+    /// is the vertex or triangle.</summary>
     [DllImport(Library)] public static extern int ft_avatar_set_skin(FtAvatar avatar, FtSkin* skin);
     [DllImport(Library)] public static extern int ft_ask_whom_init(FtAskWhom* whom, ulong size);
     [DllImport(Library)] public static extern int ft_question_init(FtQuestion* question, ulong size);
     /// <summary>Answers, and stores FT_ASK_CLEAR, _HIT or _UNKNOWN in *verdict, which may be NULL. Never
     /// missed, never late: what the shape hits, where everything truly is at the instant, has a hit, no
     /// farther than it is, and at most 1e-9 m nearer where doubles resolve it. Questions at the instant of
-    /// the last one, while nobody changes the world, are cheapest. Allocates nothing once memory has grown.
-    /// Errors name the field: a shape, direction or reach that is not finite, out of range, or without
-    /// length; unknown bodies and links; an instant before what was forgotten. After an error the last
-    /// answer stays.</summary>
+    /// the last one, while nothing changes the world, are cheapest. Allocates nothing once memory has
+    /// grown. Errors name the field: a shape, direction or reach that is not finite, out of range, or
+    /// without length; unknown bodies and links; an instant before what was forgotten. After an error the
+    /// last answer stays.</summary>
     [DllImport(Library)] public static extern int ft_world_probe(FtWorld world, FtQuestion* question, out int verdict);
     /// <summary>Many questions in one call, each answered as ft_world_probe() answers it, to the bit,
     /// whatever their order; cheaper where they are at the same instants. All have the same size. If one is
     /// refused, none is answered, and the message names it. `probed` has room for `count`.</summary>
     [DllImport(Library)] public static extern int ft_world_probe_many(FtWorld world, FtQuestion* questions, ulong count, FtProbed* probed);
-    /// <summary>Of the last ft_world_probe(): by distance, then by body, link, LSS and triangle; of the
-    /// last ft_world_probe_many(), question after question. In arrays, the first element's size applies to
-    /// all. FT_ERROR_NO_STEP before the first answer. O(n).</summary>
+    /// <summary>The last ft_world_probe()'s hits, by distance, then by body, link, LSS and triangle; those
+    /// of the last ft_world_probe_many(), question after question. In arrays, the first element's size
+    /// applies to all. FT_ERROR_NO_STEP before the first answer. O(n).</summary>
     [DllImport(Library)] public static extern int ft_world_hits(FtWorld world, FtWorldHit* hits, ulong capacity, out ulong required);
-    /// <summary>Of the last ft_world_probe(), ft_world_probe_many() or ft_world_fly(), whichever came last;
-    /// by body, of many questions one after the other.</summary>
+    /// <summary>What was unknown to the last ft_world_probe(), ft_world_probe_many() or ft_world_fly(),
+    /// whichever came last; by body, question after question.</summary>
     [DllImport(Library)] public static extern int ft_world_unknown(FtWorld world, FtUnknownBody* bodies, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_flight_init(FtFlight* flight, ulong size);
-    /// <summary>The bodies' true motion and the shape's own, not a cast against where they were. Never
-    /// missed and never late, in time as in place. Errors: as ft_world_probe(); a time without
+    /// <summary>By the bodies' true motion and the shape's own, not a cast against where they were. Never
+    /// missed, never late, in time as in place. Errors: as ft_world_probe(); a time without
     /// length.</summary>
     [DllImport(Library)] public static extern int ft_world_fly(FtWorld world, FtFlight* flight, FtFlightHit* hit);
   }

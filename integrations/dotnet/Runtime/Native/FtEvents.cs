@@ -31,7 +31,7 @@ namespace Foretouch {
     public const int Apart = 0;
     /// <summary>they are not asked any more: one carries the other, or ft_world_ask()</summary>
     public const int NotAsked = 1;
-    /// <summary>one of them, or who carries it, is put elsewhere there, with a jump</summary>
+    /// <summary>one of them, or what carries it, is put elsewhere there, with a jump</summary>
     public const int Moved = 2;
   }
   /// <summary>Two points, one of each side, that are near then.</summary>
@@ -45,29 +45,29 @@ namespace Foretouch {
     public double separation;
   }
   /// <summary>One thing that happens to two links, or to a link and an object of a mesh or of what is
-  /// still. Of FT_EVENT_UNRESOLVED_* the points are zero, links may be FT_EVERY_LINK, and b.body may be
+  /// still. In FT_EVENT_UNRESOLVED_* the points are zero, links may be FT_EVERY_LINK, and b.body may be
   /// FT_EVERY_BODY: a body that is silent, and taken to be undecided.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtEvent {
     public uint size;
     public int kind;
-    /// <summary>of FT_EVENT_LEAVE</summary>
+    /// <summary>for FT_EVENT_LEAVE</summary>
     public int cause;
-    /// <summary>of FT_EVENT_UNRESOLVED_*: FT_REASON_*</summary>
+    /// <summary>for FT_EVENT_UNRESOLVED_*: FT_REASON_*</summary>
     public int reason;
     /// <summary>whole microseconds; begins are rounded down, ends up,</summary>
     public long timeUs;
     /// <summary>and a fraction of one more, in [0, 1)</summary>
     public double timeFraction;
-    /// <summary>when that began which ends here; else as the time</summary>
+    /// <summary>when what ends here began; else as the time</summary>
     public long sinceUs;
-    /// <summary>likewise</summary>
+    /// <summary>as time_fraction</summary>
     public double sinceFraction;
     /// <summary>metres, then</summary>
     public double separation;
-    /// <summary>metres: how deep the axis lies, of one that starts inside, or NaN</summary>
+    /// <summary>metres: how deep the axis lies if it starts inside, or NaN</summary>
     public double penetration;
-    /// <summary>unit, from b to a, W; zero if none is told</summary>
+    /// <summary>unit, from b to a, W; zero if none is reported</summary>
     public FtVector normal;
     /// <summary>of a's material point less b's, m/s in W</summary>
     public FtVector velocity;
@@ -113,7 +113,7 @@ namespace Foretouch {
     public uint size;
     /// <summary>1; 0: unresolved</summary>
     public int isContact;
-    /// <summary>of what is unresolved: FT_REASON_*</summary>
+    /// <summary>why it is unresolved: FT_REASON_*</summary>
     public int reason;
     /// <summary>1: some of it, since it began, rests on a motion that is assumed</summary>
     public int isAssumed;
@@ -134,7 +134,7 @@ namespace Foretouch {
     public FtWorldSide b;
   }
   public static partial class Ft {
-    /// <summary>In the event of a body altogether, in place of the other one: whatever it is asked
+    /// <summary>In an event of a body as a whole, in place of the other one: everything it is asked
     /// about.</summary>
     public const int EveryBody = -2;
   }
@@ -178,7 +178,8 @@ namespace Foretouch {
       return partsBuffer.First(count);
     }
     readonly FtBuffer<FtPart> openPartsBuffer = new FtBuffer<FtPart>();
-    /// <summary>Those that have not ended, by pair: who is in contact now, and since when. O(n).</summary>
+    /// <summary>The parts that have not ended, by pair: what is in contact now, and since when.
+    /// O(n).</summary>
     public ReadOnlySpan<FtPart> OpenParts() {
       ulong count;
       int status;
@@ -193,25 +194,25 @@ namespace Foretouch {
   }
   public static unsafe partial class FtNative {
     [DllImport(Library)] public static extern int ft_follow_options_init(FtFollowOptions* options, ulong size);
-    /// <summary>Follows the world from `from_us` on: nothing before is told, and who is in contact there
-    /// starts inside. Called again, it begins anew: what bodies weigh is to be said again. `options` may be
+    /// <summary>Follows the world from `from_us` on: nothing before is reported, and what is in contact
+    /// there starts inside. Called again, it begins anew: weigh the bodies again then. `options` may be
     /// NULL. Errors: options or an instant out of range.</summary>
     [DllImport(Library)] public static extern int ft_world_follow_from(FtWorld world, long fromUs, FtFollowOptions* options);
     /// <summary>What a rigid body weighs, for the effective mass: `center[3]` (metres) and `inertia[9]` (kg
-    /// m2, row after row, about the centre) in the body's frame. Whoever is not weighed is moved by
-    /// nothing. FT_ERROR_NO_STEP before ft_world_follow_from(), as for all that follow. Errors: an unknown
-    /// body, one of several joints, a mass that nothing can have.</summary>
+    /// m2, row after row, about the centre) in the body's frame. Nothing moves a body that is not weighed.
+    /// FT_ERROR_NO_STEP before ft_world_follow_from(), as for all that follow. Errors: an unknown body, one
+    /// of several joints, a mass that nothing can have.</summary>
     [DllImport(Library)] public static extern int ft_world_weigh(FtWorld world, int body, double kg, double* center, double* inertia);
-    /// <summary>The same of an avatar that is a ragdoll: its LSS weigh `kg` in all, of one
+    /// <summary>The same for an avatar that is a ragdoll: its LSS weigh `kg` in all, at one
     /// density.</summary>
     [DllImport(Library)] public static extern int ft_world_weigh_avatar(FtWorld world, int body, double kg);
     /// <summary>Finds everything that happens from where the last call ended until `until_us`; nothing if
-    /// that is not later. What is told depends on the poses alone: not on threads, on the order in which
-    /// poses came, nor on the calls, as long as each ends where time is cut (ft_world_known_until() is a
-    /// pose). Errors: as ft_world_answer(), and more than 10^7 cuts in one call; then nothing has been
+    /// that is not later. What it reports depends on the poses alone: not on threads, the order in which
+    /// poses came, or the calls, as long as each ends where time is cut (ft_world_known_until() is a pose).
+    /// Errors: as ft_world_answer(), and more than 10^7 cuts in one call; then nothing has been
     /// followed.</summary>
     [DllImport(Library)] public static extern int ft_world_follow(FtWorld world, long untilUs);
-    /// <summary>Stores from and until where the last call has followed. Either may be NULL.</summary>
+    /// <summary>Stores from where and until where the last call followed. Either may be NULL.</summary>
     [DllImport(Library)] public static extern int ft_world_followed(FtWorld world, out long fromUs, out long untilUs);
     /// <summary>All events of the last call, earliest first. In arrays, the first element's size applies to
     /// all. FT_ERROR_NO_STEP before the first ft_world_follow(), as for the next one. O(n).</summary>
@@ -219,7 +220,8 @@ namespace Foretouch {
     /// <summary>The parts of the last call's time in which two are not free, by pair, then by time.
     /// O(n).</summary>
     [DllImport(Library)] public static extern int ft_world_parts(FtWorld world, FtPart* parts, ulong capacity, out ulong required);
-    /// <summary>Those that have not ended, by pair: who is in contact now, and since when. O(n).</summary>
+    /// <summary>The parts that have not ended, by pair: what is in contact now, and since when.
+    /// O(n).</summary>
     [DllImport(Library)] public static extern int ft_world_open_parts(FtWorld world, FtPart* parts, ulong capacity, out ulong required);
   }
 }

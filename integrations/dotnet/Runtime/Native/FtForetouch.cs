@@ -34,7 +34,7 @@ namespace Foretouch {
     protected override bool ReleaseHandle() { FtNative.ft_near_destroy(handle); return true; }
   }
   public static partial class FtStatus {
-    /// <summary>Of the call itself.</summary>
+    /// <summary>Errors of the call itself.</summary>
     public const int Ok = 0;
     /// <summary>NULL for a required pointer.</summary>
     public const int ErrorNullArgument = 1;
@@ -105,15 +105,15 @@ namespace Foretouch {
   [StructLayout(LayoutKind.Sequential)]
   public unsafe partial struct FtImportOptions {
     public uint size;
-    /// <summary>Of the file, in place of what it says itself; default FT_UP_FILE. Z: (x, y, z) becomes (x,
+    /// <summary>The up axis, in place of what the file says; default FT_UP_FILE. Z: (x, y, z) becomes (x,
     /// z, -y).</summary>
     public int up;
-    /// <summary>metres per unit, likewise; default 0: as the file says, else 1</summary>
+    /// <summary>metres per unit, in place of the file's; default 0: as the file says, else 1</summary>
     public double scale;
-    /// <summary>Of the importing process; default 8 GiB. At most half of the machine's memory is
-    /// used.</summary>
+    /// <summary>The importing process' limit; default 8 GiB. It uses at most half of the machine's
+    /// memory.</summary>
     public ulong memoryLimitBytes;
-    /// <summary>likewise; default 60</summary>
+    /// <summary>that process' limit, too; default 60</summary>
     public double timeLimitS;
     /// <summary>Path of the program foretouch-import. NULL: $FORETOUCH_IMPORTER; else in the library's
     /// folder; else in libexec/foretouch of the library's prefix, beside the running program, and where
@@ -196,18 +196,18 @@ namespace Foretouch {
   [StructLayout(LayoutKind.Sequential)]
   public unsafe partial struct FtClipOptions {
     public uint size;
-    /// <summary>of the file, as in ft_import_options</summary>
+    /// <summary>the file's, as in ft_import_options</summary>
     public int up;
-    /// <summary>likewise</summary>
+    /// <summary>as in ft_import_options</summary>
     public double scale;
     /// <summary>then turned about +Y,</summary>
     public double yawDeg;
     /// <summary>then moved.</summary>
     public FtVector origin;
-    /// <summary>Since FT_ABI_VERSION 11. of an .amc: its .asf; NULL: the one beside it. Of others:
+    /// <summary>Since FT_ABI_VERSION 11. for an .amc: its .asf; NULL: the one beside it. For others:
     /// NULL</summary>
     public byte* skeleton;
-    /// <summary>poses a second of an .amc or a session of WebXR; 0: as the file has it</summary>
+    /// <summary>poses per second of an .amc or a WebXR session; 0: as the file has it</summary>
     public double rowRateHz;
   }
   [StructLayout(LayoutKind.Sequential)]
@@ -226,7 +226,7 @@ namespace Foretouch {
     public const int RestOverlap = 2;
     /// <summary>they touch in nearly all usual poses</summary>
     public const int Always = 3;
-    /// <summary>somebody wanted it so</summary>
+    /// <summary>the user wants it so</summary>
     public const int User = 4;
   }
   /// <summary>Two links, in either order.</summary>
@@ -277,15 +277,15 @@ namespace Foretouch {
     public uint size;
     /// <summary>0</summary>
     public uint reserved;
-    /// <summary>of different links that both have LSS</summary>
+    /// <summary>pairs of different links that both have LSS</summary>
     public ulong pairs;
-    /// <summary>of these</summary>
+    /// <summary>how many of these are asked</summary>
     public ulong asked;
     public ulong leftOut;
     public ulong radii;
   }
-  /// <summary>Of every pair of links with LSS, by a, then by b: in how many of the usual poses the two
-  /// touch. None of rules that were not derived from poses.</summary>
+  /// <summary>In how many of the usual poses two links touch: every pair of links with LSS, by a, then by
+  /// b. Rules that were not derived from poses have none.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtPairTouches {
     public int a;
@@ -305,8 +305,8 @@ namespace Foretouch {
     public const int EveryLink = 0;
     /// <summary>the links that touch first; others: undecided, after_first</summary>
     public const int FirstOfAvatar = 1;
-    /// <summary>every link's own first contact with each object as well (ft_query_objects);
-    /// FT_FIDELITY_LINK or _EXACT, no budget</summary>
+    /// <summary>also every link's own first contact with each object (ft_query_objects); FT_FIDELITY_LINK
+    /// or _EXACT, no budget</summary>
     public const int EveryObject = 2;
   }
   /// <summary>A link, or a link and one object, whose contacts the query ignores.</summary>
@@ -326,7 +326,7 @@ namespace Foretouch {
     /// <summary>0</summary>
     public int reserved;
   }
-  /// <summary>What a link has with one object, if objects differ. Later policies win; what one leaves out
+  /// <summary>A link's policy for one object, if objects differ. Later policies win; what one leaves out
   /// stays as earlier ones set it, or else as for all links. A link's tolerance is the least of those
   /// that it has with the objects that it does not ignore.</summary>
   [StructLayout(LayoutKind.Sequential)]
@@ -390,7 +390,7 @@ namespace Foretouch {
     public const int WorkBudget = 1;
     /// <summary>doubles cannot resolve the tolerance at these coordinates</summary>
     public const int Resolution = 2;
-    /// <summary>of events alone: a body is silent, and nobody knows where it is</summary>
+    /// <summary>in events only: a body is silent, and where it is is unknown</summary>
     public const int Gap = 4;
     /// <summary>FT_SCOPE_FIRST_OF_AVATAR: another link's contact is earlier</summary>
     public const int AfterFirst = 3;
@@ -401,15 +401,15 @@ namespace Foretouch {
     public const int Face = 2;
   }
   /// <summary>What one link meets first. Sound: toi and free_until never exceed the true time of contact.
-  /// In arrays, the first element's size applies to all, and the library sets the others'. How deep
-  /// triangles begin, which have no inside, is not known: penetration is NaN then, here and in
+  /// In arrays, the first element's size applies to all, and the library sets the others'. Triangles have
+  /// no inside, so how deep they are at the start is not known: penetration is NaN then, here and in
   /// ft_world_contact and ft_event.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtContact {
     public uint size;
     public int link;
     public int verdict;
-    /// <summary>of FT_VERDICT_UNDECIDED</summary>
+    /// <summary>for FT_VERDICT_UNDECIDED</summary>
     public int reason;
     /// <summary>time of impact, [0, 1], rounded down; valid for contacts</summary>
     public double toi;
@@ -417,7 +417,7 @@ namespace Foretouch {
     public double freeUntil;
     /// <summary>metres at toi</summary>
     public double separation;
-    /// <summary>metres, of FT_VERDICT_STARTS_IN_CONTACT; NaN: not known</summary>
+    /// <summary>metres, for FT_VERDICT_STARTS_IN_CONTACT; NaN: not known</summary>
     public double penetration;
     /// <summary>witness point on the triangle, W</summary>
     public FtVector pointScene;
@@ -427,11 +427,11 @@ namespace Foretouch {
     public FtVector normal;
     /// <summary>-1: none</summary>
     public int triangle;
-    /// <summary>of the triangle; -1: none</summary>
+    /// <summary>the triangle's; -1: none</summary>
     public int @object;
     /// <summary>which of the link's LSS; -1: none</summary>
     public int lss;
-    /// <summary>at exact fidelity, of the link's triangles; else -1</summary>
+    /// <summary>at exact fidelity, which of the link's triangles; else -1</summary>
     public int linkTriangle;
     /// <summary>at exact fidelity</summary>
     public int linkFeature;
@@ -458,7 +458,7 @@ namespace Foretouch {
     public int triangle;
     /// <summary>which of the link's LSS</summary>
     public int lss;
-    /// <summary>at exact fidelity, of the link's triangles</summary>
+    /// <summary>at exact fidelity, which of the link's triangles</summary>
     public int linkTriangle;
     /// <summary>0</summary>
     public int reserved;
@@ -482,8 +482,8 @@ namespace Foretouch {
     /// so at a speed between these along this normal. A lower bound below 0: perhaps they never
     /// touch.</summary>
     public double approachUpper;
-    /// <summary>Of what is within the tolerance: the nearest first, then points far from it and from each
-    /// other. At FT_FIDELITY_LINK and _EXACT; elsewhere there are none.</summary>
+    /// <summary>Points of what is within the tolerance: the nearest first, then others far from it and from
+    /// each other. At FT_FIDELITY_LINK and _EXACT; elsewhere there are none.</summary>
     public FtContactPointOf4 points;
   }
   [StructLayout(LayoutKind.Sequential)]
@@ -501,7 +501,7 @@ namespace Foretouch {
       }
     }
   }
-  /// <summary>Which of the last step's lists a contact is counted in.</summary>
+  /// <summary>The last step's lists of contacts.</summary>
   public static partial class FtList {
     /// <summary>ft_query_links()</summary>
     public const int Links = 0;
@@ -539,7 +539,7 @@ namespace Foretouch {
     public ulong planeTests;
     public ulong leafTests;
     public ulong states;
-    /// <summary>of volumes that are gone: 0</summary>
+    /// <summary>always 0: the volumes that it counted are gone</summary>
     public ulong rungTests;
   }
   public sealed partial class FtNear {
@@ -567,9 +567,9 @@ namespace Foretouch {
     public int lss;
     public int triangle;
     public int @object;
-    /// <summary>of the triangle: FT_FEATURE_*</summary>
+    /// <summary>which part of the triangle: FT_FEATURE_*</summary>
     public int feature;
-    /// <summary>of the axis' nearest point, from its end a (0) to b (1)</summary>
+    /// <summary>where the axis' nearest point is, from its end a (0) to b (1)</summary>
     public double along;
     /// <summary>lower bound on the separation, metres; below 0 where they overlap</summary>
     public double gap;
@@ -591,9 +591,9 @@ namespace Foretouch {
     public int reserved;
   }
   public static partial class Ft {
-    /// <summary>Of this header and those beside it. Every new function or field increments it; programs
-    /// built with an older header still work. A change that would break them changes the library's soname
-    /// instead.</summary>
+    /// <summary>The version of this header and those beside it. Every new function or field increments it;
+    /// programs built with an older header still work. A change that would break them changes the library's
+    /// soname instead.</summary>
     public const int AbiVersion = 11;
     public const int EveryObject = -1;
     public const int EveryLink = -1;
@@ -697,7 +697,7 @@ namespace Foretouch {
       return answer;
     }
     readonly FtBuffer<FtLeftOutPair> leftOutBuffer = new FtBuffer<FtLeftOutPair>();
-    /// <summary>By a, then by b; a &lt; b.</summary>
+    /// <summary>Sorted by a, then by b; a &lt; b.</summary>
     public ReadOnlySpan<FtLeftOutPair> LeftOut() {
       ulong count;
       int status;
@@ -831,8 +831,8 @@ namespace Foretouch {
   }
   public sealed unsafe partial class FtNear {
     readonly FtBuffer<FtNearFeature> featuresBuffer = new FtBuffer<FtNearFeature>();
-    /// <summary>Of the last ft_near_ask(), by link, LSS, gap and triangle. FT_ERROR_NO_STEP if there was
-    /// none.</summary>
+    /// <summary>The last ft_near_ask()'s features, by link, LSS, gap and triangle. FT_ERROR_NO_STEP before
+    /// it.</summary>
     public ReadOnlySpan<FtNearFeature> Features() {
       ulong count;
       int status;
@@ -858,7 +858,7 @@ namespace Foretouch {
     }
   }
   public static unsafe partial class FtNative {
-    /// <summary>Of the library that runs: "0.1.0", a text that lives for ever, and its
+    /// <summary>The running library's version, "0.1.0", a text that lives for ever, and its
     /// FT_ABI_VERSION.</summary>
     [DllImport(Library)] public static extern byte* ft_version();
     [DllImport(Library)] public static extern uint ft_abi_version();
@@ -873,7 +873,8 @@ namespace Foretouch {
     [DllImport(Library)] public static extern long ft_last_error_index();
     /// <summary>FT_ERROR_ABI_VERSION if `header_version` is newer than the library.</summary>
     [DllImport(Library)] public static extern int ft_check_abi(uint headerVersion);
-    /// <summary>Writes zeroes and the size, at most `size` bytes. Likewise all ft_*_init().</summary>
+    /// <summary>Writes the defaults, here zeroes, and the size, at most `size` bytes. So do all
+    /// ft_*_init().</summary>
     [DllImport(Library)] public static extern int ft_scene_arrays_init(FtSceneArrays* arrays, ulong size);
     /// <summary>Triangles are two-sided. Keeps those without area; drops and counts those that are not
     /// finite (ft_scene_info). O(n log n). Errors: bad arrays, no finite triangle.</summary>
@@ -917,8 +918,8 @@ namespace Foretouch {
     [DllImport(Library)] public static extern int ft_rotations_from_floats(float* xyzw, ulong count, int axes, double* wxyz);
     [DllImport(Library)] public static extern int ft_rotations_to_floats(double* wxyz, ulong count, int axes, float* xyzw);
     [DllImport(Library)] public static extern int ft_clip_options_init(FtClipOptions* options, ulong size);
-    /// <summary>Reads a BVH clip, the first animation of a model (.glb, .gltf, .fbx, .dae, .x) in 30 poses
-    /// a second, or motions of Acclaim (.amc), Xsens (.mvnx) and WebXR (.json). Its joints drive those of
+    /// <summary>Reads a BVH clip, the first animation of a model (.glb, .gltf, .fbx, .dae, .x) at 30 poses
+    /// per second, or motions of Acclaim (.amc), Xsens (.mvnx) and WebXR (.json). Its joints drive those of
     /// the avatar that have the same name; the others keep their rest pose. Error if no name matches.
     /// `options` may be NULL.</summary>
     [DllImport(Library)] public static extern int ft_clip_create_from_file(byte* path, FtAvatar avatar, FtClipOptions* options, out FtClip clip);
@@ -939,7 +940,7 @@ namespace Foretouch {
     /// <summary>Reads a file of pair rules (docs/formats.md).</summary>
     [DllImport(Library)] public static extern int ft_pair_rules_create_from_file(byte* path, FtAvatar avatar, out FtPairRules rules);
     [DllImport(Library)] public static extern int ft_pair_rules_get_info(FtPairRules rules, FtPairRulesInfo* info);
-    /// <summary>By a, then by b; a &lt; b.</summary>
+    /// <summary>Sorted by a, then by b; a &lt; b.</summary>
     [DllImport(Library)] public static extern int ft_pair_rules_left_out(FtPairRules rules, FtLeftOutPair* pairs, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_pair_rules_radii(FtPairRules rules, FtPairRadius* radii, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_pair_rules_touches(FtPairRules rules, FtPairTouches* pairs, ulong capacity, out ulong required);
@@ -970,7 +971,7 @@ namespace Foretouch {
     [DllImport(Library)] public static extern int ft_query_objects(FtQuery query, FtContact* contacts, ulong capacity, out ulong required);
     /// <summary>All asked pairs of own links of the last step that are not clear, in the order of
     /// ft_query_contacts(), then of the other link; every other asked pair is proven clear. In each
-    /// contact, `point_scene`, `triangle` and `scene_feature` are of the other link and its mesh, and
+    /// contact, `point_scene`, `triangle` and `scene_feature` belong to the other link and its mesh, and
     /// `object` is -1. FT_ERROR_MISMATCH without pair rules.</summary>
     [DllImport(Library)] public static extern int ft_query_pairs(FtQuery query, FtContact* contacts, FtOtherLink* others, ulong capacity, out ulong required);
     /// <summary>Fills as much of `details` as details-&gt;size covers, about the contact that `list` has at
@@ -989,15 +990,15 @@ namespace Foretouch {
     [DllImport(Library)] public static extern int ft_query_counters(FtQuery query, FtCounters* counters);
     [DllImport(Library)] public static extern void ft_query_destroy(IntPtr query);
     [DllImport(Library)] public static extern int ft_near_options_init(FtNearOptions* options, ulong size);
-    /// <summary>Of the links' LSS; `options` may be NULL. For one thread. The first of a scene finds the
-    /// edges over which its surfaces go on flat: they are no features.</summary>
+    /// <summary>Asks about the links' LSS; `options` may be NULL. For one thread. A scene's first ft_near
+    /// finds the edges over which its surfaces go on flat: they are not features.</summary>
     [DllImport(Library)] public static extern int ft_near_create(FtScene scene, FtAvatar avatar, FtNearOptions* options, out FtNear nearQuery);
     /// <summary>Finds what is within `reach` of the links at `pose`: metres, one per link, at most 1e7;
-    /// below 0: the link is not asked. Allocates nothing once memory has grown. A call that fails leaves
-    /// the last answer, if its arguments were wrong.</summary>
+    /// below 0: the link is left out. Allocates nothing once memory has grown. A call that fails leaves the
+    /// last answer, if its arguments were wrong.</summary>
     [DllImport(Library)] public static extern int ft_near_ask(FtNear nearQuery, FtPose* pose, double* reach, ulong reachCount);
-    /// <summary>Of the last ft_near_ask(), by link, LSS, gap and triangle. FT_ERROR_NO_STEP if there was
-    /// none.</summary>
+    /// <summary>The last ft_near_ask()'s features, by link, LSS, gap and triangle. FT_ERROR_NO_STEP before
+    /// it.</summary>
     [DllImport(Library)] public static extern int ft_near_features(FtNear nearQuery, FtNearFeature* features, ulong capacity, out ulong required);
     /// <summary>One per link, in order.</summary>
     [DllImport(Library)] public static extern int ft_near_ranges(FtNear nearQuery, FtNearRange* ranges, ulong capacity, out ulong required);

@@ -52,8 +52,8 @@ namespace Foretouch {
     /// UINT64_MAX: without limit.</summary>
     public ulong workBudget;
   }
-  /// <summary>Two poses and those around them: of a step of `seconds`, above 0. Where there is none
-  /// before or after, or it is not known yet, NULL.</summary>
+  /// <summary>The two poses of a step of `seconds`, above 0, and those around them: NULL where there is
+  /// none before or after, or it is not known yet.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public unsafe partial struct FtPosedStep {
     public uint size;
@@ -76,9 +76,9 @@ namespace Foretouch {
     /// <summary>proven: the person touched something with it</summary>
     public const int Certain = 3;
   }
-  /// <summary>Nothing was touched on [0, possible_from) and (possible_until, 1]; of a certain one,
-  /// something was at certain_from and at certain_until, or, where certain_until comes first, at an
-  /// instant between the two, at which the link passed through a surface.</summary>
+  /// <summary>Nothing was touched on [0, possible_from) and (possible_until, 1]. If certain, something
+  /// was touched at certain_from and at certain_until, or, where certain_until comes first, at an instant
+  /// between the two, at which the link passed through a surface.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtLinkBracket {
     public uint size;
@@ -87,9 +87,9 @@ namespace Foretouch {
     public int other;
     /// <summary>FT_BRACKET_*</summary>
     public int verdict;
-    /// <summary>of the scene, that is, or may be, touched first; -1: none, or not known</summary>
+    /// <summary>the scene's that is, or may be, touched first; -1: none, or not known</summary>
     public int triangle;
-    /// <summary>that it belongs to; -1</summary>
+    /// <summary>the triangle's; -1: none</summary>
     public int @object;
     public double possibleFrom;
     public double possibleUntil;
@@ -143,7 +143,7 @@ namespace Foretouch {
       return linksBuffer.First(count);
     }
     readonly FtBuffer<FtLinkBracket> pairsBuffer = new FtBuffer<FtLinkBracket>();
-    /// <summary>Own links: every asked pair that is not excluded.</summary>
+    /// <summary>Every asked pair of own links that is not excluded.</summary>
     public ReadOnlySpan<FtLinkBracket> Pairs() {
       ulong count;
       int status;
@@ -159,27 +159,27 @@ namespace Foretouch {
   public static unsafe partial class FtNative {
     /// <summary>Claims nothing, and no error.</summary>
     [DllImport(Library)] public static extern int ft_link_bound_init(FtLinkBound* bound);
-    /// <summary>One per link, from a file of format "foretouch-bounds", or of a preset of docs/person.md,
-    /// as "preset:optical", for one way between poses of this rate. Errors: those of the file; a name that
-    /// is no link; no entry for them.</summary>
+    /// <summary>Reads one bound per link from a file of format "foretouch-bounds", or takes those of a
+    /// preset of docs/person.md, as "preset:optical", for one way between poses of this rate. Errors: those
+    /// of the file; a name that is not a link's; no entry for that way and rate.</summary>
     [DllImport(Library)] public static extern int ft_bounds_read(byte* path, FtAvatar avatar, int between, double rateHz, FtLinkBound* bounds, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_bracket_options_init(FtBracketOptions* options, ulong size);
     /// <summary>`options` may be NULL. For one thread; keeps scene and avatar alive, the rules are
     /// copied.</summary>
     [DllImport(Library)] public static extern int ft_brackets_create(FtScene scene, FtAvatar avatar, FtBracketOptions* options, out FtBrackets brackets);
     [DllImport(Library)] public static extern int ft_posed_step_init(FtPosedStep* step, ulong size);
-    /// <summary>Of each link, what follows from its bound. `bounds`: one per link. Allocates nothing once
+    /// <summary>Finds what follows from each link's bound. `bounds`: one per link. Allocates nothing once
     /// memory has grown. A call that fails leaves the last answer, if its arguments were wrong.</summary>
     [DllImport(Library)] public static extern int ft_brackets_answer(FtBrackets brackets, FtPosedStep* step, FtLinkBound* bounds, ulong count);
-    /// <summary>Poses were lost between `from` and `to`: of the bounds, `speed` and `error`
+    /// <summary>Poses were lost between `from` and `to`: only `speed` and `error` of the bounds
     /// count.</summary>
     [DllImport(Library)] public static extern int ft_brackets_answer_gap(FtBrackets brackets, FtPosedStep* step, FtLinkBound* bounds, ulong count);
-    /// <summary>What comes: t is 0 at the step's `to` and 1 after `horizon` seconds, at most 1e6. The model
-    /// goes on as it went. Links are excluded, or possible from `possible_from` on.</summary>
+    /// <summary>Looks ahead: t is 0 at the step's `to` and 1 after `horizon` seconds, at most 1e6. The
+    /// model goes on as it went. Links are excluded, or possible from `possible_from` on.</summary>
     [DllImport(Library)] public static extern int ft_brackets_look_ahead(FtBrackets brackets, FtPosedStep* step, double horizon, FtLinkBound* bounds, ulong count);
     /// <summary>One per link, in order. FT_ERROR_NO_STEP before the first answer.</summary>
     [DllImport(Library)] public static extern int ft_brackets_links(FtBrackets brackets, FtLinkBracket* links, ulong capacity, out ulong required);
-    /// <summary>Own links: every asked pair that is not excluded.</summary>
+    /// <summary>Every asked pair of own links that is not excluded.</summary>
     [DllImport(Library)] public static extern int ft_brackets_pairs(FtBrackets brackets, FtLinkBracket* pairs, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern void ft_brackets_destroy(IntPtr brackets);
   }

@@ -25,7 +25,7 @@ namespace Foretouch {
     /// <summary>a mobile base: x, y across the axis, and the angle about it</summary>
     public const int Planar = 4;
   }
-  /// <summary>How a joint moves against its parent: T_rest * T_joint(q). Of a fixed one, nothing else
+  /// <summary>How a joint moves against its parent: T_rest * T_joint(q). For a fixed one only the kind
   /// counts.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtRobotJoint {
@@ -61,7 +61,7 @@ namespace Foretouch {
   public unsafe partial struct FtRobotCoordinate {
     public uint size;
     public int joint;
-    /// <summary>as long as the robot</summary>
+    /// <summary>lives as long as the robot</summary>
     public byte* name;
     public double lower;
     public double upper;
@@ -70,7 +70,7 @@ namespace Foretouch {
     /// <summary>a whole turn leads to the same place</summary>
     public int isPeriodic;
   }
-  /// <summary>Own links by configurations drawn within the robot's limits.</summary>
+  /// <summary>How to judge own links, by configurations drawn within the robot's limits.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public unsafe partial struct FtRobotPairOptions {
     public uint size;
@@ -84,8 +84,7 @@ namespace Foretouch {
     public FtLinkPair* leftOut;
     public ulong leftOutCount;
   }
-  /// <summary>A rigid thing in the way whose place may change between questions:
-  /// ft_edges_place().</summary>
+  /// <summary>A rigid obstacle whose place may change between questions: ft_edges_place().</summary>
   [StructLayout(LayoutKind.Sequential)]
   public unsafe partial struct FtEdgeProp {
     /// <summary>in the prop's own frame</summary>
@@ -105,7 +104,7 @@ namespace Foretouch {
   [StructLayout(LayoutKind.Sequential)]
   public unsafe partial struct FtEdgeOptions {
     public uint size;
-    /// <summary>of lists, the calling one among them; default 1, at most 256</summary>
+    /// <summary>for lists, the calling one among them; default 1, at most 256</summary>
     public int threads;
     /// <summary>metres; default 1e-3</summary>
     public double tolerance;
@@ -118,11 +117,11 @@ namespace Foretouch {
     /// <summary>obstacles beside the scene; default none</summary>
     public FtEdgeProp* props;
     public ulong propCount;
-    /// <summary>Of ft_edges_clearance(), metres: how far its bounds may be apart, default 1e-3; and how far
-    /// it looks, default infinity.</summary>
+    /// <summary>For ft_edges_clearance(), metres: how far its bounds may be apart, default 1e-3; how far it
+    /// looks, default infinity.</summary>
     public double clearanceTolerance;
-    /// <summary>Of ft_edges_clearance(), metres: how far its bounds may be apart, default 1e-3; and how far
-    /// it looks, default infinity.</summary>
+    /// <summary>For ft_edges_clearance(), metres: how far its bounds may be apart, default 1e-3; how far it
+    /// looks, default infinity.</summary>
     public double clearanceWithin;
   }
   /// <summary>Sound: free_until is never late. In arrays, the first element's size applies to
@@ -132,7 +131,7 @@ namespace Foretouch {
     public uint size;
     /// <summary>FT_VERDICT_*</summary>
     public int verdict;
-    /// <summary>of FT_VERDICT_UNDECIDED</summary>
+    /// <summary>for FT_VERDICT_UNDECIDED</summary>
     public int reason;
     /// <summary>1: clear, and both ends within limits</summary>
     public int isUsable;
@@ -222,9 +221,9 @@ namespace Foretouch {
     }
   }
   public static unsafe partial class FtNative {
-    /// <summary>One joint per joint of the avatar, in order. `names`: of the coordinates; NULL: the
-    /// joints'. Errors: another number of joints, limits the wrong way round, an axis that is zero, a joint
-    /// that follows itself, or one that follows or does not move.</summary>
+    /// <summary>One joint per joint of the avatar, in order. `names`: the coordinates'; NULL: the joints'.
+    /// Errors: another number of joints, limits the wrong way round, an axis that is zero, a joint that
+    /// follows itself, or one that itself follows or does not move.</summary>
     [DllImport(Library)] public static extern int ft_robot_create(FtAvatar avatar, FtRobotJoint* joints, ulong jointCount, byte** names, out FtRobot robot);
     [DllImport(Library)] public static extern int ft_urdf_options_init(FtUrdfOptions* options, ulong size);
     /// <summary>A URDF, or MuJoCo's MJCF where the importer reads it (docs/robots.md). Refuses by name
@@ -232,11 +231,11 @@ namespace Foretouch {
     /// that are not there. W is the frame of the root link, or MuJoCo's world. `options` may be
     /// NULL.</summary>
     [DllImport(Library)] public static extern int ft_robot_create_from_urdf(byte* path, FtUrdfOptions* options, out FtRobot robot);
-    /// <summary>Another robot: this one with a tool, a link of its own that is fixed to `link`, with these
-    /// LSS in the frame of `link`. lss_links do not count.</summary>
+    /// <summary>Makes another robot: this one with a tool, a link of its own that is fixed to `link`, with
+    /// these LSS in the frame of `link`.</summary>
     [DllImport(Library)] public static extern int ft_robot_create_with_tool(FtRobot robot, int link, byte* name, FtLss* lss, ulong lssCount, out FtRobot tooled);
-    /// <summary>The robot's links as an avatar: for pair rules, names and queries by poses. To be
-    /// destroyed.</summary>
+    /// <summary>Makes an avatar of the robot's links: for pair rules, names and queries by poses. Destroy
+    /// it.</summary>
     [DllImport(Library)] public static extern int ft_robot_avatar(FtRobot robot, out FtAvatar avatar);
     [DllImport(Library)] public static extern int ft_robot_coordinate_count(FtRobot robot, out ulong count);
     [DllImport(Library)] public static extern int ft_robot_coordinates(FtRobot robot, FtRobotCoordinate* coordinates, ulong capacity, out ulong required);
@@ -267,10 +266,9 @@ namespace Foretouch {
     /// the same for any number of threads. Errors, before any edge is asked: a coordinate_count that is not
     /// the robot's, numbers that are not finite or beyond 1,000; the index is the edge's.</summary>
     [DllImport(Library)] public static extern int ft_edges_answer(FtEdges edges, double* q0, double* q1, ulong count, ulong coordinateCount, FtEdge* answers);
-    /// <summary>As ft_edges_answer(): q0, q1 and what is refused. The clearance of the options and own
-    /// links have no part in it. `slopes0` and `slopes1`, which may be NULL, have room for count *
-    /// coordinate_count numbers: how `upper` changes with q0 and q1; one way of several where is_alone is
-    /// 0.</summary>
+    /// <summary>q0, q1 and errors are as for ft_edges_answer(). The options' clearance and own links have
+    /// no part in it. `slopes0` and `slopes1`, which may be NULL, have room for count * coordinate_count
+    /// numbers: how `upper` changes with q0 and q1; one way of several where is_alone is 0.</summary>
     [DllImport(Library)] public static extern int ft_edges_clearance(FtEdges edges, double* q0, double* q1, ulong count, ulong coordinateCount, FtClearance* clearances, double* slopes0, double* slopes1);
     /// <summary>How far the list of `count` configurations is free, at least two, an edge from each to the
     /// next. Asks no edge behind the first that is not clear, but for those that other threads have
@@ -281,8 +279,8 @@ namespace Foretouch {
     /// clearance. `other`, which may be NULL: an own link in the place of the scene; link -1: none.
     /// FT_ERROR_NO_STEP before; FT_ERROR_MISMATCH if that edge is clear.</summary>
     [DllImport(Library)] public static extern int ft_edges_contact(FtEdges edges, ulong index, FtContact* contact, FtOtherLink* other);
-    /// <summary>Which prop that is, whose scene the contact's triangle and object are of; -1: none. Errors
-    /// as above.</summary>
+    /// <summary>Stores the prop whose scene has that contact's triangle and object; -1: none. Errors as
+    /// above.</summary>
     [DllImport(Library)] public static extern int ft_edges_contact_prop(FtEdges edges, ulong index, out int prop);
     [DllImport(Library)] public static extern void ft_edges_destroy(IntPtr edges);
   }

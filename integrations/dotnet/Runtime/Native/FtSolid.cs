@@ -168,7 +168,7 @@ namespace Foretouch {
     public int lss;
     /// <summary>of the scene; -1: another own link is touched</summary>
     public int triangle;
-    /// <summary>of the triangle; -1: none</summary>
+    /// <summary>the triangle's; -1: none</summary>
     public int @object;
     /// <summary>that own link; -1: none</summary>
     public int other;
@@ -202,7 +202,7 @@ namespace Foretouch {
       GC.KeepAlive(into);
     }
     readonly FtBuffer<FtSolidJoint> jointsBuffer = new FtBuffer<FtSolidJoint>();
-    /// <summary>Of the last tick: all joints in order; all contacts by link, LSS, triangle, other. In
+    /// <summary>The last tick's joints, in order, and its contacts, by link, LSS, triangle, other. In
     /// arrays, the first element's size applies to all, and the library sets the others'. O(n).</summary>
     public ReadOnlySpan<FtSolidJoint> Joints() {
       ulong count;
@@ -244,7 +244,7 @@ namespace Foretouch {
     /// <summary>The last tick's shown pose, to draw; otherwise like ft_avatar_rest_pose(). FT_ERROR_NO_STEP
     /// before the first tick, as for the next three.</summary>
     [DllImport(Library)] public static extern int ft_solid_shown(FtSolid solid, double* rotations, double* translations, ulong capacity, out ulong required);
-    /// <summary>Of the last tick: all joints in order; all contacts by link, LSS, triangle, other. In
+    /// <summary>The last tick's joints, in order, and its contacts, by link, LSS, triangle, other. In
     /// arrays, the first element's size applies to all, and the library sets the others'. O(n).</summary>
     [DllImport(Library)] public static extern int ft_solid_joints(FtSolid solid, FtSolidJoint* joints, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_solid_contacts(FtSolid solid, FtSolidContact* contacts, ulong capacity, out ulong required);
@@ -258,8 +258,8 @@ namespace Foretouch {
     /// next tracked pose is the first again.</summary>
     [DllImport(Library)] public static extern int ft_solid_reset(FtSolid solid);
     /// <summary>The same, but the avatar begins at `place`, which must be outside of everything, say a
-    /// spawn point: the next tracked pose must be reached from there. Errors: a pose that is none of the
-    /// avatar; FT_ERROR_MISMATCH if it touches something; then nothing has changed.</summary>
+    /// spawn point: the next tracked pose must be reached from there. Errors: not a pose of the avatar;
+    /// FT_ERROR_MISMATCH if it touches something; then nothing has changed.</summary>
     [DllImport(Library)] public static extern int ft_solid_reset_at(FtSolid solid, FtPose* place);
     /// <summary>Goes on in another scene: a door has opened. Forgets the last tick's answer, but not the
     /// shown pose. If that is inside something now, it stays there (FT_SOLID_LIMIT_INSIDE) until a tick

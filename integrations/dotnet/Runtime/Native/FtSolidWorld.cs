@@ -3,7 +3,7 @@ using System;
 using System.Runtime.InteropServices;
 
 namespace Foretouch {
-  /// <summary>How far solid avatars reach for all that is asked of the world and told of it.</summary>
+  /// <summary>How far solid avatars reach in all that the world is asked and reports.</summary>
   public static partial class FtSolidReach {
     /// <summary>To their surface: they are found to touch nothing but what crushes them.</summary>
     public const int Skin = 0;
@@ -30,7 +30,7 @@ namespace Foretouch {
     public int lss;
     /// <summary>of a mesh; -1: none</summary>
     public int triangle;
-    /// <summary>of the triangle; -1: none</summary>
+    /// <summary>the triangle's; -1: none</summary>
     public int @object;
     /// <summary>on the body's surface, W</summary>
     public FtVector point;
@@ -42,15 +42,15 @@ namespace Foretouch {
     /// <summary>of the link's point along that surface, which moves, m/s</summary>
     public double slipSpeed;
   }
-  /// <summary>A body that nobody holds back has left the avatar no proven way: between the two nothing is
-  /// claimed from `since_us` on. Everything else stays proven.</summary>
+  /// <summary>A body that nothing holds back has left the avatar no proven way: between the two nothing
+  /// is claimed from `since_us` on. Everything else stays proven.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtSolidCrush {
     public uint size;
     public int body;
     /// <summary>where it was met; while they overlap, the link that is deepest</summary>
     public int link;
-    /// <summary>1: it ended at the tick's begin, where the two are proven apart; told once</summary>
+    /// <summary>1: it ended at the tick's begin, the two are proven apart; reported once</summary>
     public int isOver;
     public long sinceUs;
     /// <summary>At the tick's end: the largest depth of a link's axis below the body's surface, its radius
@@ -104,8 +104,8 @@ namespace Foretouch {
       return solidContactsBuffer.First(count);
     }
     readonly FtBuffer<FtSolidBodyContact> solidBodyContactsBuffer = new FtBuffer<FtSolidBodyContact>();
-    /// <summary>All of the last tick; what its hands hold is by state. In arrays, the first element's size
-    /// applies to all. O(n).</summary>
+    /// <summary>All of the last tick; what its hands hold is sorted by state. In arrays, the first
+    /// element's size applies to all. O(n).</summary>
     public ReadOnlySpan<FtSolidBodyContact> SolidBodyContacts(int body) {
       ulong count;
       int status;
@@ -149,37 +149,37 @@ namespace Foretouch {
     /// there, then ft_world_events(). `options` may be NULL. Errors: as ft_world_create(), no scene, an
     /// instant out of range.</summary>
     [DllImport(Library)] public static extern int ft_solid_world_create(FtScene still, long beginUs, int reach, FtWorldOptions* options, out FtWorld world);
-    /// <summary>A solid avatar, which is there from its first target on. Its poses are pushed by ticks, and
-    /// by nobody else. Either of the options may be NULL. It reaches to its surface, whatever `reach` was,
-    /// if it has own links or touches by its triangles (ft_body_options). Errors: as ft_solid_create() and
-    /// ft_world_add_avatar(), `may_snap`, and FT_ERROR_MISMATCH of a world that is none of these, as for
-    /// the next two.</summary>
+    /// <summary>Adds a solid avatar, which is there from its first target on. Ticks push its poses, and
+    /// nothing else does. Either of the options may be NULL. It reaches to its surface, whatever `reach`
+    /// was, if it has own links or touches by its triangles (ft_body_options). Errors: as ft_solid_create()
+    /// and ft_world_add_avatar(), `may_snap`, and FT_ERROR_MISMATCH if the world is not a solid world, as
+    /// for the next two.</summary>
     [DllImport(Library)] public static extern int ft_solid_world_add(FtWorld world, FtAvatar avatar, FtSolidOptions* options, FtBodyOptions* body, out int number);
-    /// <summary>One tick, from where the last one ended to `utime_us`. Whoever has no target in it keeps
-    /// his last one. What is not a solid avatar moves as the world knows it. Allocates nothing once memory
-    /// has grown, as long as nobody takes or lets go. Errors, of which each names its body and which change
-    /// nothing: an instant that is not 1 us to 10 s after the last one; a target that is none, of no solid
-    /// avatar, or two of one; a body that waits for its poses and is not known until then; a solid avatar
-    /// that is carried; what moves in its hand (ft_carrier.moves_in_frame), or changes hands within the
-    /// tick; a tick that begins before what was forgotten. If memory runs out within a tick, all later ones
-    /// are FT_ERROR_OUT_OF_MEMORY: the world is to be made anew.</summary>
+    /// <summary>One tick, from where the last one ended to `utime_us`. Avatars without a target in it keep
+    /// their last one. What is not a solid avatar moves as the world knows it. Allocates nothing once
+    /// memory has grown, as long as no hand takes or lets go. Errors, each of which names its body and
+    /// changes nothing: an instant that is not 1 us to 10 s after the last one; a target that is none, of
+    /// no solid avatar, or two of one; a body that waits for its poses and is not known until then; a solid
+    /// avatar that is carried; what moves in its hand (ft_carrier.moves_in_frame), or changes hands within
+    /// the tick; a tick that begins before what was forgotten. If memory runs out within a tick, all later
+    /// ones are FT_ERROR_OUT_OF_MEMORY: the world is to be made anew.</summary>
     [DllImport(Library)] public static extern int ft_solid_world_tick(FtWorld world, long utimeUs, FtSolidTarget* targets, ulong count);
     /// <summary>Where the last tick ended, or `begin_us`.</summary>
     [DllImport(Library)] public static extern int ft_solid_world_at(FtWorld world, out long utimeUs);
-    /// <summary>Of the last tick, and a solid avatar that has had a target; else FT_ERROR_NO_STEP.
-    /// Otherwise as ft_solid_follow(), ft_solid_shown(), ft_solid_joints(), ft_solid_contacts() and
-    /// ft_solid_way() have them, with these differences. What is proven is proven of moving bodies, too:
-    /// is_certified and clearance are 0 while something crushes it. The contacts are those with what is
-    /// still and with own links. The times of the way are those of the world's poses: whole microseconds.
-    /// In *is_assumed 1 if a body around it was silent, and was taken to hold still or to be nowhere; it
-    /// may be NULL.</summary>
+    /// <summary>The last tick of a solid avatar that has had a target; else FT_ERROR_NO_STEP. Otherwise as
+    /// ft_solid_follow(), ft_solid_shown(), ft_solid_joints(), ft_solid_contacts() and ft_solid_way() have
+    /// them, with these differences. What is proven is proven of moving bodies, too: is_certified and
+    /// clearance are 0 while something crushes it. The contacts are those with what is still and with own
+    /// links. The times of the way are those of the world's poses: whole microseconds. Stores 1 in
+    /// *is_assumed if a body around it was silent, and was taken to hold still or to be nowhere; it may be
+    /// NULL.</summary>
     [DllImport(Library)] public static extern int ft_solid_world_get_tick(FtWorld world, int body, FtSolidTick* tick, out int isAssumed);
     [DllImport(Library)] public static extern int ft_solid_world_shown(FtWorld world, int body, double* rotations, double* translations, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_solid_world_joints(FtWorld world, int body, FtSolidJoint* joints, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_solid_world_contacts(FtWorld world, int body, FtSolidContact* contacts, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_solid_world_way(FtWorld world, int body, ulong index, double* time, double* rotations, double* translations, ulong capacity, out ulong required);
-    /// <summary>All of the last tick; what its hands hold is by state. In arrays, the first element's size
-    /// applies to all. O(n).</summary>
+    /// <summary>All of the last tick; what its hands hold is sorted by state. In arrays, the first
+    /// element's size applies to all. O(n).</summary>
     [DllImport(Library)] public static extern int ft_solid_world_body_contacts(FtWorld world, int body, FtSolidBodyContact* contacts, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_solid_world_crushes(FtWorld world, int body, FtSolidCrush* crushes, ulong capacity, out ulong required);
     [DllImport(Library)] public static extern int ft_solid_world_held(FtWorld world, int body, FtSolidHeld* held, ulong capacity, out ulong required);

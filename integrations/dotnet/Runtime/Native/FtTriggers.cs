@@ -17,9 +17,9 @@ namespace Foretouch {
     /// by itself</summary>
     public int byLink;
   }
-  /// <summary>Somebody is inside if a point of his volume is in the trigger's: also if he passes through
-  /// between two poses, and if he is inside altogether. Sound: nobody is inside, at any instant, who is
-  /// not told to be, or to be unresolved. Tight: who is told to be is, but for twice the
+  /// <summary>A body is inside if a point of its volume is in the trigger's: also if it passes through
+  /// between two poses, and if all of it is inside. Sound: no body is inside, at any instant, unless it
+  /// is reported to be, or to be unresolved. Tight: one reported to be is, but for twice the
   /// tolerance.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtTriggerEvent {
@@ -28,13 +28,13 @@ namespace Foretouch {
     public int kind;
     public int trigger;
     public int body;
-    /// <summary>that enters or leaves; or FT_EVERY_LINK</summary>
+    /// <summary>the one that enters or leaves; or FT_EVERY_LINK</summary>
     public int link;
     /// <summary>as ft_world_contact has it</summary>
     public int isAssumed;
     public long timeUs;
     public double timeFraction;
-    /// <summary>when that began which ends here; else as the time</summary>
+    /// <summary>when what ends here began; else as the time</summary>
     public long sinceUs;
     public double sinceFraction;
   }
@@ -52,11 +52,11 @@ namespace Foretouch {
     public long sinceUs;
     public double sinceFraction;
   }
-  /// <summary>Who is moved, and out of whom.</summary>
+  /// <summary>What is moved, and out of what.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtDepthQuestion {
     public uint size;
-    /// <summary>that is moved</summary>
+    /// <summary>the one that is moved</summary>
     public int body;
     /// <summary>or FT_EVERY_LINK</summary>
     public int link;
@@ -91,11 +91,11 @@ namespace Foretouch {
     public int link;
     /// <summary>of the deepest pair; -1: none</summary>
     public int lss;
-    /// <summary>likewise</summary>
+    /// <summary>the other side of that pair; -1: none</summary>
     public int fromLink;
-    /// <summary>likewise</summary>
+    /// <summary>the other side of that pair; -1: none</summary>
     public int fromLss;
-    /// <summary>likewise</summary>
+    /// <summary>the other side of that pair; -1: none</summary>
     public int fromTriangle;
     /// <summary>0</summary>
     public int reserved;
@@ -112,8 +112,8 @@ namespace Foretouch {
   }
   public sealed unsafe partial class FtWorld {
     readonly FtBuffer<FtTriggerEvent> triggerEventsBuffer = new FtBuffer<FtTriggerEvent>();
-    /// <summary>Of the last ft_world_follow(), earliest first; at one instant what ends before what begins.
-    /// In arrays, the first element's size applies to all. FT_ERROR_NO_STEP before. O(n).</summary>
+    /// <summary>The last ft_world_follow()'s, earliest first; at one instant what ends before what begins.
+    /// In arrays, the first element's size applies to all. FT_ERROR_NO_STEP before it. O(n).</summary>
     public ReadOnlySpan<FtTriggerEvent> TriggerEvents() {
       ulong count;
       int status;
@@ -126,7 +126,7 @@ namespace Foretouch {
       return triggerEventsBuffer.First(count);
     }
     readonly FtBuffer<FtOccupant> occupantsBuffer = new FtBuffer<FtOccupant>();
-    /// <summary>Who is inside, or may be, where the last ft_world_follow() ended: by trigger, body and
+    /// <summary>What is inside, or may be, where the last ft_world_follow() ended: by trigger, body and
     /// link.</summary>
     public ReadOnlySpan<FtOccupant> Occupants() {
       ulong count;
@@ -144,28 +144,29 @@ namespace Foretouch {
     [DllImport(Library)] public static extern int ft_trigger_options_init(FtTriggerOptions* options, ulong size);
     /// <summary>Around the origin of the trigger's frame, along its axes. Stores the trigger's number, 0,
     /// 1, 2, ..., in *trigger and that of its body in *body; either may be NULL, and so may `options`.
-    /// Errors: an extent that is not above 0 and within 10^7 m, options out of range, too many bodies; of
-    /// the mesh besides (FT_ERROR_MISMATCH) an open edge, with its object, its ends and a triangle of
+    /// Errors: an extent that is not above 0 and within 10^7 m, options out of range, too many bodies; for
+    /// a mesh also (FT_ERROR_MISMATCH) an open edge, with its object, its ends and a triangle of
     /// it.</summary>
     [DllImport(Library)] public static extern int ft_world_add_trigger_box(FtWorld world, double* halfExtents, FtTriggerOptions* options, out int trigger, out int body);
     [DllImport(Library)] public static extern int ft_world_add_trigger_sphere(FtWorld world, double radius, FtTriggerOptions* options, out int trigger, out int body);
-    /// <summary>What is inside some object of it. Each object is closed: every edge, by its exact
+    /// <summary>What is inside some object of a mesh. Each object is closed: every edge, by exact
     /// coordinates, belongs to two of the object's triangles, turned any way.</summary>
     [DllImport(Library)] public static extern int ft_world_add_trigger_mesh(FtWorld world, FtScene closed, FtTriggerOptions* options, out int trigger, out int body);
-    /// <summary>Looks at this body, or at this link of it, and no more at everybody; called again, at
+    /// <summary>Looks at this body, or at this link of it, instead of at all bodies; called again, at
     /// several. `link` may be FT_EVERY_LINK. Before the trigger's first ft_world_follow().</summary>
     [DllImport(Library)] public static extern int ft_world_watch(FtWorld world, int trigger, int body, int link);
     /// <summary>Puts a trigger that has no pose where it stays, from an instant on: known for eleven days,
-    /// and then as `when_silent` says. Of `pose`, the one joint is the trigger's.</summary>
+    /// and then as `when_silent` says. The one joint of `pose` is the trigger's.</summary>
     [DllImport(Library)] public static extern int ft_world_stand_trigger(FtWorld world, int trigger, long fromUs, FtPose* pose);
-    /// <summary>Of the last ft_world_follow(), earliest first; at one instant what ends before what begins.
-    /// In arrays, the first element's size applies to all. FT_ERROR_NO_STEP before. O(n).</summary>
+    /// <summary>The last ft_world_follow()'s, earliest first; at one instant what ends before what begins.
+    /// In arrays, the first element's size applies to all. FT_ERROR_NO_STEP before it. O(n).</summary>
     [DllImport(Library)] public static extern int ft_world_trigger_events(FtWorld world, FtTriggerEvent* events, ulong capacity, out ulong required);
-    /// <summary>Who is inside, or may be, where the last ft_world_follow() ended: by trigger, body and
+    /// <summary>What is inside, or may be, where the last ft_world_follow() ended: by trigger, body and
     /// link.</summary>
     [DllImport(Library)] public static extern int ft_world_occupants(FtWorld world, FtOccupant* occupants, ulong capacity, out ulong required);
-    /// <summary>At an instant, of bodies where they are then. One of two must be made of LSS. Errors:
-    /// unknown bodies and links, two links that are one, a body that is not there or silent then.</summary>
+    /// <summary>The depth at an instant, of bodies where they are then. One of two must be made of LSS.
+    /// Errors: unknown bodies and links, two links that are one, a body that is not there or silent
+    /// then.</summary>
     [DllImport(Library)] public static extern int ft_world_depth(FtWorld world, FtDepthQuestion* question, FtDepth* depth);
   }
 }

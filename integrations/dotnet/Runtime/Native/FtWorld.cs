@@ -49,7 +49,7 @@ namespace Foretouch {
     /// <summary>asks whether own links touch, too; NULL: not asked. Not kept</summary>
     public IntPtr self;
   }
-  /// <summary>Who moves a body.</summary>
+  /// <summary>What carries a body.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public partial struct FtCarrier {
     public uint size;
@@ -85,7 +85,7 @@ namespace Foretouch {
   public partial struct FtWorldContact {
     public uint size;
     public int verdict;
-    /// <summary>of FT_VERDICT_UNDECIDED</summary>
+    /// <summary>for FT_VERDICT_UNDECIDED</summary>
     public int reason;
     /// <summary>1: it rests on a body that was silent, and was taken to hold still</summary>
     public int isAssumed;
@@ -95,7 +95,7 @@ namespace Foretouch {
     public double timeFraction;
     /// <summary>metres, then</summary>
     public double separation;
-    /// <summary>metres, of FT_VERDICT_STARTS_IN_CONTACT; NaN: not known</summary>
+    /// <summary>metres, for FT_VERDICT_STARTS_IN_CONTACT; NaN: not known</summary>
     public double penetration;
     /// <summary>unit, from b to a, W</summary>
     public FtVector normal;
@@ -192,7 +192,7 @@ namespace Foretouch {
       return contactsBuffer.First(count);
     }
     readonly FtBuffer<FtSilentBody> silentBuffer = new FtBuffer<FtSilentBody>();
-    /// <summary>By body.</summary>
+    /// <summary>Those of the last window, by body.</summary>
     public ReadOnlySpan<FtSilentBody> Silent() {
       ulong count;
       int status;
@@ -225,29 +225,28 @@ namespace Foretouch {
     /// contacts count. It meets avatars, and whatever ft_world_options.asks_meshes says besides.</summary>
     [DllImport(Library)] public static extern int ft_world_add_mesh(FtWorld world, FtScene mesh, FtBodyOptions* options, out int body);
     [DllImport(Library)] public static extern int ft_world_body_count(FtWorld world, out ulong count);
-    /// <summary>Whether bodies of two groups are asked if they meet, 0 or 1; everything is, to begin
-    /// with.</summary>
+    /// <summary>Sets whether bodies of two groups are asked if they meet, 0 or 1; at first all
+    /// are.</summary>
     [DllImport(Library)] public static extern int ft_world_ask(FtWorld world, int group, int other, int isAsked);
-    /// <summary>The same of bodies of a group and what is still.</summary>
+    /// <summary>The same for bodies of a group and what is still.</summary>
     [DllImport(Library)] public static extern int ft_world_ask_still(FtWorld world, int group, int isAsked);
     /// <summary>The body's next pose: in W, or in the frame of what carries it and lets it move. A body is
     /// there from its first pose on; before, nothing touches it. Allocates nothing once memory has grown,
     /// if ft_world_forget_before() is called now and then. Errors: an unknown body (ft_last_error_index()),
-    /// an instant that is not after the last one or that is forgotten, a pose that is none, a body that is
-    /// held fast; then nothing has changed.</summary>
+    /// an instant that is not after the last one or that is forgotten, not a pose of the body, a body that
+    /// is held fast; then nothing has changed.</summary>
     [DllImport(Library)] public static extern int ft_world_push(FtWorld world, int body, long utimeUs, FtPose* pose);
     /// <summary>From `utime_us` on, the body is carried; `pose` is its pose there, in the frame of the
     /// carrier's link. The body and that link are not asked whether they meet. Errors: unknown bodies and
-    /// links, who would carry himself (FT_ERROR_BAD_HIERARCHY), an instant at which one of the two is not
-    /// known, or that is not after the last change.</summary>
+    /// links, a body that would carry itself (FT_ERROR_BAD_HIERARCHY), an instant at which one of the two
+    /// is not known, or that is not after the last change.</summary>
     [DllImport(Library)] public static extern int ft_world_attach(FtWorld world, int body, FtCarrier* carrier, long utimeUs, FtPose* pose);
-    /// <summary>From `utime_us` on, nobody carries it; `pose` is its pose there, in W. Errors: likewise,
+    /// <summary>From `utime_us` on, nothing carries it; `pose` is its pose there, in W. Errors: the same,
     /// and a body that is not carried.</summary>
     [DllImport(Library)] public static extern int ft_world_detach(FtWorld world, int body, long utimeUs, FtPose* pose);
     /// <summary>Stores in *utime_us until when all is known, or taken to be: the earliest last pose of the
-    /// bodies that wait for theirs; if nobody waits, the latest pose of all. In *waits_for the body with
-    /// that pose; -1: nobody waits. Either may be NULL. FT_ERROR_EMPTY if no body has a pose.
-    /// O(bodies).</summary>
+    /// bodies that wait for theirs; if none waits, the latest pose of all. In *waits_for the body with that
+    /// pose; -1: none waits. Either may be NULL. FT_ERROR_EMPTY if no body has a pose. O(bodies).</summary>
     [DllImport(Library)] public static extern int ft_world_known_until(FtWorld world, out long utimeUs, out int waitsFor);
     /// <summary>Lets go of what no window from `utime_us` on needs. Earlier poses and windows are refused
     /// from now on.</summary>
@@ -256,17 +255,17 @@ namespace Foretouch {
     /// most `bytes`, or nothing is left before ft_world_known_until(). Stores in *utime_us the instant
     /// before which it has forgotten; may be NULL.</summary>
     [DllImport(Library)] public static extern int ft_world_forget_beyond(FtWorld world, ulong bytes, out long utimeUs);
-    /// <summary>What the poses that are kept take: of a pose of n joints 56 n + 256.</summary>
+    /// <summary>The bytes that kept poses take: 56 n + 256 for a pose of n joints.</summary>
     [DllImport(Library)] public static extern int ft_world_pose_bytes(FtWorld world, out ulong bytes);
     /// <summary>Lets go of poses before `utime_us` between others that say nearly the same: no point of any
     /// body, of what it carries included, is ever farther than `metres` from where all poses that were
     /// pushed have it, however often this is called. Answers about instants from `utime_us` on stay as they
-    /// are, to the bit. Nobody can be attached before it any more. Errors: metres that are not finite, or
+    /// are, to the bit. Nothing can be attached before it any more. Errors: metres that are not finite, or
     /// below 0.</summary>
     [DllImport(Library)] public static extern int ft_world_thin_before(FtWorld world, long utimeUs, double metres);
     /// <summary>Finds the first contact, in the window, of every two links of different bodies that are
     /// asked, of every link and what is still, and of own links where a body has rules. Allocates nothing
-    /// once memory has grown, as long as nobody is added or carried in another way. Errors: a window
+    /// once memory has grown, as long as no body is added or carried in another way. Errors: a window
     /// without length, that begins before what was forgotten, or ends after ft_world_known_until();
     /// carriers whose chains are too deep together. After an error the last answer stays.</summary>
     [DllImport(Library)] public static extern int ft_world_answer(FtWorld world, long fromUs, long toUs);
@@ -276,7 +275,7 @@ namespace Foretouch {
     /// arrays, the first element's size applies to all. FT_ERROR_NO_STEP before the first answer, as for
     /// the next two. O(n).</summary>
     [DllImport(Library)] public static extern int ft_world_contacts(FtWorld world, FtWorldContact* contacts, ulong capacity, out ulong required);
-    /// <summary>By body.</summary>
+    /// <summary>Those of the last window, by body.</summary>
     [DllImport(Library)] public static extern int ft_world_silent(FtWorld world, FtSilentBody* bodies, ulong capacity, out ulong required);
     /// <summary>Fills as much of `counters` as counters-&gt;size covers.</summary>
     [DllImport(Library)] public static extern int ft_world_get_counters(FtWorld world, FtWorldCounters* counters);

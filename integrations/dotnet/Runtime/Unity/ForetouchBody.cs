@@ -33,7 +33,7 @@ namespace Foretouch {
       if (stepper != null) stepper.Restart();
     }
 
-    /// Nobody saw what the body did while the program slept.
+    /// What the body did while the program slept is unknown.
     void OnApplicationPause(bool isPaused) { Restart(); }
 
     protected override void Build() {
@@ -53,7 +53,7 @@ namespace Foretouch {
     }
 
     void FixedUpdate() {
-      hadScene |= scene != null;  // one that was destroyed since is told
+      hadScene |= scene != null;  // one that was destroyed since is reported
       if (IsReady && hadScene) Try(step);
     }
 

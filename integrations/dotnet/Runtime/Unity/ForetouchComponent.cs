@@ -14,7 +14,7 @@ namespace Foretouch {
     protected abstract void Release();
     protected string Owner { get { return GetType().Name + " '" + name + "'"; } }
 
-    /// <summary>Built, if need be: whoever needs another component at the begin asks it so. False: it is
+    /// <summary>Built, if need be: a component asks this of another that it needs at the begin. False: it is
     /// disabled, or something is wrong, and it has said what.</summary>
     public bool IsReady {
       get {

@@ -15,7 +15,7 @@ namespace Foretouch {
 
     /// <summary>Each surface that holds it back, each fixed update.</summary>
     public event Action<HandPress> Pressed;
-    /// <summary>Of the last fixed update: FtSolid.Equal, .Sliding, .Held and so on in `state`.</summary>
+    /// <summary>The last fixed update's tick: FtSolid.Equal, .Sliding, .Held and so on in `state`.</summary>
     public FtSolidTick Tick { get; private set; }
 
     HandFollower follower;

@@ -1,4 +1,4 @@
-// TouchEvents.cs: who enters and leaves whom, among bodies, props that move and what is still.
+// TouchEvents.cs: what enters and leaves what, among bodies, props that move and what is still.
 #if UNITY_5_3_OR_NEWER
 using System;
 using System.Collections.Generic;
@@ -55,7 +55,7 @@ namespace Foretouch {
     }
 
     void TellAll() {
-      bool isAnew = false;  // what it follows was: so is this, and who is in contact then starts inside
+      bool isAnew = false;  // what it follows was: so is this, and what is in contact then starts inside
       if (hasStill) SceneOf(still);
       if (hasStill && still.Version != stillVersion) isAnew = true;
       for (int i = 0; i < bodies.Length; ++i) isAnew |= SkeletonOf(bodies[i]) != followed[i];
@@ -66,7 +66,7 @@ namespace Foretouch {
       teller.Tick(Time.fixedDeltaTime, tell);
     }
 
-    /// Nobody saw what happened while the program slept: it begins anew.
+    /// What happened while the program slept is unknown: it begins anew.
     void OnApplicationPause(bool isPaused) { OnDisable(); }
 
     void Tell(TouchEvent happened) {

@@ -62,7 +62,7 @@ namespace Foretouch {
       return bones;
     }
 
-    /// Of each joint, the nearest one above it in Unity's tree; -1: none.
+    /// For each joint, the nearest one above it in Unity's tree; -1: none.
     internal static int[] Parents(Transform[] joints) {
       var parents = new int[joints.Length];
       for (int i = 0; i < joints.Length; ++i) {

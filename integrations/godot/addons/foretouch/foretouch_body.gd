@@ -1,4 +1,4 @@
-# ForetouchBody: tells what a Skeleton, or any Spatial with CollisionShapes, meets between two physics frames.
+# ForetouchBody: reports what a Skeleton, or any Spatial with CollisionShapes, meets between two physics frames.
 extends "foretouch_node.gd"
 class_name ForetouchBody
 
@@ -9,7 +9,7 @@ signal touched(touch)
 
 # The Skeleton or Spatial. Empty: the parent.
 export var skeleton: NodePath
-# Metres: touches are told at most so much early, and never late.
+# Metres: touches are reported at most so much early, and never late.
 export var tolerance := 1e-3
 
 var _moved = null

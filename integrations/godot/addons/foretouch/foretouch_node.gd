@@ -8,7 +8,7 @@ const Capsules := preload("capsules.gd")
 
 # The ForetouchScene. Empty: the first one that is found in the tree.
 export var scene: NodePath
-# Of a capsule along every bone, in metres, for a skeleton that has no CollisionShapes. 0: it must have some.
+# Radius of a capsule along every bone, in metres, for a skeleton that has no CollisionShapes. 0: it must have some.
 export var radius := 0.0
 
 var problem := ""  # "" where all is well
@@ -81,7 +81,7 @@ static func _first_scene(node: Node):
 	return null
 
 
-# Whoever is told may free what tells.
+# A listener may free what reports to it.
 func _is_going() -> bool:
 	return is_queued_for_deletion() or not is_inside_tree()
 

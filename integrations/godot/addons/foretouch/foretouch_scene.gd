@@ -39,7 +39,7 @@ func rebuild() -> bool:
 	return true
 
 
-# The handle, built if need be: whoever needs it first asks so.
+# The handle, built if need be, for the node that needs it first.
 func built():
 	_build_once()
 	return handle
