@@ -21,9 +21,9 @@ namespace foretouch::c {
 /// Longest message, with its terminating zero; cuts longer ones between characters.
 inline constexpr std::size_t kMessageBytes = 1024;
 
+inline constexpr std::int64_t kNoIndex = -1;
 /// Stores the message for this thread, prefixed with the current C function's name, and returns
 /// `status`. `index`: the joint, link, frame, triangle or body at fault; kNoIndex: none.
-inline constexpr std::int64_t kNoIndex = -1;
 [[gnu::format(FORETOUCH_PRINTF_FORMAT, 3, 4)]] ft_status failure(ft_status status,
                                                                  std::int64_t index,
                                                                  const char* format, ...) noexcept;

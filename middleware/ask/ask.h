@@ -160,7 +160,7 @@ struct WorldAnswer {
 /// does not overlap it. Questions at the instant of the last one, while nobody changes the world,
 /// are cheapest. Allocates nothing once scratch and answer have grown. Errors, which name what is
 /// wrong: a shape, direction or reach that is not finite, out of range, or without length; unknown
-/// bodies or links; an instant before what was forgotten.
+/// bodies or links; an instant that was forgotten.
 Result<Done> askWorld(const World& world, const WorldQuestion& question, Scratch& scratch,
                       WorldAnswer& answer);
 

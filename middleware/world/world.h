@@ -90,7 +90,7 @@ class World {
   /// for these. Depends on the poses alone, not on the order in which they came, nor on how many
   /// threads share the work. Allocates nothing once the scratch and the answer have grown, as long
   /// as no body is added or carried in another way. The promise: docs/guarantees.md 15. Errors,
-  /// which name who or what: a window without length, that begins before what was forgotten, or
+  /// which name who or what: a window without length, that begins where it has forgotten, or
   /// ends after knownUntilUs(); carriers whose chains are too deep together; on a pool, memory ran
   /// out (DeviceFailed): the answer then means nothing. The world must not change meanwhile.
   Result<Done> contacts(std::int64_t fromUs, std::int64_t toUs, Scratch& scratch,

@@ -1,4 +1,4 @@
-/* A dancer, tracked 30 times per second, and a door that swings, reported 60 times per second: when
+/* A dancer, tracked 30 times per second, and a door that swings, known 60 times per second: when
  * does which link meet the door? cc swinging_door.c -lforetouch -lm */
 #include <foretouch/world.h>
 #include <math.h>

@@ -122,7 +122,7 @@ enum {
  * than it is, and at most 1e-9 m nearer where doubles resolve it. Questions at the instant of the
  * last one, while nothing changes the world, are cheapest. Allocates nothing once memory has grown.
  * Errors name the field: a shape, direction or reach that is not finite, out of range, or without
- * length; unknown bodies and links; an instant before what was forgotten. After an error the last
+ * length; unknown bodies and links; an instant that was forgotten. After an error the last
  * answer stays. */
 FT_API ft_status ft_world_probe(ft_world* world, const ft_question* question, int32_t* verdict);
 

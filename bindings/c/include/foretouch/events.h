@@ -40,8 +40,8 @@ FT_API ft_status ft_world_weigh_avatar(ft_world* world, int32_t body, double kg)
 /* Finds everything that happens from where the last call ended until `until_us`; nothing if that is
  * not later. What it reports depends on the poses alone: not on threads, the order in which poses
  * came, or the calls, as long as each ends where time is cut (ft_world_known_until() is a pose).
- * Errors: as ft_world_answer(), and more than 10^7 cuts in one call; then nothing has been
- * followed. */
+ * Errors: as ft_world_answer(), a world that asks_meshes (FT_ERROR_MISMATCH), and more than 10^7
+ * cuts in one call; then nothing has been followed. */
 FT_API ft_status ft_world_follow(ft_world* world, int64_t until_us);
 /* Stores from where and until where the last call followed. Either may be NULL. */
 FT_API ft_status ft_world_followed(const ft_world* world, int64_t* from_us, int64_t* until_us);

@@ -68,7 +68,7 @@ enum {
   FT_SOLID_SLIDING = 3,   /* surfaces keep it from the tracked pose, and it moved */
   FT_SOLID_HELD = 4,      /* surfaces keep it from the tracked pose, and it stays */
   FT_SOLID_AROUND = 5,    /* on a proven way around what is in between */
-  FT_SOLID_SNAPPED = 6    /* appeared here: the only break of what is shown */
+  FT_SOLID_SNAPPED = 6    /* appeared here, although no way leads there */
 };
 /* The state of one joint and its link. */
 enum {

@@ -55,7 +55,7 @@ typedef struct ft_solid_target {
  * nothing: an instant that is not 1 us to 10 s after the last one; a target that is none, of no
  * solid avatar, or two of one; a body that waits for its poses and is not known until then; a solid
  * avatar that is carried; what moves in its hand (ft_carrier.moves_in_frame), or changes hands
- * within the tick; a tick that begins before what was forgotten. If memory runs out within a tick,
+ * within the tick; a tick that begins where the world has forgotten. If memory runs out in a tick,
  * all later ones are FT_ERROR_OUT_OF_MEMORY: the world is to be made anew. */
 FT_API ft_status ft_solid_world_tick(ft_world* world, int64_t utime_us,
                                      const ft_solid_target* targets, size_t count);

@@ -35,7 +35,7 @@ FT_API ft_status ft_world_add_trigger_sphere(ft_world* world, double radius,
                                              const ft_trigger_options* options, int32_t* trigger,
                                              int32_t* body);
 /* What is inside some object of a mesh. Each object is closed: every edge, by exact coordinates,
- * belongs to two of the object's triangles, turned any way. */
+ * belongs to an even number of the object's triangles, turned any way. */
 FT_API ft_status ft_world_add_trigger_mesh(ft_world* world, const ft_scene* closed,
                                            const ft_trigger_options* options, int32_t* trigger,
                                            int32_t* body);

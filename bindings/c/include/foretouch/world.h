@@ -126,7 +126,7 @@ FT_API ft_status ft_world_thin_before(ft_world* world, int64_t utime_us, double 
 /* Finds the first contact, in the window, of every two links of different bodies that are asked, of
  * every link and what is still, and of own links where a body has rules. Allocates nothing once
  * memory has grown, as long as no body is added or carried in another way. Errors: a window without
- * length, that begins before what was forgotten, or ends after ft_world_known_until(); carriers
+ * length, that begins where the world has forgotten, or ends after ft_world_known_until(); carriers
  * whose chains are too deep together. After an error the last answer stays. */
 FT_API ft_status ft_world_answer(ft_world* world, int64_t from_us, int64_t to_us);
 

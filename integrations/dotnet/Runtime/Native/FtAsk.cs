@@ -285,8 +285,8 @@ namespace Foretouch {
     /// farther than it is, and at most 1e-9 m nearer where doubles resolve it. Questions at the instant of
     /// the last one, while nothing changes the world, are cheapest. Allocates nothing once memory has
     /// grown. Errors name the field: a shape, direction or reach that is not finite, out of range, or
-    /// without length; unknown bodies and links; an instant before what was forgotten. After an error the
-    /// last answer stays.</summary>
+    /// without length; unknown bodies and links; an instant that was forgotten. After an error the last
+    /// answer stays.</summary>
     [DllImport(Library)] public static extern int ft_world_probe(FtWorld world, FtQuestion* question, out int verdict);
     /// <summary>Many questions in one call, each answered as ft_world_probe() answers it, to the bit,
     /// whatever their order; cheaper where they are at the same instants. All have the same size. If one is

@@ -209,8 +209,8 @@ namespace Foretouch {
     /// <summary>Finds everything that happens from where the last call ended until `until_us`; nothing if
     /// that is not later. What it reports depends on the poses alone: not on threads, the order in which
     /// poses came, or the calls, as long as each ends where time is cut (ft_world_known_until() is a pose).
-    /// Errors: as ft_world_answer(), and more than 10^7 cuts in one call; then nothing has been
-    /// followed.</summary>
+    /// Errors: as ft_world_answer(), a world that asks_meshes (FT_ERROR_MISMATCH), and more than 10^7 cuts
+    /// in one call; then nothing has been followed.</summary>
     [DllImport(Library)] public static extern int ft_world_follow(FtWorld world, long untilUs);
     /// <summary>Stores from where and until where the last call followed. Either may be NULL.</summary>
     [DllImport(Library)] public static extern int ft_world_followed(FtWorld world, out long fromUs, out long untilUs);

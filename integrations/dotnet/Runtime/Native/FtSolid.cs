@@ -85,7 +85,7 @@ namespace Foretouch {
     public const int Held = 4;
     /// <summary>on a proven way around what is in between</summary>
     public const int Around = 5;
-    /// <summary>appeared here: the only break of what is shown</summary>
+    /// <summary>appeared here, although no way leads there</summary>
     public const int Snapped = 6;
   }
   public partial struct FtSolidJoint {

@@ -150,7 +150,7 @@ namespace Foretouch {
     [DllImport(Library)] public static extern int ft_world_add_trigger_box(FtWorld world, double* halfExtents, FtTriggerOptions* options, out int trigger, out int body);
     [DllImport(Library)] public static extern int ft_world_add_trigger_sphere(FtWorld world, double radius, FtTriggerOptions* options, out int trigger, out int body);
     /// <summary>What is inside some object of a mesh. Each object is closed: every edge, by exact
-    /// coordinates, belongs to two of the object's triangles, turned any way.</summary>
+    /// coordinates, belongs to an even number of the object's triangles, turned any way.</summary>
     [DllImport(Library)] public static extern int ft_world_add_trigger_mesh(FtWorld world, FtScene closed, FtTriggerOptions* options, out int trigger, out int body);
     /// <summary>Looks at this body, or at this link of it, instead of at all bodies; called again, at
     /// several. `link` may be FT_EVERY_LINK. Before the trigger's first ft_world_follow().</summary>

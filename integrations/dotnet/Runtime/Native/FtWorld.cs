@@ -266,7 +266,7 @@ namespace Foretouch {
     /// <summary>Finds the first contact, in the window, of every two links of different bodies that are
     /// asked, of every link and what is still, and of own links where a body has rules. Allocates nothing
     /// once memory has grown, as long as no body is added or carried in another way. Errors: a window
-    /// without length, that begins before what was forgotten, or ends after ft_world_known_until();
+    /// without length, that begins where the world has forgotten, or ends after ft_world_known_until();
     /// carriers whose chains are too deep together. After an error the last answer stays.</summary>
     [DllImport(Library)] public static extern int ft_world_answer(FtWorld world, long fromUs, long toUs);
     /// <summary>All contacts of the last window, earliest first; at equal times by a's body and link, then
