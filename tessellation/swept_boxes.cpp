@@ -48,7 +48,7 @@ HWY_INLINE Ends endsAt(NodeLanes d, const LssTable::Entry& entry, const LinkNode
   return {pointAt(d, link, entry.a, 0.0, axis, lane), b};
 }
 
-/// As floats relative to `shift`.
+/// Stores the ends as floats relative to `shift`.
 HWY_INLINE void storeEnds(NodeLanes d, const Ends& ends, double shift, int axis, int lane,
                           NodeEnds::Axis& to) {
   const hn::Rebind<float, NodeLanes> floats;
@@ -57,7 +57,7 @@ HWY_INLINE void storeEnds(NodeLanes d, const Ends& ends, double shift, int axis,
   hn::StoreU(hn::DemoteTo(floats, hn::Sub(ends.b, from)), floats, to.b[axis] + lane);
 }
 
-/// Whether somebody needs the ends themselves: known before the loops, which are a quarter slower
+/// Whether the caller needs the ends themselves: known before the loops, which are a quarter slower
 /// if they ask.
 enum class Keep : bool { BoxesOnly, EndsToo };
 
@@ -193,7 +193,7 @@ class Growth {
         sagittas_(gap * gap / 8.0 * kInflation),
         rounding_(internal::pointRoundings(nodes.bounds())) {}
 
-  /// With the rounding of the origin.
+  /// The margin plus the rounding of the origin.
   [[nodiscard]] double wholeMargin(double margin) const { return margin + rounding_.atOrigin; }
 
   [[nodiscard]] double of(const LssTable::Entry& entry, double wholeMargin) const {
