@@ -57,8 +57,8 @@ bool isSameInLowerCase(std::string_view text, std::string_view word) {
          });
 }
 
-/// An STL in text whose keywords are in capitals, as some programs write it: assimp knows them in
-/// lower case alone. The name of the solid stays as it is. Nothing of any other file.
+/// An STL in text whose keywords are in capitals, as some programs write it: assimp knows them only
+/// in lower case. The name of the solid stays as it is. Nothing for any other file.
 std::optional<std::string> withKeywordsOfStlInLowerCase(const std::string& path) {
   constexpr std::string_view kSolid = "solid", kEndSolid = "endsolid";
   if (lowerExtensionOf(path) != ".stl") return std::nullopt;
