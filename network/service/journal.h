@@ -28,7 +28,7 @@ class JournalSink {
 
 struct LogLimits {
   std::uint64_t bytes = 0;  ///< Of one file, before the next one begins; 0: no limit.
-  int files = 8;            ///< That stay; the oldest goes when another one begins. At least 1.
+  int files = 8;            ///< Kept; the oldest goes when another one begins. At least 1.
 };
 
 /// A new event log (EventLogWriter); an existing file is an error. Beyond the limit it goes on in

@@ -22,7 +22,7 @@ namespace foretouch::internal {
 bool findTracked(const Skeleton& skeleton, const std::vector<UndecidedReason>& unknownJoints,
                  std::vector<std::uint8_t>& isTracked);
 
-/// Whom a message is about, and the options. `avatarHash`: of its skeleton.
+/// Fills in which avatar a message is about, and the options. `avatarHash`: its skeleton's.
 void fillSolidHead(std::int32_t id, std::int64_t avatarHash, const SolidOptions& options,
                    SolidMessage& answer);
 
