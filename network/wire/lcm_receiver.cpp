@@ -80,7 +80,7 @@ class LcmReceiver : public Receiver {
 
   const std::string url_;
   std::unique_ptr<lcm_t, void (*)(lcm_t*)> lcm_;
-  std::vector<WireMessage>* messages_ = nullptr;  ///< Of the running call of receive().
+  std::vector<WireMessage>* messages_ = nullptr;  ///< Those of the running call of receive().
   WireCounts counts_;
 };
 

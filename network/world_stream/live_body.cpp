@@ -51,7 +51,7 @@ bool LiveBody::isUnknown(LinkId link, std::int64_t fromUs, std::int64_t toUs) co
 
 Reject rigidPlaceFault(const LiveBody& body, const RigidPlace& place, std::int64_t receiveUtimeUs,
                        std::int64_t restartUs, bool& isGap) {
-  // Nobody knows whether the first pose that is heard is the first one.
+  // It is not known whether the first pose that is heard is the first one.
   isGap = !body.hasStream;
   if (isGap) return Reject::None;
   if (place.utimeUs <= body.knownUntilUs) {
