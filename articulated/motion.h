@@ -67,7 +67,7 @@ struct MotionBounds {
     const double square = angularSpeed * angularSpeed, fourth = square * square;
     return eighthDerivative + fourth * fourth * rho;
   }
-  /// The rounding of LinkState's pointAt() and velocityAt() at distance rho, their sums included.
+  /// Bounds on LinkState::pointAt()'s and velocityAt()'s rounding at distance rho, sums included.
   [[nodiscard]] double positionRoundingAt(double rho) const {
     return originRounding + (rotationRounding + kPointRounding) * rho +
            kPointRounding * (reach + rho);

@@ -69,7 +69,7 @@ Vector3d turnOf(const Pose& from, const Pose& to, std::size_t joint) {
   return logOf(from.rotations[joint].conjugate() * to.rotations[joint]);
 }
 
-/// The derivative of the logarithm at w, of a curve that turns by `rate` in its own frame there.
+/// The derivative of the logarithm at w, for a curve that turns by `rate` in its own frame there.
 Vector3d logRate(const Vector3d& w, const Vector3d& rate) {
   const double square = w.squaredNorm(), angle = std::sqrt(square);
   const double share =

@@ -17,7 +17,7 @@ class Robot;
 /// Why a pair of links is asked, or left out. The numbers are those of the C API.
 enum class PairReason : std::uint8_t {
   Asked = 0,
-  Adjacent = 1,     ///< One moves the other: between the two is no other link with LSS.
+  Adjacent = 1,     ///< One moves the other, with no other link with LSS between them.
   RestOverlap = 2,  ///< Their LSS overlap at rest, and in a usual pose if any are known.
   Always = 3,       ///< They touch in nearly all usual poses.
   User = 4,         ///< The user left the pair out.
@@ -85,7 +85,7 @@ class PairRules {
   static Result<PairRules> derive(const Avatar& avatar, const PairRuleOptions& options = {});
   /// For robot.avatar(), from Robot::sampledPoses(). Leaves out adjacent links, links that touch in
   /// nearly all of these poses, and the user's. Zeros may lie outside a robot's limits, so touching
-  /// there is not a reason. Pairs that touch in no sample are asked, as samples prove nothing.
+  /// there is not a reason. Pairs that touch in no sample are asked, as that proves nothing.
   /// touches() has the counts. Errors as above, and those of sampledPoses().
   static Result<PairRules> derive(const Robot& robot, const RobotPairOptions& options = {});
   /// All pairs are asked but these, and only these LSS count with radii of their own. Errors as
