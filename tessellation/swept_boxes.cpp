@@ -221,7 +221,7 @@ void computeBoxes(const LssTable& table, const ChainNodes& nodes, const double* 
 /// Covers the differences and sums of an extent, in float.
 constexpr float kExtentInflation = 1.0F + 0x1p-20F;
 
-/// What no end's coordinates, added up, are above: of the box around them, seen from the origin.
+/// What no end's coordinates, added up, are above: from the box around them, seen from the origin.
 float extentOf(const SweptBoxes& boxes, std::int32_t lss, const float* origin) {
   float extent = 0.0F;
   for (int axis = 0; axis < 3; ++axis) {
