@@ -39,7 +39,7 @@ std::optional<double> recordedRateOf(const std::string& path, const Model& model
   return 1.0 / shortest;
 }
 
-/// The frames between keys of such a file that are no neighbours.
+/// The frames between keys of such a file that are not neighbours.
 std::vector<ClipGap> gapsBetweenKeys(const Model& model, double rateHz) {
   std::vector<ClipGap> gaps;
   std::int64_t last = -1;

@@ -24,13 +24,13 @@
 namespace foretouch::internal {
 namespace {
 
-/// assimp's own stream, of a file that is open already.
+/// assimp's own stream, for a file that is open already.
 class OpenedFile : public Assimp::DefaultIOStream {
  public:
   OpenedFile(std::FILE* file, const std::string& path) : DefaultIOStream(file, path) {}
 };
 
-/// Null if it is no regular file, whatever it was a moment ago.
+/// Null if it is not a regular file, whatever it was a moment ago.
 Assimp::IOStream* openedRegularFile(const std::string& path) {
   const int fd = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return nullptr;

@@ -162,7 +162,7 @@ constexpr std::array<Word, 4> kOfColladaAnimations{{{"BEZIER", kStraight},
 constexpr std::array<Word, 3> kOfFbx{
     {{"NurbsSurface", kNoMesh}, {"NurbsCurve", kNoMesh}, {"PatchDimensions", kNoMesh}}};
 
-/// Little-endian, of an array of numbers in a binary file.
+/// A little-endian number of an array in a binary file.
 std::uint32_t wordAt(std::string_view bytes, std::size_t at) {
   std::uint32_t word = 0;
   for (std::size_t i = 4; i > 0 && at + i <= bytes.size(); --i) {
