@@ -33,7 +33,7 @@ constexpr milliseconds kStalledAfter{1000};
 constexpr std::size_t kMostSentPerTurn = std::size_t{256} << 10;
 constexpr char kEndOfHeaders[] = "\r\n\r\n";
 
-/// Part of a response: of a shared text, or of its own.
+/// Part of a response: from a shared text, or from its own.
 struct Segment {
   std::shared_ptr<const std::string> owner;
   std::size_t offset = 0, size = 0;

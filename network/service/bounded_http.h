@@ -1,5 +1,5 @@
 // network/service/bounded_http.h: cpp-httplib's handlers behind a server within bounds. One thread
-// reads all requests and sends all responses, and never waits: a slow client costs the others
+// reads all requests and sends all responses, and waits for no client: a slow one costs the others
 // nothing. Only complete requests reach a handler, in that thread. One request per connection;
 // limits on its bytes and time, on the connections, and on those of one address, whose oldest
 // unfinished one makes way for a new one. GET and HEAD only. Not installed: it exposes cpp-httplib.

@@ -155,7 +155,7 @@ class MailRoom {
   std::vector<Box> boxes_;
   std::vector<std::size_t> ready_;  // avatars with mail and no thread, longest waiting first
   std::vector<std::unique_ptr<Mail>> empty_;
-  std::size_t handled_ = 0, steps_ = 0;  // avatars; steps that wait
+  std::size_t handled_ = 0, steps_ = 0;  // avatars in hand; steps that wait
   bool isLed_ = false, isLeadOver_ = false;
   bool isClosed_ = false;
 };

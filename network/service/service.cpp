@@ -129,7 +129,7 @@ struct Service::Impl final : internal::Outlet {
   AnswerTimes lastSecond;
 
   std::atomic<bool> isStopping{false};
-  ThreadBeat receiverBeat, statusBeat;  // of the receiving thread; of the status thread
+  ThreadBeat receiverBeat, statusBeat;  // the receiving thread's; the status thread's
   std::vector<ThreadBeat> threadBeats;
   std::thread statusThread;
   std::vector<std::thread> threads;  // receive and answer, in turns

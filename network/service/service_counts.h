@@ -73,7 +73,7 @@ class ServiceCounter {
   mutable std::mutex mutex_;
   ServiceCounts counts_;
   AnswerTimes all_, recent_;
-  // Of refused poses since the last accepted one (steady clock, ms).
+  // Refused poses since the last accepted one (steady clock, ms).
   bool isUnaccepted_ = false;
   std::int64_t firstRefusedMs_ = 0, lastRefusedMs_ = 0;
 };

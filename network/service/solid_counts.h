@@ -17,7 +17,7 @@ namespace foretouch {
 struct SolidCount {
   std::int32_t avatar = 0;                             ///< Its number in messages.
   std::array<std::uint64_t, kNumSolidStates> poses{};  ///< Shown, by state.
-  std::uint64_t uncertified = 0;                       ///< Of these.
+  std::uint64_t uncertified = 0;                       ///< Those of these poses.
   std::uint64_t queries = 0, work = 0;                 ///< As SolidCounters.
   SolidState state = SolidState::Placing;              ///< At the last pose.
   double deviation = 0.0;                              ///< The same.

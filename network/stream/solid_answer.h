@@ -1,5 +1,5 @@
-// network/stream/solid_answer.h: what a SolidMessage says, from a solid avatar's tick: of an avatar
-// alone (stream_solver.h), and of one among what moves (world_stream/). Not installed.
+// network/stream/solid_answer.h: what a SolidMessage says, from a solid avatar's tick: for one
+// alone (stream_solver.h), and for one among what moves (world_stream/). Not installed.
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,7 @@ constexpr int kMostAtOnce = 64;
 // liblcm's thread and its self-test select() on some ten descriptors that they open.
 constexpr int kMaxDescriptor = FD_SETSIZE - 32;
 
-/// A regular expression for this text alone.
+/// A regular expression for only this text.
 std::string escaped(const std::string& channel) {
   std::string expression;
   for (const char c : channel) {

@@ -64,7 +64,7 @@ struct MessageKey::Impl {
   }
   std::unique_ptr<EVP_MAC, void (*)(EVP_MAC*)> method;
   std::unique_ptr<EVP_MAC_CTX, void (*)(EVP_MAC_CTX*)> start;
-  bool isReady = false;  ///< A system that allows FIPS methods alone has no SipHash.
+  bool isReady = false;  ///< A system that allows only FIPS methods has no SipHash.
 };
 
 MessageKey::MessageKey(const std::array<std::uint8_t, kKeyBytes>& key)

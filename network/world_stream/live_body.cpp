@@ -8,8 +8,8 @@ bool isSamePose(const RigidPose& x, const RigidPose& y) {
   return x.translation == y.translation && x.rotation.coeffs() == y.rotation.coeffs();
 }
 
-/// A pose at the very instant of a change is in the frame before it: of the first one that is heard
-/// it must be the same pose.
+/// A pose at the very instant of a change is in the frame before it: at the first change that is
+/// heard, it must be the same pose.
 bool LiveBody::hasFrameOf(std::int64_t utimeUs, const RigidPose& pose) const {
   return utimeUs > firstUs || (utimeUs == firstUs && isSamePose(pose, firstPose));
 }

@@ -25,7 +25,7 @@ struct WorldCounts {
   std::uint64_t forgotten = 0;    ///< Bodies that no sender spoke of any more.
   std::uint64_t failures = 0;     ///< What the world itself refused, or could not answer.
   std::uint64_t timelines = 0;    ///< Begun.
-  std::uint64_t advances = 0;     ///< Of the watermark.
+  std::uint64_t advances = 0;     ///< Those of the watermark.
   std::array<std::uint64_t, kNumEventKinds> events{};
   std::uint64_t marked = 0;  ///< Events that rest on something that is not known.
   // Now.

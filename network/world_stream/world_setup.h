@@ -23,7 +23,7 @@ namespace foretouch {
 /// A shape that bodies may have: exactly one of the first two after its name is there.
 struct WorldShape {
   std::string name;
-  std::optional<Avatar> avatar;  ///< Or a rigid prop made of LSS: of one link.
+  std::optional<Avatar> avatar;  ///< Or a rigid prop made of LSS: one link.
   std::optional<Scene> mesh;
   BodyGroup group = 0;
   std::optional<PairRules> self;
@@ -55,7 +55,7 @@ struct WorldSetup {
 
 /// Times in microseconds.
 struct WorldPolicy {
-  /// A body that has told nothing captured in the last `waitUs` before the newest receipt is silent
+  /// A body that has said nothing captured in the last `waitUs` before the newest receipt is silent
   /// (unless `whenSilent` is Wait): the watermark goes on without it. So clocks of senders must
   /// agree with the service's within this. 1 to kMostWorldWaitUs.
   std::int64_t waitUs = 200'000;
