@@ -40,7 +40,7 @@ Vector madeUnit(const Point& axis) {
 
 /// The rotation by an angle about a unit axis. Half of the angle is halved until it is at most an
 /// eighth. There sine and cosine are their series up to x^12; by Taylor the rest is below |x|^13 /
-/// 13!. Doubling the angle again takes sums and products alone.
+/// 13!. Doubling the angle again takes only sums and products.
 Quaternion turned(const Vector& axis, const Interval& angle) {
   int halvings = 1;
   while (std::max(std::abs(angle.lo), std::abs(angle.hi)) > std::ldexp(0.125, halvings)) ++halvings;
