@@ -84,7 +84,7 @@ HWY_INLINE void storeMatrices(Lanes d, const Quaternions& q, int lane, LinkNodes
   hn::Store(NegMulAdd(q.x, x2, withoutY), d, link.R[8] + lane);
 }
 
-/// Of a root: in W, relative to `origin`.
+/// Stores a root's position in W, relative to `origin`.
 HWY_INLINE void storeRootPosition(Lanes d, internal::JointColumns arcs, int joint, Vector t,
                                   const double* origin, int lane, LinkNodes& link) {
   using internal::JointColumns;

@@ -52,9 +52,9 @@ class ChainNodes {
   [[nodiscard]] double instant(int k) const { return instants_[k]; }
   [[nodiscard]] const LinkNodes& link(LinkId link) const { return nodes_[slotOf(link)]; }
 
-  /// For every link.
+  /// The bounds that hold for every link. Closer ones for each link would cost more than they
+  /// gain.
   [[nodiscard]] const NodeBounds& bounds() const { return bounds_; }
-  /// For one link: at present the same. Closer bounds would cost more than they gain.
 
   /// The parent-relative poses at two instants of [0,1], as ChainMotion::poseAt() gives them, but
   /// without trigonometry and off by more (articulated/track.md 2). The poses are resized.
@@ -69,7 +69,7 @@ class ChainNodes {
   struct alignas(64) Row {
     double at[kNodes];
   };
-  /// Of slerp's weights of both ends; ascending powers.
+  /// The series of slerp's weights of both ends; ascending powers.
   struct Weights {
     std::vector<Row> from, to;
   };

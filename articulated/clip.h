@@ -11,10 +11,10 @@
 
 namespace foretouch {
 
-/// Frames that the file has no pose for: they are made up, of those around them.
+/// Frames that the file has no pose for: they are made up from those around them.
 struct ClipGap {
   std::int64_t first = 0, last = 0;  ///< The first and the last such frame.
-  JointId joint = kNoParent;         ///< Of it alone, and of what it carries; kNoParent: of all.
+  JointId joint = kNoParent;         ///< Only it and what it carries have the gap; kNoParent: all.
 };
 
 /// Poses at constant spacing. Lengths are in metres once the reader's scale has been applied.

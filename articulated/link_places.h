@@ -8,8 +8,8 @@
 
 namespace foretouch {
 
-/// Without velocities: the states of any motion that begins or ends there, to within the same
-/// bounds on rounding. `states` is resized. O(joints), no trigonometry.
+/// The links' states, without velocities: those of any motion that begins or ends there, to within
+/// the same bounds on rounding. `states` is resized. O(joints), no trigonometry.
 void placesAt(const Skeleton& skeleton, const Pose& pose, std::vector<LinkState>& states);
 
 }  // namespace foretouch

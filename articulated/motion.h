@@ -49,8 +49,8 @@ struct MotionBounds {
   double angularAcceleration = 0.0;
   double speed = 0.0;         ///< The speed of the link's origin.
   double acceleration = 0.0;  ///< The acceleration of the link's origin.
-  double reach = 0.0;         ///< From the world's origin to the link's.
-  /// On |d^8/dt^8| of the link's origin: bounds the error of interpolation through eight instants
+  double reach = 0.0;         ///< The distance from the world's origin to the link's.
+  /// |d^8/dt^8| of the link's origin: bounds the error of interpolation through eight instants
   /// (tessellation/lss_polynomials.md).
   double eighthDerivative = 0.0;
   /// Bounds on |computed - true| of LinkState's p_WL (m), R_WL (spectral norm), v_WL and w_WL.
@@ -67,7 +67,7 @@ struct MotionBounds {
     const double square = angularSpeed * angularSpeed, fourth = square * square;
     return eighthDerivative + fourth * fourth * rho;
   }
-  /// Of LinkState::pointAt() and velocityAt() for a point at distance rho, their own sums included.
+  /// Bounds on LinkState::pointAt()'s and velocityAt()'s rounding at distance rho, sums included.
   [[nodiscard]] double positionRoundingAt(double rho) const {
     return originRounding + (rotationRounding + kPointRounding) * rho +
            kPointRounding * (reach + rho);
@@ -87,11 +87,11 @@ struct MotionBounds {
 struct ChainSums {
   double angularSpeed = 0.0, angularAcceleration = 0.0, speed = 0.0, acceleration = 0.0;
   double eighthDerivative = 0.0;
-  double armReach = 0.0;   ///< From its root's origin to the link's (m).
-  double rootReach = 0.0;  ///< From the world's origin to the root's (m).
+  double armReach = 0.0;   ///< The distance from its root's origin to the link's (m).
+  double rootReach = 0.0;  ///< The distance from the world's origin to the root's (m).
   double depth = 0.0;      ///< Joints of the chain, the root and the link's own included.
 
-  /// Rounded up, with the bounds on rounding that follow from them (motion_bounds.md 3). O(1).
+  /// The bounds, rounded up, with those on rounding that follow (motion_bounds.md 3). O(1).
   [[nodiscard]] MotionBounds bounds() const;
   /// As bounds().accelerationAt(rho), for callers that need nothing else.
   [[nodiscard]] double accelerationAt(double rho) const {
@@ -163,7 +163,7 @@ class ChainMotion {
     double turn, length, driftLength;
   };
   [[nodiscard]] JointBounds jointBounds(LinkId link) const;
-  /// The largest of all joints' arcs; 0 without joints.
+  /// The largest versine of all joints' arcs; 0 without joints.
   [[nodiscard]] double largestVersine() const { return largestVersine_; }
 
  private:

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 /// The twist of a piece for which strayOf() holds (motion_model.md 2).
 constexpr double kMostTwist = 0.05;
-/// Of the angles that doubles compute here, and of their sums (motion_model.md 3).
+/// The rounding of the angles computed here, and of their sums, rad (motion_model.md 3).
 constexpr double kTurnRounding = 1e-14;
 
 /// Below this half of an angle (rad) series are exact to rounding, and a fifth of the work.
@@ -41,7 +41,7 @@ double cosineOf(double square) {
                         (1.0 - square / 30.0 * (1.0 - square / 56.0 * (1.0 - square / 90.0))));
 }
 
-/// Of the shorter arc.
+/// The logarithm of the shorter arc.
 Vector3d logOf(const Quaternion& q) {
   const double sign = q.w() < 0.0 ? -1.0 : 1.0;
   const Vector3d v = sign * q.vec();
@@ -69,7 +69,7 @@ Vector3d turnOf(const Pose& from, const Pose& to, std::size_t joint) {
   return logOf(from.rotations[joint].conjugate() * to.rotations[joint]);
 }
 
-/// The derivative of the logarithm at w, of a curve that turns by `rate` in its own frame there.
+/// The derivative of the logarithm at w, for a curve that turns by `rate` in its own frame there.
 Vector3d logRate(const Vector3d& w, const Vector3d& rate) {
   const double square = w.squaredNorm(), angle = std::sqrt(square);
   const double share =
@@ -231,7 +231,7 @@ JointStray ModelMotion::strayOf(JointId joint, double begin, double end) const {
   const Curve& turn = curves.turn;
   const Vector3d w0 = turn.at(begin), w1 = turn.at(end);
   const double bend = turn.bendIn(begin, end), way = (w1 - w0).norm();
-  // Of the straight line in logarithms, which is no geodesic (motion_model.md 2).
+  // The twist of the straight line in logarithms, which is not a geodesic (motion_model.md 2).
   const double farthest = std::max(w0.norm(), w1.norm());
   const double twist =
       w0.cross(w1).norm() * way * (1.0 / 6.0 + farthest * (1.0 / 12.0 + farthest / 60.0));
@@ -246,7 +246,7 @@ JointStray ModelMotion::strayOf(JointId joint, double begin, double end) const {
   return stray;
 }
 
-/// The curve lies in the hull of its control points, which the sum below is beyond.
+/// The curve lies in the hull of its control points, and the sum below is larger than they are.
 double ModelMotion::shiftRounding(JointId joint) const {
   const auto i = slotOf(joint);
   double reach = from_->translations[i].lpNorm<1>() + to_->translations[i].lpNorm<1>();

@@ -50,16 +50,16 @@ class ModelMotion {
   void assign(const Skeleton& skeleton, const PosedStep& step, MotionModel model);
   /// True: it is the constant rate, and one piece is all of it.
   [[nodiscard]] bool isConstantRate() const { return isConstantRate_; }
-  /// As the step went, on for `horizon` seconds after it: a constant rate, in pieces of which each
-  /// is at most as long as all before it, and in which no joint turns by more than 1 rad: their
-  /// ends (s after `to`, and the poses). False: it would take more than `most`, or lead beyond
-  /// kMaxCoordinate.
+  /// Goes on for `horizon` seconds as the step went, at a constant rate: in pieces of which each is
+  /// at most as long as all before it, and in which no joint turns by more than 1 rad. Fills in
+  /// their ends (s after `to`, and the poses). False: it would take more than `most` pieces, or
+  /// lead beyond kMaxCoordinate.
   [[nodiscard]] static bool goOn(const PosedStep& step, double horizon, std::size_t most,
                                  std::vector<double>& seconds, std::vector<Pose>& ends);
-  /// The pose at t in [0,1]; the given ones, bit for bit, at both ends. `pose` is resized. Of a
-  /// constant rate only at the ends: ChainMotion has the others.
+  /// The pose at t in [0,1]; the given ones, bit for bit, at both ends. `pose` is resized. At a
+  /// constant rate only for the ends: ChainMotion has the others.
   void poseAt(double t, Pose& pose) const;
-  /// The pose of these joints (one per joint); in between others stay as the step begins.
+  /// The pose of these joints (a flag per joint); in between, the others stay as the step begins.
   void poseAt(double t, const std::vector<std::uint8_t>& isMoved, Pose& pose) const;
   /// For the piece [begin, end] of the step, with the joint's constant rate between poseAt(begin)
   /// and poseAt(end). Infinite: the piece is too long to say.

@@ -46,7 +46,7 @@ class PosedAvatar {
   /// Keeps references to both.
   PosedAvatar(const Avatar& avatar, const std::vector<LinkState>& states)
       : avatar_(avatar), states_(states) {}
-  /// Of the axes (m).
+  /// The distance of the axes (m).
   [[nodiscard]] double distance(LinkId a, std::size_t lssA, LinkId b, std::size_t lssB) const {
     return separation(axisOf(a, lssA), axisOf(b, lssB)).distance;
   }
@@ -102,7 +102,7 @@ bool addRadii(const Avatar& avatar, const PosedAvatar& rest, LinkPair pair, doub
   return true;
 }
 
-/// Of the poses, in how many two links touch.
+/// In how many of the poses two links touch.
 std::vector<PairTouches> countTouches(const Avatar& avatar, const std::vector<Pose>& poses) {
   std::vector<PairTouches> touches;
   if (poses.empty()) return touches;

@@ -1,4 +1,4 @@
-// articulated/pair_rules.h: which pairs of an avatar's own links a query asks whether they touch.
+// articulated/pair_rules.h: for which pairs of an avatar's own links a query asks if they touch.
 // Every pair that is left out is a hole in the proof, so each has a reason that tools can show.
 #pragma once
 
@@ -17,7 +17,7 @@ class Robot;
 /// Why a pair of links is asked, or left out. The numbers are those of the C API.
 enum class PairReason : std::uint8_t {
   Asked = 0,
-  Adjacent = 1,     ///< One moves the other: between the two is no other link with LSS.
+  Adjacent = 1,     ///< One moves the other, with no other link with LSS between them.
   RestOverlap = 2,  ///< Their LSS overlap at rest, and in a usual pose if any are known.
   Always = 3,       ///< They touch in nearly all usual poses.
   User = 4,         ///< The user left the pair out.
@@ -63,8 +63,8 @@ struct PairRuleOptions {
   /// Poses that the avatar usually takes, for PairReason::Always. Validated for its skeleton.
   const std::vector<Pose>* usualPoses = nullptr;
   double alwaysShare = 0.95;      ///< Share of the usual poses, in (0,1].
-  std::vector<LinkPair> leftOut;  ///< By the user, in either order.
-  /// False: rest is no pose that the avatar takes, so overlapping there is no reason.
+  std::vector<LinkPair> leftOut;  ///< Pairs that the user leaves out, in either order.
+  /// False: the avatar does not take its rest pose, so overlapping there is not a reason.
   bool isRestTaken = true;
 };
 
@@ -85,7 +85,7 @@ class PairRules {
   static Result<PairRules> derive(const Avatar& avatar, const PairRuleOptions& options = {});
   /// For robot.avatar(), from Robot::sampledPoses(). Leaves out adjacent links, links that touch in
   /// nearly all of these poses, and the user's. Zeros may lie outside a robot's limits, so touching
-  /// there is no reason; and that no sample touched proves nothing, so such pairs are asked.
+  /// there is not a reason. Pairs that touch in no sample are asked, as that proves nothing.
   /// touches() has the counts. Errors as above, and those of sampledPoses().
   static Result<PairRules> derive(const Robot& robot, const RobotPairOptions& options = {});
   /// All pairs are asked but these, and only these LSS count with radii of their own. Errors as
@@ -102,12 +102,12 @@ class PairRules {
   /// Pairs of different links that both have LSS, and those of them that are asked.
   [[nodiscard]] std::int64_t numPairs() const { return numPairs_; }
   [[nodiscard]] std::int64_t numAsked() const { return numAsked_; }
-  /// By a, then by b; every pair once.
+  /// Sorted by a, then by b; every pair once.
   [[nodiscard]] const std::vector<LeftOutPair>& leftOut() const { return leftOut_; }
-  /// a < b; by a, then by b, then by the LSS.
+  /// a < b; sorted by a, then by b, then by the LSS.
   [[nodiscard]] const std::vector<PairRadius>& radii() const { return radii_; }
-  /// Of every pair of different links that both have LSS, by a, then by b, and of how many poses:
-  /// where the rules were derived from usual poses; else empty and 0.
+  /// The touches of every pair of different links that both have LSS, sorted by a, then by b, and
+  /// the number of poses. Empty and 0 unless the rules were derived from usual poses.
   [[nodiscard]] const std::vector<PairTouches>& touches() const { return touches_; }
   [[nodiscard]] std::int64_t numUsualPoses() const { return numUsualPoses_; }
   /// Two different links, in either order. O(log pairs).
@@ -129,7 +129,7 @@ class PairRules {
 };
 
 /// Whether an avatar is what a reason says: its links adjacent, its LSS overlapping at rest. Always
-/// true of the other reasons, which are not about the avatar alone. Precondition: its links.
+/// true for other reasons, which are not about the avatar alone. Precondition: its links.
 class PairReasonCheck {
  public:
   /// Keeps a copy of the avatar. O(links).

@@ -50,7 +50,7 @@ class RelativeChain {
 
   Skeleton skeleton_;
   std::vector<Source> sources_;   // per joint here
-  std::vector<JointId> parents_;  // likewise
+  std::vector<JointId> parents_;  // per joint here
   std::vector<LinkId> linkOf_;    // per original joint
   JointId atWorld_ = kNoParent;   // turned as W, placed at the root of the frame
   JointId rootOfFrame_ = kNoParent;

@@ -69,8 +69,8 @@ Result<Done> checkJoint(const Skeleton& skeleton, const std::vector<RobotJoint>&
   return Done{};
 }
 
-/// Of a joint's rotation in a computed pose (rad), and per unit of the largest coordinate (robot.md
-/// 2).
+/// The rounding of a joint's rotation in a computed pose (rad), and per unit of the largest
+/// coordinate (robot.md 2).
 constexpr double kTurnOfPose = 256.0 * kUnitRoundoff, kTurnPerCoordinate = 8.0 * kUnitRoundoff;
 
 /// The rest pose, then a turn about a unit axis.
@@ -135,7 +135,7 @@ void Robot::listCoordinates() {
     const JointId leader = joints_[i].mimicOf;
     if (leader == kNoParent) continue;
     firstCoordinate_[i] = firstCoordinate_[slotOf(leader)];
-    // A turn of the leader's need not be one of the follower's.
+    // A whole turn of the leader need not be a whole turn of the follower.
     coordinates_[slotOf(firstCoordinate_[i])].isPeriodic = false;
   }
 }

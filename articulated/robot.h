@@ -32,7 +32,7 @@ struct RobotJoint {
   RobotJointKind kind = RobotJointKind::Fixed;
   std::string name;  ///< The coordinate's; empty: the name of the skeleton's joint.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< In the joint's frame; any length but 0.
-  double lower = -kUnlimited, upper = kUnlimited;   ///< Of Revolute and Prismatic.
+  double lower = -kUnlimited, upper = kUnlimited;   ///< For Revolute and Prismatic.
   /// The joint follows another one: its own coordinate is factor * (the other's) + offset.
   JointId mimicOf = kNoParent;
   double mimicFactor = 1.0, mimicOffset = 0.0;
@@ -53,10 +53,10 @@ struct RobotCoordinate {
 /// (articulated/robot.md).
 inline constexpr double kMaxJointCoordinate = 1000.0;
 
-/// Two unit vectors across a unit axis, along which a planar joint is shifted: of z, x and y.
+/// Two unit vectors across a unit axis, along which a planar joint is shifted: for z, x and y.
 [[nodiscard]] std::pair<Eigen::Vector3d, Eigen::Vector3d> planeAcross(const Eigen::Vector3d& axis);
 
-/// What does not lie within its limits.
+/// A number that is not within its limits.
 struct LimitBreach {
   std::int32_t coordinate = -1;  ///< Its place in q; -1: none.
   JointId joint = kNoParent;     ///< The joint whose limit it is: the coordinate's, or one that
@@ -66,8 +66,8 @@ struct LimitBreach {
   [[nodiscard]] bool isAny() const { return joint != kNoParent; }
 };
 
-/// A list of configurations as poses, for what knows poses only and turns each joint on the shorter
-/// arc between two of them (articulated/motion.h): there it moves as q says.
+/// A list of configurations as poses, for code that knows only poses and turns each joint on the
+/// shorter arc between two of them (articulated/motion.h): this way the joint moves as q says.
 struct RobotPath {
   std::vector<Pose> poses;
   std::vector<double> at;  ///< Where each lies: i + t on the edge from configuration i to i + 1.
@@ -88,9 +88,9 @@ class Robot {
   [[nodiscard]] const std::vector<RobotCoordinate>& coordinates() const { return coordinates_; }
   [[nodiscard]] std::size_t numCoordinates() const { return coordinates_.size(); }
 
-  /// With a rigid tool: a link of its own, fixed to `link`, with these LSS in the frame of `link`
-  /// (m). Its pairs with other links than `link` are asked like those of any link. Errors: an
-  /// unknown link, a name that is taken, no LSS or bad ones.
+  /// The robot with a rigid tool: a link of its own, fixed to `link`, with these LSS in the frame
+  /// of `link` (m). Its pairs with other links than `link` are asked like those of any link.
+  /// Errors: an unknown link, a name that is taken, no LSS or bad ones.
   [[nodiscard]] Result<Robot> withTool(LinkId link, const std::string& name,
                                        std::vector<Lss> lss) const;
 
@@ -114,7 +114,7 @@ class Robot {
   /// of more than kMostParts parts (Error::index is its place).
   [[nodiscard]] Result<RobotPath> pathAlong(const double* q, std::size_t count) const;
   /// Poses at `count` configurations drawn evenly within the limits, those of mimics included;
-  /// angles without limits within a half turn, shifts without within a metre. A mobile base stays.
+  /// unlimited angles are within a half turn, unlimited shifts within a metre. A mobile base stays.
   /// The same on every machine. Errors: a count below 1, and limits of mimics that leave hardly
   /// any.
   [[nodiscard]] Result<std::vector<Pose>> sampledPoses(std::int32_t count,
@@ -136,7 +136,7 @@ class Robot {
   [[nodiscard]] double reach() const { return reach_; }
   /// Radians. Below a half turn by enough that the shorter arc is the joint's own.
   static constexpr double kMostTurn = 3.0;
-  /// Parts of an edge: 12,288 rad, which only the factor of a mimic gives (kMaxJointCoordinate).
+  /// Parts of an edge: 12,288 rad, which only a mimic's factor reaches (kMaxJointCoordinate).
   static constexpr int kMostParts = 4096;
 
  private:

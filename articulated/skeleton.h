@@ -88,7 +88,7 @@ class Skeleton {
   std::vector<JointId> parents_;
 };
 
-/// Appends a chain to `raw`, whose joints are named by their numbers then: its roots hang on
+/// Appends a chain to `raw`; each new joint's name is its number there. The chain's roots hang on
 /// `carrier`, a joint of `raw`, or on nothing. Returns the number of its first joint.
 JointId appendChain(const Skeleton& chain, JointId carrier, RawSkeleton& raw);
 

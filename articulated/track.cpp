@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
-/// Of a joint's rotation in a part of a motion, in unit roundoffs (articulated/track.md 2).
+/// The rounding of a joint's rotation in a part of a motion (articulated/track.md 2).
 constexpr double kTurnOfPart = 4096.0 * kUnitRoundoff;
-/// Of a joint's translation there, of the arms' sums, and of the instants.
+/// That of a joint's translation there and of the arms' sums, and that of the instants.
 constexpr double kShiftOfPart = 8.0 * kUnitRoundoff, kInstantOfPart = 4.0 * kUnitRoundoff;
 
 std::string microseconds(std::int64_t utimeUs) {
@@ -87,8 +87,8 @@ Result<Done> Track::push(std::int64_t utimeUs, const Pose& pose) {
   }
   if (count_ == ring_.size()) grow();
   Knot& next = ring_[(first_ + count_) % ring_.size()];
-  // Where one pose is let go of for each that comes, as of a world that remembers a second, the
-  // ring's other half needs no memory.
+  // Where each pose that comes lets go of one, as in a world that remembers a second, the ring's
+  // other half needs no memory.
   Knot& before = ring_[(first_ + ring_.size() - 1) % ring_.size()];
   if (next.pose.rotations.empty() && &before != &next) std::swap(next.pose, before.pose);
   next.utimeUs = utimeUs;

@@ -85,7 +85,7 @@ class Track {
   struct Knot {
     std::int64_t utimeUs = 0;
     Pose pose;
-    double movedBy = 0.0;  ///< By thinning: the motion from here to the next knot (m).
+    double movedBy = 0.0;  ///< How far thinning moved the motion up to the next knot (m).
   };
   [[nodiscard]] const Knot& knot(std::size_t i) const {
     FORETOUCH_ASSERT(i < count_);

@@ -15,8 +15,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector4d;
 
-/// Of a computed difference of two quaternions on their arcs, and of two translations, per metre of
-/// the arm (track.md 3).
+/// The rounding of a computed difference of two quaternions on their arcs, and of two translations,
+/// per metre of the arm (track.md 3).
 constexpr double kOffTurn = 256.0 * kUnitRoundoff, kOffShift = 16.0 * kUnitRoundoff;
 /// Half turns (rad) below which an arc and its chord are the same to some roundoffs.
 constexpr double kFlatArc = 1e-7;
@@ -25,7 +25,7 @@ constexpr double kMostApart = 2.0;
 /// Dropped: no motion begins here.
 constexpr double kDropped = -1.0;
 
-/// In the order of the motion's definition (motion.h).
+/// Summed in the order of the motion's definition (motion.h).
 double dot(const Vector4d& a, const Vector4d& b) {
   return a.w() * b.w() + a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
 }
@@ -35,7 +35,7 @@ double halfTurn(const Vector4d& from, const Vector4d& to) {
   return 2.0 * std::asin(std::min(1.0, 0.5 * (to - from).norm()));
 }
 
-/// On the arc between two that are `half` apart.
+/// The quaternion at `t` on the arc between two that are `half` apart.
 Vector4d onArc(const Vector4d& from, const Vector4d& to, double half, double t) {
   if (half < kFlatArc) return from + t * (to - from);
   return (std::sin((1.0 - t) * half) * from + std::sin(t * half) * to) / std::sin(half);
@@ -44,7 +44,7 @@ Vector4d onArc(const Vector4d& from, const Vector4d& to, double half, double t) 
 /// How far one joint is off, at any instant, if what is between two knots is dropped.
 struct JointOff {
   double turn = 0.0;   ///< No point at distance 1 from the joint is farther away for it.
-  double shift = 0.0;  ///< Of its translation (m).
+  double shift = 0.0;  ///< How far off its translation is (m).
   double arm = 0.0;    ///< No translation is longer (m).
 };
 

@@ -16,7 +16,7 @@ enum class UpAxis : std::uint8_t { Y, Z };
 struct DeclaredFrame {
   std::optional<double> metresPerUnit;  ///< Finite, > 0.
   std::optional<UpAxis> up;
-  bool isOfFormat = false;  ///< The format knows but one frame (glTF): the file itself is silent.
+  bool isOfFormat = false;  ///< The format has only one frame (glTF): the file itself is silent.
 };
 
 /// How a file's numbers became metres with +Y up: by the options where they name a unit or an axis,

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::array<std::string_view, 7> kMiddle{"hips", "spine", "chest", "upperChest",
                                                   "neck", "head",  "jaw"};
-/// Of each side: "leftShoulder", "rightShoulder".
+/// One on each side: "leftShoulder", "rightShoulder".
 constexpr std::array<std::string_view, 9> kLimbs{"Shoulder", "UpperArm", "LowerArm", "Hand", "Eye",
                                                  "UpperLeg", "LowerLeg", "Foot",     "Toes"};
 constexpr std::array<std::string_view, 15> kFingers{
@@ -29,9 +29,9 @@ struct Scheme {
 
 // The names of VRM, Unity and VMC in small letters; MotionBuilder's and Mixamo's; Bandai's;
 // Biovision's, which call a bone by the joint that it begins with; Xsens' segments; CMU's bones in
-// ASF; and SMPL's joints. What two schemes share (hips)
-// may mean the same bone in both; what means another one in the other (shoulder) is why only one
-// counts.
+// ASF; and SMPL's joints. A word that two schemes share may mean the same bone in both (hips). A
+// word that means another bone in the other one (shoulder) is
+// why only one scheme counts.
 constexpr std::array<Scheme, 7> kSchemes{{
     {"left",
      "right",
@@ -82,7 +82,7 @@ constexpr std::array<Scheme, 7> kSchemes{{
       "ring1", "ring2", "ring3", "pinky1", "pinky2", "pinky3"}},
 }};
 
-/// In small letters and digits, without a namespace.
+/// The name in small letters and digits, without a namespace.
 std::string plain(std::string_view name) {
   const std::size_t colon = name.rfind(':');
   if (colon != std::string_view::npos) name.remove_prefix(colon + 1);

@@ -12,7 +12,7 @@
 
 namespace foretouch {
 
-/// Of VRM 1.0's 55: "leftUpperArm" and so on.
+/// Is it one of VRM 1.0's 55: "leftUpperArm" and so on?
 [[nodiscard]] bool isHumanBone(std::string_view name);
 
 /// VRM 1.0 moved the names of the thumb's bones down by one: what VRM 0.x and Unity call proximal
@@ -20,7 +20,7 @@ namespace foretouch {
 [[nodiscard]] std::string thumbOf(const std::string& bone);
 
 /// VRM 1.0's name of a bone of Unity's HumanBodyBones, which VMC uses: "LeftThumbProximal" is
-/// "leftThumbMetacarpal". Of another text something that is no bone.
+/// "leftThumbMetacarpal". For another text, something that is not a bone.
 [[nodiscard]] std::string humanBoneOfUnity(std::string_view name);
 
 /// What VRM 1.0 requires of every avatar.

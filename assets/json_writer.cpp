@@ -24,7 +24,7 @@ Sequence sequenceAt(std::string_view text) {
   if (lead < 0x80) return {1, true};
   if (lead < 0xc2 || lead > 0xf4) return {};
   const std::size_t bytes = lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-  // No overlong forms, no surrogates, nothing above U+10FFFF: of the second byte alone.
+  // No overlong forms, no surrogates, nothing above U+10FFFF: limits for the second byte only.
   unsigned char least = lead == 0xe0 ? 0xa0 : lead == 0xf0 ? 0x90 : 0x80;
   unsigned char most = lead == 0xed ? 0x9f : lead == 0xf4 ? 0x8f : 0xbf;
   for (std::size_t i = 1; i < bytes; ++i) {

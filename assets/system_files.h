@@ -1,4 +1,4 @@
-// assets/system_files.h: what text_file.h asks of the system, which each has its own way for
+// assets/system_files.h: what text_file.h asks of the system, for which each system has its own way
 // (system_files_posix.cpp, system_files_windows.cpp). Paths are UTF-8. Failures are those of errno.
 // Not installed.
 #pragma once
@@ -20,7 +20,7 @@ struct FileState {
   unsigned permissions = 0;
 };
 
-/// Of what the path leads to, through links.
+/// The state of what the path leads to, through links.
 [[nodiscard]] FileState stateOf(const std::string& path);
 [[nodiscard]] FileState stateOf(int descriptor);
 
@@ -32,9 +32,9 @@ struct FileState {
 [[nodiscard]] int openNew(const std::string& path, unsigned permissions);
 [[nodiscard]] int openStandardOutput();
 
-/// The first `bytes` of a file: its pages, which all who read it share, where the system has such;
-/// else a copy. Nothing if there are fewer, or no memory. Pages change with the file: whoever makes
-/// one anew must replace it, as PendingFile does.
+/// The first `bytes` of a file: its pages, which all its readers share, where the system has such;
+/// else a copy. Nothing if there are fewer, or no memory. Pages change with the file: code that
+/// makes one anew must replace it, as PendingFile does.
 [[nodiscard]] std::shared_ptr<const char> contentOf(int descriptor, std::uint64_t bytes);
 
 /// The copy. Aligned for what vectors load.
@@ -46,7 +46,7 @@ struct FileState {
 [[nodiscard]] bool closeFile(int descriptor);
 /// On the disk, not only on its way there.
 [[nodiscard]] bool syncFile(int descriptor);
-/// Owns a descriptor: closes it on every path. Who needs the result of closing, closes it himself.
+/// Owns a descriptor: closes it on every path. A caller that needs the result closes it itself.
 class FileDescriptor {
  public:
   explicit FileDescriptor(int descriptor = -1) : descriptor_(descriptor) {}
@@ -62,7 +62,7 @@ class FileDescriptor {
   }
   [[nodiscard]] int get() const { return descriptor_; }
   [[nodiscard]] bool isOpen() const { return descriptor_ >= 0; }
-  /// Somebody else owns it now.
+  /// Another owner has it now.
   void release() { descriptor_ = -1; }
 
  private:

@@ -63,7 +63,7 @@ int openToWrite(const std::string& path) {
 }
 
 int openNew(const std::string& path, unsigned permissions) {
-  // Permissions of groups and others are not told this way.
+  // This call knows no permissions of groups and others.
   return openedAs(path, _O_WRONLY | _O_CREAT | _O_EXCL,
                   static_cast<int>(permissions) & (_S_IREAD | _S_IWRITE));
 }
@@ -109,7 +109,7 @@ std::uint64_t processNumber() {
   return static_cast<std::uint64_t>(::_getpid());
 }
 
-/// Whoever may make links there is trusted with the files of others as well.
+/// A user who may make links there is also trusted with the files of others.
 std::optional<std::string> withoutLinks(const std::string& path) {
   return path;
 }

@@ -17,10 +17,10 @@ namespace foretouch {
 /// A file that appears under its name only once it is complete: goes to a temporary file in the
 /// same folder; commit() flushes and renames it. Without commit() it leaves nothing behind. Follows
 /// symbolic links and replaces the file behind them, keeping its permissions; refuses a path on
-/// which another user's link lies in a sticky folder that all may write to (/tmp). A folder of
-/// another user's is theirs, and what is written there as well. Writes directly to anything but a
-/// regular file (a pipe), because there is nothing to rename over, and to /dev/stdout, whatever
-/// that is.
+/// which another user's link lies in a sticky folder that all may write to (/tmp). Another user's
+/// folder is theirs, and so is what is written there. Writes directly to anything but a regular
+/// file (a pipe), because there is nothing to rename over, and to /dev/stdout, whatever that
+/// is.
 class PendingFile {
  public:
   static Result<PendingFile> create(const std::string& path);

@@ -12,9 +12,9 @@ namespace {
 /// The golden section leaves 0.618^110 = 1e-23 of a way; halves as many.
 constexpr int kSections = 110;
 constexpr int kHalvings = 80;
-/// Of hulls, which take longer: 0.618^60 = 3e-13.
+/// For hulls, which take longer: 0.618^60 = 3e-13.
 constexpr int kSectionsOfHull = 60;
-/// Doubles tell that things are apart only if they are by so much (m), and by so much of all
+/// Doubles show that things are apart only if they are by so much (m), and by so much of all
 /// lengths.
 constexpr double kClearly = 1e-9, kClearShare = 1e-13;
 constexpr int kSteps = 24;
@@ -51,7 +51,7 @@ struct Cores {
   std::vector<Vec3<S>> shape, part;
   Vec3<S> way;
 
-  /// Of the difference of all of the way and the part, the point that is lowest along a direction.
+  /// The lowest point, along a direction, of the difference of all of the way and the part.
   [[nodiscard]] Vec3<S> lowest(const Vec3<S>& along) const {
     const auto isLess = [&](const Vec3<S>& x, const Vec3<S>& y) {
       return dot(along, x) < dot(along, y);
@@ -106,7 +106,7 @@ Triangle roughly(const Corners<Real>& corners) {
   return {corners[0].as<double>(), corners[1].as<double>(), corners[2].as<double>()};
 }
 
-/// Of the hull of corners from a place; 0 inside.
+/// The closest points of the part and the hull of corners at a place; 0 inside.
 Closest<Real> closestOfHull(const CastShape& shape, const Vec3r& place, const OraclePart& part) {
   Corners<Real> corners = cornersOf(part);
   for (Vec3r& corner : corners) corner = corner - place;
@@ -134,8 +134,8 @@ Closest<Real> closestOfHull(const CastShape& shape, const Vec3r& place, const Or
   return least;
 }
 
-/// Of the cores, after it has moved so far; the points are both from the hull's place, if it is
-/// one.
+/// The closest points of the cores, after it has moved so far; both from the hull's place, if it
+/// is one.
 Closest<Real> closestAfter(const CastShape& shape, Real along, const OraclePart& part) {
   const Vec3r moved = along * unitOf(shape.direction);
   if (!shape.corners.empty()) return closestOfHull(shape, shape.a.as<Real>() + moved, part);
@@ -150,7 +150,7 @@ Real boundFromEnd(const CastShape& shape, Real until, const OraclePart& part) {
   return dot(normal, coresOf<Real>(shape, until, part).lowest(normal)) - radiiOf(shape, part);
 }
 
-/// From a ball around the part to the line that a ball around the shape moves along.
+/// The gap from a ball around the part to the line that a ball around the shape moves along.
 Real gapOfBalls(const CastShape& shape, const Vec3r& way, Real until, const OraclePart& part) {
   const Vec3r a = shape.a.as<Real>(), b = shape.b.as<Real>();
   const Vec3r middle = Real(0.5) * (a + b);

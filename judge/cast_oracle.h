@@ -1,8 +1,8 @@
 // judge/cast_oracle.h: a shape that moves along a line, or rests, among capsules and triangles that
 // rest: how near it comes to each, by looking at each. A plane between the whole way and a part, in
-// doubles with a margin or across the closest points at the way's end, tells that they stay apart.
+// doubles with a margin or across the closest points at the way's end, shows that they stay apart.
 // Without one, as the distance of two convex sets is convex along a line, sections find its least.
-// The hull of corners is looked at as all the triangles and tetrahedra of them. In long double.
+// The hull of corners is looked at as all their triangles and tetrahedra. In long double.
 #pragma once
 
 #include <vector>
@@ -27,25 +27,25 @@ struct CastShape {
   void setHull(const std::vector<Vec3d>& given, Real scale);
 };
 
-/// Of the shape after it has moved so far and the part, less both radii: 0 where they touch.
+/// The distance of the shape, moved so far, and the part, less both radii: 0 where they touch.
 [[nodiscard]] Real gapAfter(const CastShape& shape, Real along, const OraclePart& part);
-/// The least of them up to `until`; of parts that are proven farther than `beyond`, at least that.
+/// The least of these up to `until`; for parts proven farther than `beyond`, at least that.
 [[nodiscard]] Real leastGap(const CastShape& shape, Real until, const OraclePart& part,
                             Real beyond);
 /// How far it has moved when it first touches the part; -1 if it does not up to `until`.
 [[nodiscard]] Real firstTouch(const CastShape& shape, Real until, const OraclePart& part);
-/// Of the hull of corners; false: in it, or near it, or nobody knows.
+/// Whether p is outside the hull of corners; false: in it, or near it, or not known.
 [[nodiscard]] bool isClearlyOutside(const Vec3d& p, const std::vector<Vec3d>& corners);
 /// In a tetrahedron, which has a volume.
 [[nodiscard]] bool isIn(const Vec3r& p, const std::array<Vec3r, 4>& tetrahedron);
-/// The way up to `until` passes through a triangle, farther than `margin` from its edges and from
-/// both ends of the way, and not along it. Of a point.
+/// A point's way up to `until` passes through a triangle, farther than `margin` from its edges and
+/// from both ends of the way, and not along it.
 [[nodiscard]] bool surelyCrosses(const CastShape& shape, Real until, const OraclePart& part,
                                  Real margin);
-/// By rays whose crossings are odd in number, of which none passes near an edge. The triangles are
-/// those of a closed surface.
+/// Whether a ray crosses the surface an odd number of times, where it passes near no edge. The
+/// triangles are those of a closed surface.
 [[nodiscard]] bool isInside(const Vec3r& p, const std::vector<Corners<Real>>& surface);
-/// Of a point and the part's surface or, with its sign, of one in a capsule.
+/// The distance of a point from the part's surface; negative for a point in a capsule.
 [[nodiscard]] Real heightOver(const Vec3d& p, const OraclePart& part);
 
 }  // namespace foretouch::oracle

@@ -55,7 +55,7 @@ Closest<Precise> closest(const Hull& hull, const Corners<Precise>& at,
 template <typename S>
 struct SpanTest {
   S separation;  // at the middle
-  S gap;         // of the plane there: the same, but for rounding
+  S gap;         // that of the plane there: the same, but for rounding
   S least;       // over the span; not below it but for rounding
 };
 
@@ -183,7 +183,7 @@ class HullProver {
   struct Pair {
     std::size_t hull, triangle;
   };
-  /// Of a claim up to the step's end, whose last instant counts too.
+  /// For a claim up to the step's end, whose last instant counts too.
   void lookAtEnd(int link) {
     const auto i = static_cast<std::size_t>(link);
     if (until_[i] < 1.0) return;

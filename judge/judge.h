@@ -16,14 +16,14 @@ namespace foretouch::oracle {
 
 enum class Verdict { Clear, Contact, StartsInContact, Undecided };
 
-/// The answer, in the oracle's own types. Of two links, the other one takes the scene's place: its
+/// The answer, in the oracle's own types. For two links, the other one takes the scene's place: its
 /// piece that of the triangle, and the normal points from it to the first.
 struct Answer {
   Verdict verdict = Verdict::Clear;
   double toi = 1.0, freeUntil = 1.0;
   double separation = 0.0, penetration = 0.0;
-  int triangle = -1;  ///< Of the scene handed to the judge.
-  int capsule = -1;   ///< Of the list handed to the judge; of a mesh, its triangle.
+  int triangle = -1;  ///< In the scene handed to the judge.
+  int capsule = -1;   ///< In the list handed to the judge; for a mesh, its triangle.
   Vec3d onScene, onLink, normal;
 };
 
@@ -64,7 +64,7 @@ class Judge {
   Judge(const Scene& scene, const Motion& motion, int link, const std::vector<Triangle>& mesh);
   /// The link's surface is part of a skin.
   Judge(const Scene& scene, const Motion& motion, const std::vector<SkinTriangle>& skin);
-  /// Two links, each made of hulls (of one link, at least one).
+  /// Two links, each made of hulls (at least one, all of one link).
   Judge(const Motion& motion, std::vector<Hull> one, std::vector<Hull> other,
         std::vector<RadiusSum> sums = {});
 
@@ -88,7 +88,7 @@ class Judge {
   void add(std::unique_ptr<MovingSurface> surface);
 
   std::vector<std::unique_ptr<MovingSurface>> surfaces_;
-  Real guard_ = 0, guardInWorld_ = 0;  ///< Of starts; of witnesses.
+  Real guard_ = 0, guardInWorld_ = 0;  ///< For starts; for witnesses.
 };
 
 }  // namespace foretouch::oracle

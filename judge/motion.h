@@ -53,7 +53,7 @@ struct MovingFrame {
   [[nodiscard]] Vec3<S> velocityAt(const Vec3<S>& x) const { return v + cross(w, x - p); }
 };
 
-/// Of a link's origin, at every t in [0,1]; rounded up a little.
+/// Bounds on a link's origin, at every t in [0,1]; rounded up a little.
 template <typename S>
 struct MotionBounds {
   S angularSpeed = 0, angularAcceleration = 0, speed = 0, acceleration = 0, reach = 0;

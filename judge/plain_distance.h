@@ -30,7 +30,7 @@ Nearest<S> nearestPoints(const Corners<S>& hull, int count, const Corners<S>& tr
 /// Distance of the segment ab and a triangle.
 [[nodiscard]] Precise preciseDistance(const Vec3<Precise>& a, const Vec3<Precise>& b,
                                       const Corners<Precise>& v);
-/// Of two triangles.
+/// Distance of two triangles.
 [[nodiscard]] Precise preciseDistance(const Corners<Precise>& one, const Corners<Precise>& other);
 
 }  // namespace foretouch::oracle

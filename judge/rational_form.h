@@ -8,7 +8,7 @@
 
 namespace foretouch::oracle {
 
-/// Of formal degree N; leading and trailing coefficients may be zero.
+/// A form of formal degree N; leading and trailing coefficients may be zero.
 template <typename S, std::size_t N>
 struct Form {
   std::array<S, N + 1> c{};

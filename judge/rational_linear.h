@@ -44,9 +44,9 @@ inline constexpr double kTruthWidth = 0x1p-40;
 
 /// Filter first, then rationals.
 LinearTruth linearTruth(const LinearQuery& query);
-/// Rationals alone; high - low <= 2^-60, or low == high if that double is the instant itself.
+/// Only rationals; high - low <= 2^-60, or low == high if that double is the instant itself.
 LinearTruth linearTruthByRationals(const LinearQuery& query);
-/// The filter alone: nothing if it cannot decide.
+/// Only the filter: nothing if it cannot decide.
 std::optional<LinearTruth> linearTruthByBalls(const LinearQuery& query);
 
 }  // namespace foretouch::oracle

@@ -54,7 +54,7 @@ class RigidProver {
   bool proveSpan(const Wide& from, const Wide& to, double level);
 
   RigidPair pair_;
-  double extent_ = 0;  ///< Of all that moves, relative to the fixed triangle's first vertex.
+  double extent_ = 0;  ///< The extent of all that moves, from the fixed triangle's first vertex.
   RigidSpan outcome_;
 };
 

@@ -1,5 +1,5 @@
-// judge/scene.h: the oracle's own triangles in a plain median-split tree of boxes,
-// in double throughout.
+// judge/scene.h: the oracle's own triangles in a plain median-split tree of boxes, in double
+// throughout.
 #pragma once
 
 #include <cstddef>

@@ -37,19 +37,19 @@ class MovingSurface {
   [[nodiscard]] virtual SpanOutcome prove(Real from, Real to) = 0;
   /// At one instant, the least over the other side; `within` if nothing is nearer.
   [[nodiscard]] virtual Real separationAt(Real t, double within) const = 0;
-  /// At one instant, of one piece and one of the other side's.
+  /// At one instant, the separation of one piece and one of the other side's.
   [[nodiscard]] virtual Real separationFrom(int piece, int other, Real t) const = 0;
-  /// Of a point in the world and a piece's core.
+  /// The distance of a point in the world and a piece's core.
   [[nodiscard]] virtual Real distanceToCore(int piece, const Vec3r& point, Real t) const = 0;
   /// The same for the other side.
   [[nodiscard]] virtual Real distanceToOther(int other, const Vec3r& point, Real t) const = 0;
-  /// Of a piece, and of the other side's, where these two meet.
+  /// The radius of a piece, and that of the other side's, where these two meet.
   [[nodiscard]] virtual Real radius(int piece, int other) const = 0;
   [[nodiscard]] virtual Real radiusOfOther(int piece, int other) const = 0;
   [[nodiscard]] virtual int numPieces() const = 0;
   /// The triangles of the scene, or the other link's pieces.
   [[nodiscard]] virtual int numOthers() const = 0;
-  /// The length that multiplies the guards: of separations, and of points in the world.
+  /// The length that multiplies the guards: for separations, and for points in the world.
   [[nodiscard]] virtual Real scale() const = 0;
   [[nodiscard]] virtual Real scaleInWorld() const { return scale(); }
 };

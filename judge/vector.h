@@ -71,7 +71,7 @@ S extent(const Vec3<S>& a) {
   return std::max({abs(a.x), abs(a.y), abs(a.z)});
 }
 
-/// Of a triangle.
+/// The corners of a triangle.
 template <typename S>
 using Corners = std::array<Vec3<S>, 3>;
 

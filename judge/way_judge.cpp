@@ -34,7 +34,7 @@ Quaternion<double> asQuaternion(const Four& q) {
   return {q[0], q[1], q[2], q[3]};
 }
 
-/// Of coordinates within kilometres, and of the sums of ways.
+/// The rounding of coordinates within kilometres, and of the sums of ways.
 constexpr double kRounding = 1e-10;
 /// Instants that a piece is first looked at, to see how far it moves.
 constexpr int kFirstLooks = 9;

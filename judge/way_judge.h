@@ -41,8 +41,8 @@ struct WayReading {
   double least = 0.0;  ///< The cutoff if nothing is nearer.
   double t = 0.0;
   int link = -1, triangle = -1;  ///< -1: nothing is nearer than the cutoff.
-  int other = -1;                ///< Of own pairs, the other link.
-  std::uint64_t instants = 0;    ///< At which the whole body was looked at.
+  int other = -1;                ///< For own pairs, the other link.
+  std::uint64_t instants = 0;    ///< Instants at which the whole body was looked at.
 };
 
 /// For one thread; keeps its memory. The scene must outlive it.
@@ -113,10 +113,10 @@ class WayJudge {
   std::vector<Arc> arcs_;
   std::vector<Frame> frames_;
   std::vector<double> weights_;  ///< Joint by joint, step by step.
-  std::vector<Box> boxes_;       ///< Of the capsules' axes over all instants.
-  WayNearest last_;              ///< Of the reading before: the first to be looked at.
+  std::vector<Box> boxes_;       ///< Around the capsules' axes over all instants.
+  WayNearest last_;              ///< The nearest of the reading before: looked at first.
   std::vector<Axis> axes_;       ///< Instant by instant, capsule by capsule.
-  std::vector<double> strayed_;  ///< Likewise: the way of the axis's ends until then, from point to
+  std::vector<double> strayed_;  ///< The same: the way of the axis's ends until then, from point to
                                  ///< point, the farther one's.
 };
 

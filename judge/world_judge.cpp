@@ -76,8 +76,8 @@ Triangle seenFrom(const Vec3<Real>& origin, const Corners<Real>& corners) {
           (corners[2] - origin).as<double>()};
 }
 
-/// Of their surfaces, in doubles from in between: off by much less than kRough (m) for each metre
-/// that they are large or apart.
+/// The distance of their surfaces, in doubles from in between: off by much less than kRough (m) for
+/// each metre that they are large or apart.
 constexpr Real kRough = 1e-12L;
 Real roughly(const Placed& one, const Placed& other) {
   const Triangle x = seenFrom(other.middle, one.corners), y = seenFrom(other.middle, other.corners);
@@ -147,7 +147,7 @@ Real OracleWorld::separation(int a, const Moving& atA, int linkOfA, int b, const
     return placedOf(body(id).parts, link, at.frames[static_cast<std::size_t>(link)]);
   };
   const std::vector<Placed> ofA = of(a, atA, linkOfA), ofB = of(b, atB, linkOfB);
-  // Who is farther apart changes nothing: in doubles who may be the nearest.
+  // Parts that are farther apart change nothing: finds in doubles which may be the nearest.
   struct Near {
     const Placed *one, *other;
     Real least;
@@ -263,7 +263,7 @@ std::vector<Real> OracleWorld::separationsAt(int a, int b, std::int64_t fromUs, 
   return separations;
 }
 
-/// Of each link, in W: holds all its parts. A radius below zero if it has none.
+/// Per link, in W: a ball that holds all its parts. A radius below zero if it has none.
 std::vector<OracleWorld::Ball> OracleWorld::ballsOf(int id, const Moving& moving) const {
   std::vector<Ball> balls(moving.frames.size());
   std::vector<int> counts(balls.size(), 0);

@@ -1,6 +1,6 @@
-// judge/world_judge.h: a world of the judge's own: tracks, carriers, capsules and
-// triangles, all in W and in long double. Certified: it steps by proven bounds on speed. Shares no
-// code with the product.
+// judge/world_judge.h: a world of the judge's own: tracks, carriers, capsules and triangles, all in
+// W and in long double. Certified: it steps by proven bounds on speed. Shares no code with the
+// product.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct OraclePlace {
   Vec3d translation;
 };
 
-/// From an instant on, who carries a body, and its poses in that one's frame.
+/// From an instant on, what carries a body, and its poses in that one's frame.
 struct OracleEpisode {
   std::int64_t beginUs = 0;
   int carrier = -1, link = 0;
@@ -53,12 +53,12 @@ class OracleWorld {
   /// How often two links were looked at at an instant, to know until when they cannot touch.
   mutable std::uint64_t pairInstants = 0;
 
-  /// Of two links at `us` after `fromUs`; where a body changes its carrier there: after it.
+  /// That of two links at `us` after `fromUs`; where a body changes its carrier there: after it.
   [[nodiscard]] Real separationAt(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
                                   Real us) const;
-  /// Of all links of a and of b, row after row, likewise; of those that are proven farther apart
-  /// than `beyond` (m), at least that. Links without parts are infinitely far apart. `isFromLeft`:
-  /// where a body changes its carrier then.
+  /// Those of all links of a and of b, row after row; for links that are proven farther apart than
+  /// `beyond` (m), at least that. Links without parts are infinitely far apart. `isFromLeft`: where
+  /// a body changes its carrier then.
   [[nodiscard]] std::vector<Real> separationsAt(int a, int b, std::int64_t fromUs, Real us,
                                                 bool isFromLeft, Real beyond) const;
   /// The first instant, of a window in which both are there, at which two links are within kTouch.
@@ -75,7 +75,7 @@ class OracleWorld {
   /// A link's frame in W; `isFromLeft`: as above.
   [[nodiscard]] MovingFrame<Real> frameAt(int body, int link, std::int64_t fromUs, Real us,
                                           bool isFromLeft) const;
-  /// Of a point in W and the surface of a link.
+  /// The distance of a point in W and the surface of a link.
   [[nodiscard]] Real distanceToSurface(int body, int link, const Vec3d& p_W, std::int64_t fromUs,
                                        Real us) const;
 
@@ -84,14 +84,14 @@ class OracleWorld {
   struct Speed {
     Real ofOrigin = 0, ofTurn = 0;
   };
-  /// Around all parts of a link.
+  /// A ball around all parts of a link.
   struct Ball {
     Vec3<Real> middle;
     Real radius = -1;
   };
   struct Moving {
     std::vector<MovingFrame<Real>> frames;  // of all links, in W
-    std::vector<Speed> speeds;              // likewise
+    std::vector<Speed> speeds;              // the same
     Real untilUs = 0;                       // they hold until then
   };
   [[nodiscard]] std::vector<Ball> ballsOf(int body, const Moving& moving) const;

@@ -96,8 +96,8 @@ struct Face {
     return true;
   }
 
-  /// The point in which the segment from `a` to `b`, of these heights, meets the face's plane, if
-  /// the two are on different sides.
+  /// Whether the segment between two points of these heights crosses the face's plane: the two
+  /// are on different sides.
   [[nodiscard]] static bool crosses(double heightA, double heightB) {
     return (heightA > 0.0) != (heightB > 0.0) && heightA != heightB;
   }

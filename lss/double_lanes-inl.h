@@ -1,6 +1,6 @@
-// lss/double_lanes-inl.h: pairs of doubles in the lanes of WebAssembly's SIMD128, which Highway has
-// none of there (1.0.3): what the kernel uses of them, in Highway's manner. Nothing elsewhere. For
-// inclusion in sources that Highway compiles once per width.
+// lss/double_lanes-inl.h: pairs of doubles in the lanes of WebAssembly's SIMD128, for which Highway
+// 1.0.3 has none: what the kernel uses of them, in Highway's manner. Empty elsewhere. For inclusion
+// in sources that Highway compiles once per width.
 #if defined(FORETOUCH_LSS_DOUBLE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FORETOUCH_LSS_DOUBLE_LANES_INL_H_
 #undef FORETOUCH_LSS_DOUBLE_LANES_INL_H_
@@ -39,7 +39,7 @@ HWY_API DoublePair operator*(DoublePair a, DoublePair b) {
 HWY_API DoublePair operator/(DoublePair a, DoublePair b) {
   return {wasm_f64x2_div(a.raw, b.raw)};
 }
-/// Not fused: SIMD128 cannot, nor do floats.
+/// Not fused: SIMD128 cannot fuse, and its floats are not fused either.
 HWY_API DoublePair MulAdd(DoublePair mul, DoublePair x, DoublePair add) {
   return mul * x + add;
 }
@@ -55,7 +55,7 @@ HWY_API DoublePair Abs(DoublePair a) {
 HWY_API DoublePair Sqrt(DoublePair a) {
   return {wasm_f64x2_sqrt(a.raw)};
 }
-/// a < b ? a : b, and a > b ? a : b, as for floats: of NaN and a number, as x86-64 has it.
+/// a < b ? a : b, and a > b ? a : b, as for floats: with a NaN the result is that of x86-64.
 HWY_API DoublePair Min(DoublePair a, DoublePair b) {
   return {wasm_f64x2_pmin(b.raw, a.raw)};
 }

@@ -1,14 +1,14 @@
-// lss/extended_precision.h: a long double that has the digits that it is counted with. On x86-64 it
-// has 64 bits only while the processor's control word says so, and that is the host's: Mono, which
-// is Unity's, and programs of Microsoft's compiler set it to 53.
+// lss/extended_precision.h: a long double that has the digits that we count on. On x86-64 it has 64
+// bits only while the processor's control word says so, and the host sets that: Mono, which is
+// Unity's, and programs of Microsoft's compiler set it to 53.
 #pragma once
 
 #include <cstdint>
 
 namespace foretouch::internal {
 
-/// While it lives, this thread's long double has all its digits. Elsewhere than on x86 it always
-/// has.
+/// While it lives, this thread's long double has all its digits. On processors other than x86 it
+/// always has.
 class ExtendedPrecision {
  public:
   ExtendedPrecision(const ExtendedPrecision&) = delete;

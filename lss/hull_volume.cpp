@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 using HullFace = std::array<std::size_t, 3>;  // counter-clockwise from outside
 
-/// Of the cloud's size, cubed: a flatter one counts as flat, because rounding alone could make it
-/// so.
+/// A share of the cloud's size, cubed: a flatter cloud counts as flat, because rounding alone could
+/// make it so.
 constexpr double kFlat = 1e-13;
 
 constexpr int kDirectionPairs = 110;  // and the three axes

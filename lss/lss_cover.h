@@ -21,7 +21,7 @@ struct CoverMeasure {
   std::size_t outside = 0;    ///< Triangles that stick out of every LSS.
   double worstOutside = 0.0;  ///< How far the worst of them does, metres; 0 if none does.
   double lssVolume = 0.0;     ///< Overlaps counted as often as they occur, m^3.
-  double hullVolume = 0.0;    ///< Of each LSS's triangles (lss/hull_volume.h: from below), m^3.
+  double hullVolume = 0.0;    ///< Hulls of each LSS's triangles (hull_volume.h: from below), m^3.
 };
 
 /// O(triangles * LSS). Computed in doubles: a triangle that touches an LSS from inside may count as

@@ -41,9 +41,9 @@ inline constexpr double kUnderflow = 1e-150;
 }
 
 /// Padding: the float nearest to x + |x|*kFloatPadding + kFloatUnderflow is not below x, because
-/// the padding is twice the error of rounding to nearest, and more than the least float; below,
-/// with both signs changed, likewise. Branch-free, so that vectors do the same. Away from 0 at most
-/// two floats above floatAbove(); never 0.
+/// the padding is twice the error of rounding to nearest, and more than the least float. The same
+/// holds below, with both signs changed. Branch-free, so that vectors do the same. Away from 0 at
+/// most two floats above floatAbove(); never 0.
 inline constexpr double kFloatPadding = 0x1p-23;
 inline constexpr double kFloatUnderflow = 1e-40;  ///< Floats below 1e-38 are 1.4e-45 apart.
 [[nodiscard]] inline float floatPaddedAbove(double x) {

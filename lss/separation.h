@@ -42,7 +42,7 @@ inline constexpr double kNoisyDirection = 1e-3;
 /// with |nhat| <= 1; so their distance is at least the least clearance, and at most `upper`.
 struct Separation {
   Eigen::Vector3d nhat = Eigen::Vector3d::Zero();  ///< From `other` towards `one`.
-  /// Of each point of `one` above all of `other`; rounded down.
+  /// How far each point of `one` is above all of `other`; rounded down.
   std::array<double, 3> clearance{};
   /// How much more each point of `other` leaves, >= 0.
   std::array<double, 3> spare{};

@@ -26,7 +26,7 @@ namespace {
 
 HWY_EXPORT(compiledTarget);
 
-// The last is what every processor of this architecture has: one lane, where nothing before it is.
+// The last is what every processor of this architecture has: one lane, where no other entry is it.
 constexpr std::array<std::pair<Simd, std::int64_t>, 7> kTargets{{
     {Simd::Ssse3, HWY_SSSE3},
     {Simd::Sse4, HWY_SSE4},

@@ -18,7 +18,7 @@ enum class Simd {
   Avx512,   ///< 16 floats.
   Neon,     ///< 4 floats, fused multiply-add: ARM64, all of it.
   Simd128,  ///< 4 floats: WebAssembly.
-  Other,    ///< Of another architecture, as Highway finds it.
+  Other,    ///< Another architecture's, as Highway finds it.
 };
 
 /// "scalar", "ssse3", "sse4", "avx2", "avx512", "neon", "simd128", "other".

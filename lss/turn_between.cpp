@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How far the cosine is from -1 where a cross product says the axis less and less precisely.
+/// How far the cosine is from -1 where a cross product gives the axis less and less precisely.
 constexpr double kNearlyOpposite = 1e-12;
 
 /// The unit vector across both, by Householder's reflections of the longer one and of what is left

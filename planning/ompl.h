@@ -56,7 +56,7 @@ class OmplEdges {
     return edges_.place(prop, X_WP);
   }
   [[nodiscard]] const EdgeQuery& query() const { return edges_; }
-  /// Asked so far; OMPL's own counters of motions are not for several threads and stay 0.
+  /// Edges asked so far; OMPL's own counters of motions are not for several threads and stay 0.
   [[nodiscard]] std::uint64_t numEdges() const { return numEdges_.load(); }
 
  private:

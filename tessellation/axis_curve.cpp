@@ -16,7 +16,7 @@
 #ifndef FORETOUCH_TESSELLATION_FITTED_END
 #define FORETOUCH_TESSELLATION_FITTED_END
 namespace foretouch::internal {
-/// Of one end's polynomials, as computed.
+/// One end's polynomials and their bounds, as computed.
 struct FittedEnd {
   alignas(64) double rows[3][kNodes];  ///< [axis][power of x]
   double weighted;                     ///< Sum of (2j+2)|c_j| over the coefficients' vectors.
@@ -84,11 +84,11 @@ HWY_EXPORT(fitEnd);
 using internal::FittedEnd;
 using internal::kInflation;
 
-// Derived in tessellation/lss_polynomials.md 5; checked by tests/tessellation/axis_curve_test.cpp.
-constexpr double kFrameSum = 4.0;     ///< Of the frame's origin, in u of both reaches.
-constexpr double kFrameTurn = 16.0;   ///< Of the turn into the frame, in u of the arm.
-constexpr double kHorner = 16.0;      ///< Of a place, in u of weighted.
-constexpr double kHornerRate = 64.0;  ///< Of a derivative by x, in u of weighted.
+// Roundings, derived in lss_polynomials.md 5; checked by tests/tessellation/axis_curve_test.cpp.
+constexpr double kFrameSum = 4.0;     ///< The frame's origin's, in u of both reaches.
+constexpr double kFrameTurn = 16.0;   ///< The turn's into the frame, in u of the arm.
+constexpr double kHorner = 16.0;      ///< A place's, in u of weighted.
+constexpr double kHornerRate = 64.0;  ///< A derivative's by x, in u of weighted.
 
 double errorOf(const FittedEnd& end, const MotionBounds& bounds, double rho,
                const ChainNodes& nodes) {

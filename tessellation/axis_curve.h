@@ -1,7 +1,7 @@
 // tessellation/axis_curve.h: the motion of an LSS's axis over a span as polynomials in double, in W
 // or in the frame of a link above it: places and velocities at any instant without trigonometry.
-// Every error is proved in tessellation/lss_polynomials.md 5 and told. Metres, derivatives by t.
-// Not installed.
+// Every error is proved in tessellation/lss_polynomials.md 5 and reported. Metres, derivatives by
+// t. Not installed.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,13 +23,13 @@ struct AxisCurve {
   };
   [[nodiscard]] Ends endsAt(double t) const;
 
-  alignas(64) double coefficients[kNodes][kRows];  ///< Of powers of x in [-1,1].
+  alignas(64) double coefficients[kNodes][kRows];  ///< For powers of x in [-1,1].
   double begin, toX;                               ///< x = (t - begin) toX - 1.
   double error, velocityRounding, accelerationA, accelerationB;
 };
 
-/// `bounds`: of the entry's link in the frame. `frame`: its nodes; null for W, relative to the
-/// nodes' origin.
+/// `bounds` are those of the entry's link in the frame. `frame` has the frame's nodes; null for W,
+/// relative to the nodes' origin.
 [[nodiscard]] AxisCurve axisCurve(const LssTable::Entry& entry, const MotionBounds& bounds,
                                   const ChainNodes& nodes, const LinkNodes* frame);
 

@@ -33,8 +33,8 @@ struct BallPolytope {
   /// outside.
   std::vector<std::int32_t> firstEdgeOf;
   std::vector<std::int32_t> edgesAround;
-  double inradius = 0.0;      ///< Of a ball about the origin inside all facets, rounded down.
-  double circumradius = 0.0;  ///< Of one around all corners, rounded up.
+  double inradius = 0.0;      ///< A ball's about the origin inside all facets, rounded down.
+  double circumradius = 0.0;  ///< A ball's about the origin around all corners, rounded up.
   int frequency = 0;
 };
 

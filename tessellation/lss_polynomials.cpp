@@ -19,7 +19,7 @@
 #ifndef FORETOUCH_TESSELLATION_FITTED_CURVE
 #define FORETOUCH_TESSELLATION_FITTED_CURVE
 namespace foretouch::internal {
-/// Of a curve's polynomials, as computed in double.
+/// Sizes of a curve's polynomials, as computed in double.
 struct FittedCurve {
   double weighted = 0.0;      ///< Sum of (2j+2)|c_j| over the coefficients' vectors.
   double speed = 0.0;         ///< Largest |control point| of the first derivative
@@ -105,7 +105,7 @@ using internal::polynomialMatrices;
 // Derived in tessellation/lss_polynomials.md 3 and 4; checked by
 // tests/tessellation/lss_polynomials_test.cpp.
 constexpr double kEvaluation = 1.0 + 1e-5;      ///< Products of two roundings in float.
-constexpr double kPolynomialUnderflow = 1e-36;  ///< Of a few dozen products in float (m).
+constexpr double kPolynomialUnderflow = 1e-36;  ///< The loss in a few dozen products in float (m).
 /// A matrix times a vector in float, the vector rounded, for a matrix that is a rotation within
 /// 1e-3; and adding the origin. In units of its roundoff.
 constexpr double kFloatPoint = 9.0, kFloatSum = 4.1;
@@ -195,7 +195,7 @@ FramePolynomials framePolynomialsOf(LinkId link, const ChainMotion& motion, cons
                                                        result.origin, result.p);
   const FittedCurve R = HWY_DYNAMIC_DISPATCH(fitRotation)(polynomialMatrices(), frames, result.R);
   const MotionBounds& bounds = motion.bounds(link);
-  MotionBounds turning;  // of a unit vector of the link
+  MotionBounds turning;  // those of a unit vector of the link
   turning.angularSpeed = bounds.angularSpeed;
   const double rotationError =
       interpolationError(turning, 1.0, nodes.end() - nodes.begin()) +

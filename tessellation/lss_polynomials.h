@@ -23,8 +23,8 @@ struct LssPolynomials {
   float a[3][kCoefficients], b[3][kCoefficients];  ///< Ascending powers of u; relative to `origin`.
   double origin[3];      ///< Relative to the origin of the nodes; every coordinate is a float.
   float radius;          ///< The LSS's, plus all uncertainty; rounded up.
-  float speedA, speedB;  ///< On |d/du| of the polynomials a, b on [-1,1]; rounded up.
-  float accelerationA, accelerationB;  ///< On |d^2/du^2| of the polynomials; rounded up.
+  float speedA, speedB;  ///< Bounds on |d/du| of the polynomials a, b on [-1,1]; rounded up.
+  float accelerationA, accelerationB;  ///< Bounds on |d^2/du^2| of them; rounded up.
   float weighted;  ///< The larger sum over j of (2j+2) |j-th coefficient|; rounded up.
 };
 
@@ -42,8 +42,8 @@ struct FramePolynomials {
   float p[3][kCoefficients];  ///< Relative to `origin`.
   double origin[3];           ///< Relative to the origin of the nodes; every coordinate is a float.
   float originError, rotationError;  ///< Rounded up.
-  /// On |d/du| and |d^2/du^2| of the polynomials on [-1,1]: p's, and R's in spectral norm; a point
-  /// at distance rho has at most originSpeed + rotationSpeed*rho, and so on. Rounded up.
+  /// Bounds on |d/du| and |d^2/du^2| of p and, in spectral norm, of R on [-1,1]. A point at
+  /// distance rho has at most originSpeed + rotationSpeed*rho, and so on. Rounded up.
   float originSpeed, rotationSpeed, originAcceleration, rotationAcceleration;
 };
 

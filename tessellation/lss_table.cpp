@@ -12,7 +12,7 @@ namespace {
 
 using internal::kInflation;
 
-/// On |product of (u - u_k)| / 8! over u in [-1,1], u_k the eight Chebyshev-Lobatto points: the
+/// Bounds |product of (u - u_k)| / 8! over u in [-1,1], u_k the eight Chebyshev-Lobatto points: the
 /// product is sin(x)*sin(7x)/64 at u = cos(x) (lss_polynomials.md 1).
 constexpr double kNodePolynomial = 1.0 / (64.0 * 40320.0);
 
@@ -52,7 +52,7 @@ void LssTable::assign(const std::vector<std::vector<Lss>>& lssPerLink) {
   for (const std::vector<Lss>& lss : lssPerLink) add(lss);
 }
 
-/// Of the next link.
+/// Adds the LSS of the next link.
 void LssTable::add(const std::vector<Lss>& lssOfLink) {
   const LinkId link = numLinks();
   double rho = 0.0;

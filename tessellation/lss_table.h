@@ -38,7 +38,7 @@ class LssTable {
   [[nodiscard]] const std::vector<LinkId>& bareLinks() const { return bareLinks_; }
   /// Largest rhoA or rhoB of the link's LSS; 0 if it has none.
   [[nodiscard]] double rho(LinkId link) const { return rho_[slotOf(link)]; }
-  /// Of all links.
+  /// The largest rhoA or rhoB, and the largest radius, of all links' LSS.
   [[nodiscard]] double largestRho() const { return largestRho_; }
   [[nodiscard]] double largestRadius() const { return largestRadius_; }
 

@@ -20,19 +20,19 @@ struct OpenEdge {
   std::size_t count;
 };
 
-/// The first one of each object that is not closed, by object. `ids`: the triangles that count;
-/// `objectOf` may be null: all are of object 0. How they are turned does not matter; edges are the
-/// same if their ends are, bit for bit; those without length are no border. O(n log n).
+/// The first open edge of each object that is not closed, by object. `ids`: the triangles that
+/// count; `objectOf` may be null: all are of object 0. Their winding does not matter. Edges are the
+/// same if their ends are, bit for bit; an edge without length is not a border. O(n log n).
 [[nodiscard]] std::vector<OpenEdge> openEdges(const Triangle* triangles,
                                               const std::vector<std::int32_t>& ids,
                                               const std::int32_t* objectOf);
 
 /// What an object may have inside it.
 struct ObjectRoom {
-  Aabb box;  ///< Of its triangles; empty without any.
+  Aabb box;  ///< Around its triangles; empty without any.
   bool isClosed = true;
 };
-/// The same input; one per object, `count` of them.
+/// The rooms of the same input, one per object, `count` of them.
 [[nodiscard]] std::vector<ObjectRoom> objectRooms(const Triangle* triangles,
                                                   const std::vector<std::int32_t>& ids,
                                                   const std::int32_t* objectOf, std::size_t count);

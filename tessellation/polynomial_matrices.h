@@ -17,10 +17,10 @@ struct alignas(64) PolynomialMatrices {
 
 // What polynomials through the nodes lose, in double (lss_polynomials.md 3).
 inline constexpr double kInstantRounding =
-    0x1p-52;                              ///< Of a node's instant from the formula's, in t.
+    0x1p-52;                              ///< How far a node's instant is from the formula's, in t.
 inline constexpr double kLebesgue = 2.5;  ///< Errors at the nodes grow by at most this in between.
 inline constexpr double kFitting = 4096.0;  ///< The coefficients' rounding, in u of weighted.
-inline constexpr double kControlRounding = 1e-13;  ///< Of control points, of weighted.
+inline constexpr double kControlRounding = 1e-13;  ///< The control points', as a share of weighted.
 
 /// Computed on first use; nearest doubles but for a few roundings of long double.
 [[nodiscard]] const PolynomialMatrices& polynomialMatrices();

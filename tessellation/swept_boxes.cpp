@@ -48,7 +48,7 @@ HWY_INLINE Ends endsAt(NodeLanes d, const LssTable::Entry& entry, const LinkNode
   return {pointAt(d, link, entry.a, 0.0, axis, lane), b};
 }
 
-/// As floats relative to `shift`.
+/// Stores the ends as floats relative to `shift`.
 HWY_INLINE void storeEnds(NodeLanes d, const Ends& ends, double shift, int axis, int lane,
                           NodeEnds::Axis& to) {
   const hn::Rebind<float, NodeLanes> floats;
@@ -57,7 +57,7 @@ HWY_INLINE void storeEnds(NodeLanes d, const Ends& ends, double shift, int axis,
   hn::StoreU(hn::DemoteTo(floats, hn::Sub(ends.b, from)), floats, to.b[axis] + lane);
 }
 
-/// Whether somebody needs the ends themselves: known before the loops, which are a quarter slower
+/// Whether the caller needs the ends themselves: known before the loops, which are a quarter slower
 /// if they ask.
 enum class Keep : bool { BoxesOnly, EndsToo };
 
@@ -193,7 +193,7 @@ class Growth {
         sagittas_(gap * gap / 8.0 * kInflation),
         rounding_(internal::pointRoundings(nodes.bounds())) {}
 
-  /// With the rounding of the origin.
+  /// The margin plus the rounding of the origin.
   [[nodiscard]] double wholeMargin(double margin) const { return margin + rounding_.atOrigin; }
 
   [[nodiscard]] double of(const LssTable::Entry& entry, double wholeMargin) const {
@@ -221,7 +221,7 @@ void computeBoxes(const LssTable& table, const ChainNodes& nodes, const double* 
 /// Covers the differences and sums of an extent, in float.
 constexpr float kExtentInflation = 1.0F + 0x1p-20F;
 
-/// What no end's coordinates, added up, are above: of the box around them, seen from the origin.
+/// What no end's coordinates, added up, are above: from the box around them, seen from the origin.
 float extentOf(const SweptBoxes& boxes, std::int32_t lss, const float* origin) {
   float extent = 0.0F;
   for (int axis = 0; axis < 3; ++axis) {

@@ -48,8 +48,8 @@ struct SweptBoxes {
 [[nodiscard]] double widestGap(const ChainNodes& nodes);
 
 /// The float box of every LSS over the whole span of `nodes`, grown by `margin` (m), relative to
-/// the origin of the nodes, rounded outward. `ends`: if not null, gets what the boxes are made of;
-/// `beside`: whose origin they then share, if it is not null. O(LSS).
+/// the origin of the nodes, rounded outward. `ends`, if not null, gets the ends that the boxes are
+/// made of; they then share the origin of `beside`, if that is not null. O(LSS).
 void sweptBoxes(const LssTable& table, const ChainMotion& motion, const ChainNodes& nodes,
                 double margin, SweptBoxes& boxes, NodeEnds* ends = nullptr,
                 const NodeEnds* beside = nullptr);

@@ -28,7 +28,7 @@ using internal::kInflation;
 // sheet's share (both ends seldom move in one direction), that of a piece's facets to the inverse
 // root of theirs: their product is least at 2 : 1. The rest is for rounding.
 constexpr double kChordShare = 0.1, kFacetShare = 0.27, kSheetShare = 0.46;
-constexpr double kPositionShare = 0.005;  // of the computed axis ends; counts twice
+constexpr double kPositionShare = 0.005;  // for the computed axis ends; counts twice
 constexpr double kSpacingsPerError = 128.0;
 /// Half the diagonal of a lattice cell, in spacings: how far rounding moves an end of the axis.
 constexpr double kLatticeRounding = 0.8661;

@@ -1,5 +1,5 @@
 // verify/certificate.h: the format "foretouch-certificate", as text and as what it says: version 1
-// of steps, version 2 of a robot's edges.
+// for steps, version 2 for a robot's edges.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Span {
 };
 
 struct CapsuleClaim {
-  std::size_t capsule = 0;  ///< Of its link.
+  std::size_t capsule = 0;  ///< Among its link's.
   std::vector<Span> spans;
   long long line = 0;
 };
@@ -46,12 +46,12 @@ struct PairClaim {
   long long line = 0;
 };
 
-/// Of a step, or of an edge.
+/// The claims about a step, or about an edge.
 struct StepClaim {
   long long step = 0;
-  std::string verdict;  ///< Of an edge that nothing is claimed of: why not.
+  std::string verdict;  ///< For an edge without claims: why not.
   std::vector<LinkClaim> links;
-  std::vector<PairClaim> pairs;  ///< Of an edge.
+  std::vector<PairClaim> pairs;  ///< For an edge.
   long long line = 0;
 };
 

@@ -25,7 +25,7 @@ std::vector<Hull> hullsOf(const std::vector<Capsule>& capsules, const LinkPlace&
 
 }  // namespace
 
-/// Some triangle of the scene is none that it may touch.
+/// It has LSS, and may not touch some triangle of the scene.
 bool EdgeProof::isAsked(std::size_t link) const {
   const std::vector<Ignored>& ignored = statement_.ignored[link];
   const bool isAll =

@@ -18,9 +18,9 @@ class EdgeProof {
   /// Where it is not proven; nothing: it is. Every link with LSS has to be named, but for those
   /// that may touch the whole scene, and every pair of the statement.
   ///
-  /// Of a pair, every LSS of the one and every LSS of the other have to have boxes apart, or a
-  /// plane of the span between them, seen from the nearest link that carries both: only the joints
-  /// below it move them against each other.
+  /// For a pair, every LSS of one and every LSS of the other must have boxes apart, or a plane of
+  /// the span between them, seen from the nearest link that carries both: only the joints below it
+  /// move them against each other.
   [[nodiscard]] Fault prove(const StepClaim& claim, Motion& motion, Tally& tally) const;
 
  private:

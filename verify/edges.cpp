@@ -10,7 +10,7 @@
 namespace verify {
 namespace {
 
-/// As the avatar file may be off.
+/// As near to unit as an avatar file must be.
 bool isUnit(const std::array<double, 4>& q) {
   const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   return std::abs(norm - 1.0) <= 1e-3;

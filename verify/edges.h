@@ -40,14 +40,14 @@ struct EdgeStatement {
   double clearance = 0.0;  ///< All have to keep more than this away (m).
   std::size_t coordinates = 0;
   std::vector<DrivenJoint> joints;            ///< As many as links.
-  std::vector<std::vector<Ignored>> ignored;  ///< Of each link, in order, none next to another.
+  std::vector<std::vector<Ignored>> ignored;  ///< Per link, in order, none next to another.
   std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< Own links: a < b.
   std::vector<Edge> edges;
 };
 
-/// Of one link. O(log ranges).
+/// `ignored`: those of one link. O(log ranges).
 [[nodiscard]] bool isIgnored(const std::vector<Ignored>& ignored, std::size_t triangle);
-/// Whether a text is one of edges, and not of steps, by its first word.
+/// Whether a text is about edges, and not about steps, by its first word.
 [[nodiscard]] bool isOfEdges(std::string_view text);
 [[nodiscard]] Fault readEdges(std::string_view text, const std::vector<Link>& links,
                               std::size_t triangles, EdgeStatement& statement);

@@ -51,7 +51,7 @@ inline Interval square(const Interval& x) {
   if (x.lo > 0.0 || x.hi < 0.0) return all;
   return {0.0, all.hi};
 }
-/// By what is surely above zero; by anything else nothing is known.
+/// Divided by what is surely above zero; for any other divisor nothing is known.
 inline Interval operator/(const Interval& x, const Interval& y) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (!(y.lo > 0.0)) return {-kInfinity, kInfinity};
@@ -59,7 +59,7 @@ inline Interval operator/(const Interval& x, const Interval& y) {
   return {down(std::min(std::min(a, b), std::min(c, d))),
           up(std::max(std::max(a, b), std::max(c, d)))};
 }
-/// Of what is not below zero, as far as it is not.
+/// The root of what is not below zero, as far as it is not.
 inline Interval root(const Interval& x) {
   return {std::max(0.0, down(std::sqrt(std::max(0.0, x.lo)))), up(std::sqrt(std::max(0.0, x.hi)))};
 }

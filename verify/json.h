@@ -15,11 +15,11 @@ struct Json {
   double number = 0.0;
   std::string text;
   bool hasEscape = false;         ///< In the text.
-  std::vector<Json> items;        ///< Of an array; of an object its values.
-  std::vector<std::string> keys;  ///< Of an object, beside its values.
+  std::vector<Json> items;        ///< An array's; an object's values.
+  std::vector<std::string> keys;  ///< An object's, beside its values.
 
   [[nodiscard]] bool isPlainText() const { return kind == Kind::Text && !hasEscape; }
-  /// The only value of this key; nothing: it is no object, or has it not, or twice.
+  /// The only value of this key; nothing: it is not an object, or lacks the key, or has it twice.
   [[nodiscard]] const Json* find(std::string_view key) const;
 };
 

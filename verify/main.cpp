@@ -56,7 +56,7 @@ int refuseEmpty(const char* path) {
 /// Honest claims take some ten halvings of rotations per byte.
 constexpr std::size_t kWorkPerByte = 64;
 
-/// Of one step: whether every link with LSS has a claim.
+/// Whether every link with LSS has a claim about this step.
 bool isWhole(const std::vector<Link>& links, const StepClaim& claim) {
   std::set<std::size_t> named;
   for (const LinkClaim& link : claim.links) named.insert(link.link);
@@ -66,7 +66,7 @@ bool isWhole(const std::vector<Link>& links, const StepClaim& claim) {
   return true;
 }
 
-/// Scene and avatar are read.
+/// Precondition: scene and avatar are read.
 int runSteps(const char* const* paths, const std::string* texts, const std::vector<Link>& links,
              const SceneProof& scene, bool asksWhole) {
   std::vector<Step> steps;
@@ -113,7 +113,7 @@ int runSteps(const char* const* paths, const std::string* texts, const std::vect
   return 0;
 }
 
-/// What the statement asks is proven of the edges that are claimed. Of the others it says why.
+/// Prints what is proven of the edges that are claimed, and for the others why they are not.
 void printEdges(const EdgeStatement& statement, const std::vector<StepClaim>& claims,
                 const Tally& tally) {
   std::printf(

@@ -40,14 +40,14 @@ Vector madeUnit(const Point& axis) {
 
 /// The rotation by an angle about a unit axis. Half of the angle is halved until it is at most an
 /// eighth. There sine and cosine are their series up to x^12; by Taylor the rest is below |x|^13 /
-/// 13!. Doubling the angle again takes sums and products alone.
+/// 13!. Doubling the angle again takes only sums and products.
 Quaternion turned(const Vector& axis, const Interval& angle) {
   int halvings = 1;
   while (std::max(std::abs(angle.lo), std::abs(angle.hi)) > std::ldexp(0.125, halvings)) ++halvings;
   const Interval x = Interval(std::ldexp(1.0, -halvings)) * angle, square2 = square(x);
   constexpr double kRest = 0x1p-39 / 6227020800.0;
   const Interval one(1.0);
-  Interval sine = one, cosine = one;  // Horner's way, from behind
+  Interval sine = one, cosine = one;  // Horner's way, from the end
   for (int k = 12; k >= 2; k -= 2) {
     cosine = one - square2 * cosine / Interval(k * (k - 1.0));
     if (k <= 10) sine = one - square2 * sine / Interval(k * (k + 1.0));
@@ -71,7 +71,7 @@ LinkPlace under(const LinkPlace& above, const LinkPlace& own) {
 Interval valueOf(const Drive& drive, const std::vector<double>& q) {
   return Interval(drive.factor) * Interval(q[drive.coordinate]) + Interval(drive.offset);
 }
-/// And by how much it changes.
+/// How much that number changes along the edge.
 Interval changeOf(const Drive& drive, const Edge& edge) {
   return Interval(drive.factor) *
          (Interval(edge.to[drive.coordinate]) - Interval(edge.from[drive.coordinate]));
@@ -141,7 +141,7 @@ void Motion::add(Joint joint) {
   joints_.push_back(std::move(joint));
 }
 
-/// Of what moves with the joint, by that of what carries it.
+/// The bound of what moves with the joint, from that of what carries it.
 Motion::Bound Motion::below(const Bound& above, const Joint& joint) {
   const double arm = std::max(length(joint.start).hi, length(joint.start + joint.drift).hi);
   const Interval s(above.turns);
@@ -174,7 +174,7 @@ void Motion::spend(std::size_t work) {
   if (work_ > mostWork_) throw std::runtime_error("the claims ask for too many places");
 }
 
-/// At least the angle: of a chord of length c between unit quaternions the rotation is by
+/// At least the angle: a chord of length c between unit quaternions means a rotation by
 /// 4 asin(c / 2), asin(x) <= x / sqrt(1 - x^2), and a turn is sixteen times its sixteenth.
 double Motion::turnOf(const Joint& joint) const {
   const Quaternion piece = rotationAt(joint, kChordLevel, 1);
@@ -212,7 +212,7 @@ std::size_t Motion::mostInstants() const {
   return std::max<std::size_t>(2, kMostKept / std::max<std::size_t>(1, links_.size()));
 }
 
-/// In its parent's frame. Exact in t: its numbers are below 2^41.
+/// The joint's place in its parent's frame. Exact in t: its numbers are below 2^41.
 LinkPlace Motion::placeOf(const Joint& joint, int level, std::int64_t index) const {
   const Interval t(std::ldexp(static_cast<double>(index), -level));
   return {rotation(rotationAt(joint, level, index)), joint.start + t * joint.drift};

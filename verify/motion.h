@@ -33,7 +33,7 @@ class Motion {
 
   static constexpr std::size_t kMostWork = 4'000'000;
 
-  /// What makes the step no motion; empty: nothing.
+  /// Why the step is not a motion; empty: it is one.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
   /// Halvings so far.
@@ -43,10 +43,10 @@ class Motion {
 
   /// At t = index / 2^level.
   /// O(level) for each link above it that is not known at that instant yet; only so many instants
-  /// are kept. Throws beyond the most work: whoever asks for as much wants it to take its time.
+  /// are kept. Throws beyond the most work: claims that ask for as much are made to keep it busy.
   [[nodiscard]] const LinkPlace& at(int level, std::int64_t index, std::size_t link);
 
-  /// Of points at a distance from a link's origin: what acceleration() bounds.
+  /// For points at a distance from a link's origin: what acceleration() bounds.
   struct Bound {
     double turns = 0.0, origin = 0.0;
     [[nodiscard]] double at(double distance) const {
@@ -80,7 +80,7 @@ class Motion {
     Interval angle, by;  // at t = 0, and from there to t = 1
   };
   struct Joint {
-    Quaternion from, to;       // of a step; on an edge both are the rotation at rest
+    Quaternion from, to;       // in a step; on an edge both are the rotation at rest
     std::optional<Turn> turn;  // on an edge
     Vector start, drift;
     double most = 0.0;  // at least the angle by which it turns
@@ -98,7 +98,7 @@ class Motion {
   const std::vector<Link>& links_;
   bool isOnEdge_ = false;
   std::vector<Joint> joints_;
-  std::vector<Bound> fastest_;  // of each link in the world
+  std::vector<Bound> fastest_;  // per link, in the world
   std::map<std::pair<int, std::int64_t>, Places> known_;
   std::size_t work_ = 0, mostWork_;
   std::string fault_;

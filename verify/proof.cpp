@@ -7,7 +7,7 @@ namespace verify {
 namespace {
 
 bool isNot(double least, double most) {
-  return !(least <= most);  // true where either is no number
+  return !(least <= most);  // true where either is not a number
 }
 
 }  // namespace

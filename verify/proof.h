@@ -13,7 +13,7 @@ namespace verify {
 
 struct Tally {
   std::int64_t steps = 0, links = 0, capsules = 0, spans = 0, planes = 0;
-  std::int64_t pairs = 0;                  ///< Of own links.
+  std::int64_t pairs = 0;                  ///< Pairs of own links.
   std::int64_t byBoxes = 0, byPlanes = 0;  ///< Triangles, each once per span.
 };
 
@@ -30,11 +30,11 @@ struct Hull {
                  const Motion::Bound& bound, int level, double more);
   /// Every point of it is surely beyond the plane's offset.
   [[nodiscard]] bool isInFrontOf(const Plane& plane) const;
-  /// And surely not beyond it.
+  /// Every point of it is surely not beyond the plane's offset.
   [[nodiscard]] bool isBehind(const Plane& plane) const;
 };
 
-/// The spans follow each other from t = 0 to t = 1, and `why` is empty of each; else which is not.
+/// The spans follow each other from t = 0 to t = 1, and `why` is empty for each; else which fails.
 template <typename Why>
 Fault proveSpans(const std::vector<Span>& spans, long long line, const Why& why) {
   std::int64_t reached = 0;  // in units of 2^-kDeepestLevel
@@ -64,7 +64,7 @@ class SceneProof {
   /// t = 0 to t = 1.
   [[nodiscard]] Fault prove(const std::vector<Link>& links, const StepClaim& claim, Motion& motion,
                             Tally& tally) const;
-  /// The same of one link, which has to keep more than `clearance` away from all that is not in
+  /// The same for one link, which has to keep more than `clearance` away from all that is not in
   /// `ignored`.
   [[nodiscard]] Fault prove(const std::vector<Link>& links, const LinkClaim& claim, Motion& motion,
                             double clearance, const std::vector<Ignored>& ignored,
@@ -76,7 +76,7 @@ class SceneProof {
                                       const std::vector<Ignored>& ignored, Tally& tally) const;
 
   std::vector<Triangle> triangles_;
-  std::array<std::vector<double>, 3> least_, most_;  // of each triangle's box
+  std::array<std::vector<double>, 3> least_, most_;  // per triangle: its box
 };
 
 }  // namespace verify

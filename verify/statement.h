@@ -36,13 +36,13 @@ struct Link {
   std::string name;
   int parent = -1;  ///< Before it; -1: a root.
   std::vector<Capsule> capsules;
-  /// At rest, in its parent's frame: of edges alone. Nothing: the file does not say it.
+  /// At rest, in its parent's frame: only for edges. Without: the file does not say it.
   bool hasRest = false;
   Point offset{};
   std::array<double, 4> rotation{1.0, 0.0, 0.0, 0.0};
 };
 
-/// Of one joint, in its parent's frame.
+/// The pose of one joint, in its parent's frame.
 struct JointPose {
   Point translation;
   std::array<double, 4> rotation;
@@ -56,11 +56,11 @@ struct Step {
 /// An OBJ of triangles: lines v and f; f with three corners, each a vertex above. Lines that say
 /// nothing of the shape are skipped. All others are faults, and so is what readers read in two
 /// ways: a fourth coordinate, something behind a line, lines that begin with blanks, coordinates
-/// above it that are not there, bytes that are no printable ASCII.
+/// above it that are not there, bytes that are not printable ASCII.
 [[nodiscard]] Fault readScene(std::string_view text, std::vector<Triangle>& scene);
-/// An avatar file (JSON): names, parents, LSS and rest frames of its links; what else it says is
-/// skipped. Names
-/// without escapes, each once, at most kMostLinks.
+/// An avatar file (JSON): names, parents, LSS and rest frames of its links; the rest is skipped.
+/// Names are without
+/// escapes, each once, at most kMostLinks.
 [[nodiscard]] Fault readAvatar(std::string_view text, std::vector<Link>& links);
 /// "foretouch-steps 1": for each step its number, and for each joint both poses.
 [[nodiscard]] Fault readSteps(std::string_view text, std::size_t joints, std::vector<Step>& steps);

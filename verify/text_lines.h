@@ -49,7 +49,7 @@ class TextLines {
   bool isIndented_ = false;
 };
 
-/// Where readers may see other lines than these: a byte that is no printable ASCII, tab or end of
+/// Where readers may see other lines than these: a byte that is not printable ASCII, tab or end of
 /// line (some take a lone carriage return, or a line separator of Unicode, for the end of a line),
 /// a backslash at a line's end (some go on with the next one), or an end without an end of line
 /// (some drop the last one).

@@ -34,10 +34,10 @@ inline constexpr std::size_t kMaxAvatarFileBytes = 64u << 20;
 /// Largest file of pair rules, in bytes.
 inline constexpr std::size_t kMaxPairsFileBytes = 64u << 20;
 
-/// Reads the rules of an avatar. Refuses unknown and repeated keys, wrong types, names that are no
-/// link with LSS of this avatar, pairs listed twice, reasons that this avatar disproves (links that
-/// are not adjacent, LSS that do not overlap at rest), radii that do not fit its LSS, and rules
-/// that leave no pair to ask. Errors name line, pair and expectation.
+/// Reads the rules of an avatar. Refuses unknown and repeated keys, wrong types, names that are not
+/// a link with LSS of this avatar, pairs listed twice, reasons that this avatar disproves (links
+/// that are not adjacent, LSS that do not overlap at rest), radii that do not fit its LSS, and
+/// rules that leave no pair to ask. Errors name line, pair and expectation.
 [[nodiscard]] Result<PairRules> readPairsFile(const std::string& path, const Avatar& avatar);
 
 /// The same for text in memory; errors name `name` as the file. Safe on hostile input.
@@ -45,7 +45,7 @@ inline constexpr std::size_t kMaxPairsFileBytes = 64u << 20;
                                            const Avatar& avatar);
 
 /// The text of a file: parsePairs() of it gives the same rules, bit for bit, but for pairs of links
-/// without LSS, which is never asked and the text leaves out. Precondition: rules of this avatar.
+/// without LSS, which are never asked and not in the text. Precondition: rules of this avatar.
 [[nodiscard]] std::string formatPairs(const PairRules& rules, const Avatar& avatar);
 
 /// Writes a temporary file and renames it into place: never half a file.

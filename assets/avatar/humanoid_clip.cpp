@@ -19,7 +19,7 @@ using Eigen::Matrix3d;
 using Bones = HumanoidRest::Bones;
 
 constexpr double kNotedTiltDeg = 5.0;
-/// Of a rotation (rad): what files round.
+/// Rotations this near (rad) are the same: files round them.
 constexpr double kSameRest = 1e-5;
 /// Legs differ from person to person by less.
 constexpr double kNotedLegs = 0.1;

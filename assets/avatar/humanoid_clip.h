@@ -13,11 +13,11 @@ namespace foretouch {
 
 /// The clip's motion on `avatar`: each part of the body turns in the world as the clip's does, from
 /// rest on, and the hips go where the clip's go, at the clip's size. Both rest alike for that: as a
-/// T-pose, whichever way each faces and whichever axis is up. Joints that are no part of the body,
+/// T-pose, whichever way each faces and whichever axis is up. Joints that are not part of the body,
 /// or that the clip lacks, keep their rest. Notes say what was matched, and how far the rest poses
 /// and the lengths of the legs differ.
 ///
-/// Nothing where `avatar` is no humanoid, or the clip is not by its names, or has the avatar's own
+/// Nothing if `avatar` is not a humanoid, or the clip is not by its names, or has the avatar's own
 /// names and rest. Error (Mismatch) if the clip rests otherwise than the avatar: then its turns
 /// mean something else.
 [[nodiscard]] Result<std::optional<Clip>> humanoidClip(const Skeleton& avatar, const Clip& clip);

@@ -31,7 +31,7 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kR
 
 [[nodiscard]] double angleDeg(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
-/// Of every joint in the world.
+/// The place of every joint in the world.
 [[nodiscard]] std::vector<RigidPose> placesIn(const Skeleton& skeleton, const Pose& pose);
 
 /// A skeleton at rest, by its bones.
@@ -44,7 +44,7 @@ class HumanoidRest {
   [[nodiscard]] const Bones& bones() const { return bones_; }
   [[nodiscard]] const RigidPose& place(JointId joint) const { return places_[slotOf(joint)]; }
   [[nodiscard]] Eigen::Vector3d between(std::string_view from, std::string_view to) const;
-  /// Of the left one (m).
+  /// The length of the left leg (m).
   [[nodiscard]] double legLength() const;
   /// The body's left, up and front; zero if it does not stand along the axes.
   [[nodiscard]] Eigen::Matrix3d frame() const;

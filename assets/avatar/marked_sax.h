@@ -1,5 +1,5 @@
 // assets/avatar/marked_sax.h: what the readers of JSON files share: the line of the parser's place,
-// and the errors of text that is no JSON. Not installed.
+// and the errors of text that is not JSON. Not installed.
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ class MarkedSax : public nlohmann::json_sax<nlohmann::json> {
   bool parse_error(std::size_t, const std::string& token, const nlohmann::json::exception& e) final;
 
  protected:
-  /// Of the event at hand, 1-based.
+  /// The line of the event at hand, 1-based.
   [[nodiscard]] std::int64_t line() const;
   [[nodiscard]] const std::string& file() const { return file_; }
   /// Ends the parse with an error; returns false for the parser.

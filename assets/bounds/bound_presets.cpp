@@ -28,7 +28,7 @@ constexpr double kOfBoth = 2.0;
 
 struct Preset {
   const char* name;
-  double errorM;                   // of a pose; of 0 the speed at the last pose is known, too
+  double errorM;                   // a pose's; if 0, the speed at the last pose is known, too
   std::vector<const char*> parts;  // empty: all
   const char* source;
   double quantile = 1.0;  // at which the error holds, as the source has it

@@ -13,7 +13,7 @@ namespace foretouch {
 /// Stands before a preset's name where a file of bounds could be named.
 inline constexpr std::string_view kBoundPresetPrefix = "preset:";
 
-/// Of a file, or of a preset: then the error names those that there are.
+/// The bounds of a file or of a preset. The error for an unknown preset names those that there are.
 [[nodiscard]] Result<BoundsFile> readBounds(const std::string& pathOrPreset);
 
 }  // namespace foretouch

@@ -218,14 +218,14 @@ bool isAbout(const BoundEntry& entry, MotionModel model, double rateHz) {
   return isRate && (!entry.model || *entry.model == model);
 }
 
-/// By name, by part, for all; 3: it is about another link.
+/// 0: by name; 1: by part; 2: for all; 3: it is about another link.
 int rankOf(const BoundEntry& entry, const std::string& link, const std::string& part) {
   if (entry.link == link) return 0;
   if (!entry.part.empty() && entry.part == part) return 1;
   return entry.part == "all" ? 2 : 3;
 }
 
-/// Of each of kBoundFields, the rank of the entry that it is from.
+/// For each of kBoundFields, the rank of the entry that it is from.
 using Ranks = std::array<int, kBoundFields.size()>;
 
 bool isSet(const LinkBound& bound, const BoundField& field) {
@@ -233,7 +233,7 @@ bool isSet(const LinkBound& bound, const BoundField& field) {
   return bound.*field.place != LinkBound{}.*field.place;
 }
 
-/// Takes the numbers that the entry says, where nothing of a better rank said them; true: any.
+/// Takes the entry's numbers that no entry of the same or a better rank gave; true: it took any.
 bool take(const LinkBound& said, int rank, Ranks& ranks, LinkBound& bound) {
   bool isAny = false;
   for (std::size_t i = 0; i < kBoundFields.size(); ++i) {

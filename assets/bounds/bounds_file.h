@@ -21,12 +21,12 @@ namespace foretouch {
 /// Largest file of bounds, in bytes.
 inline constexpr std::size_t kMaxBoundsFileBytes = 4u << 20;
 
-/// One claim. Of several that say the same number of a link, the one by its name counts, then the
-/// one by its part, then the one for all; of these the first.
+/// One claim. If several give the same number for a link, the one by its name counts, then the one
+/// by its part, then the one for all; among equals the first.
 struct BoundEntry {
   std::string link;                  ///< By name; or
   std::string part;                  ///< head, trunk, arm, hand, leg, foot, or all.
-  std::optional<MotionModel> model;  ///< That it is about; nothing: any.
+  std::optional<MotionModel> model;  ///< The model it is about; nothing: any.
   double rateHz = 0.0;               ///< Rate of the poses it is about, within a tenth; 0: any.
   LinkBound bound;
   double quantile = 1.0;   ///< Share of the observations that it holds at.
@@ -39,15 +39,15 @@ struct BoundsFile {
   std::vector<BoundEntry> entries;
 };
 
-/// The parts of the body, as files name them, that a skeleton's joints' names say; "" of a joint
-/// whose name says none. One per joint.
+/// The parts of the body, as files name them, that the names of a skeleton's joints say; "" for a
+/// joint whose name says none. One per joint.
 [[nodiscard]] std::vector<std::string> boundParts(const Skeleton& skeleton);
 
 /// Refuses unknown and repeated keys, wrong types, negative numbers, a claim without a link or a
 /// part; errors name the entry and what was expected. Safe on hostile input.
 [[nodiscard]] Result<BoundsFile> parseBounds(std::string_view json, const std::string& name);
 [[nodiscard]] Result<BoundsFile> readBoundsFile(const std::string& path);
-/// parseBounds() of it gives the same, bit for bit.
+/// The text of a file: parseBounds() of it gives the same, bit for bit.
 [[nodiscard]] std::string formatBounds(const BoundsFile& bounds);
 [[nodiscard]] Result<Done> writeBoundsFile(const BoundsFile& bounds, const std::string& path);
 
@@ -55,20 +55,20 @@ struct BoundsFile {
 /// moves it.
 struct LinkBounds {
   std::vector<LinkBound> bounds;      ///< One per link.
-  std::vector<std::int32_t> entryOf;  ///< Of each link, the last entry that it is from; -1: none.
+  std::vector<std::int32_t> entryOf;  ///< Per link, the last entry that it is from; -1: none.
 };
-/// Errors: a name that is no link of the skeleton; no entry for this model and rate (the error
-/// names those that there are). A link that no entry fits is claimed nothing of.
+/// Errors: a name that is not a link of the skeleton; no entry for this model and rate (the error
+/// names those that there are). Nothing is claimed of a link that no entry fits.
 [[nodiscard]] Result<LinkBounds> boundsOf(const BoundsFile& file, const Skeleton& skeleton,
                                           MotionModel model, double rateHz);
 
-/// boundsOf() of a stream, whose poses come at any rate: what it found last is kept.
+/// boundsOf() for a stream, whose poses come at any rate: keeps what it found last.
 class BoundsByRate {
  public:
   /// Errors: as boundsOf(); no entry for the model at any rate.
   static Result<BoundsByRate> make(BoundsFile file, const Skeleton& skeleton, MotionModel model);
-  /// At rates that no entry is about nothing is claimed. Allocates only where other entries count
-  /// than at the last call.
+  /// Claims nothing at rates that no entry is about. Allocates only where other entries count than
+  /// at the last call.
   [[nodiscard]] const std::vector<LinkBound>& at(double rateHz);
 
  private:

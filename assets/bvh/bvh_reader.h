@@ -30,7 +30,7 @@ struct BvhOptions {
 [[nodiscard]] Result<Clip> parseBvh(std::string_view text, const std::string& name,
                                     const BvhOptions& options = {});
 
-/// From the length of the legs, hip to ankle, at rest (metres); so it is the same in every pose.
+/// The stature (m), from the legs' length at rest, hip to ankle: so it is the same in every pose.
 /// Nothing if the joints' names show no legs with knees and ankles: not a person, or one with joint
 /// names that docs/formats.md does not list.
 [[nodiscard]] std::optional<double> statureOf(const Skeleton& skeleton);

@@ -66,8 +66,8 @@ BodyRole roleOfName(std::string_view name) {
   return BodyRole::Unknown;
 }
 
-/// Of a skeleton whose joints are called by their part of the body, where that comes before what
-/// else a name may mean: "SkirtBack" is no back. What carries the hips is a root.
+/// The roles in a skeleton whose joints are called by their part of the body. That comes before
+/// what else a name may mean: "SkirtBack" is not a back. What carries the hips is a root.
 std::vector<BodyRole> rolesOfHumanoid(const Skeleton& skeleton) {
   std::vector<BodyRole> roles;
   for (JointId j = 0; j < skeleton.numJoints(); ++j) {

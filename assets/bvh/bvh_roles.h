@@ -27,8 +27,8 @@ enum class BodyRole {
 };
 
 /// One role per joint, from its name (in the schemes of MotionBuilder, Biovision, Mixamo, Bandai
-/// and MakeHuman, any case) and, if a word has two meanings, from its children's names. Of a
-/// humanoid (assets/human_bones.h) VRM's names alone count; others are Unknown, or carry the hips.
+/// and MakeHuman, any case) and, if a word has two meanings, from its children's names. For a
+/// humanoid (assets/human_bones.h) only VRM's names count; others are Unknown, or carry the hips.
 [[nodiscard]] std::vector<BodyRole> bodyRoles(const Skeleton& skeleton);
 
 /// A bone by the roles of the joints at its ends.

@@ -25,9 +25,9 @@ bool isDigit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Of a well-formed decimal number that from_chars() found out of range: is it above the largest
-/// double (else below the smallest)? The sign of the decimal exponent of its first non-zero digit
-/// decides, because the range ends near 1e308 and 1e-324.
+/// Is a well-formed decimal number that from_chars() found out of range above the largest double
+/// (else below the smallest)? The sign of the decimal exponent of its first non-zero digit decides,
+/// because the range ends near 1e308 and 1e-324.
 bool isAboveRange(std::string_view number) {
   constexpr int kCap = 1000000;  // more than any word of kMaxBvhToken bytes can balance
   const std::size_t e = number.find_first_of("eE");

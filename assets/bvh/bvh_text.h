@@ -54,7 +54,7 @@ class BvhScanner {
 struct BvhNumber {
   double value = 0.0;
   const char* problem = nullptr;
-  ErrorCode code = ErrorCode::Syntax;  ///< Of the problem.
+  ErrorCode code = ErrorCode::Syntax;  ///< The problem's.
 };
 [[nodiscard]] BvhNumber readBvhNumber(std::string_view word);
 

@@ -17,11 +17,11 @@ namespace foretouch {
 /// A step's two poses as foretouch-steps has them.
 [[nodiscard]] std::string stepText(std::int64_t number, const Pose& from, const Pose& to);
 
-/// Each text as a file of this folder, which is made. Never half a file.
 struct NamedText {
   const char* name;
   const std::string& text;
 };
+/// Writes each text as a file of this folder, which it makes. Never half a file.
 [[nodiscard]] Result<Done> writeTexts(const std::string& folder,
                                       const std::vector<NamedText>& texts);
 

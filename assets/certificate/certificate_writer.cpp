@@ -21,7 +21,7 @@ namespace {
 /// What both sides of a plane keep from it (m), against the rounding of either program: 1e-16 of a
 /// coordinate, and a turn by as much.
 constexpr double kSlackM = 1e-9;
-/// Of our bounds: the verifier's are rounded up at every step.
+/// Enlarges our bounds: the verifier's are rounded up at every step.
 constexpr double kInflation = 1.0 + 1e-4;
 /// A span of a 16-millionth: what needs more is nearer than a millionth of the motion.
 constexpr int kDeepestSpan = 24;
@@ -57,7 +57,7 @@ double inFewDigits(double number) {
 
 }  // namespace
 
-/// Of one LSS on one motion.
+/// The bound on one LSS on one motion.
 struct CertificateWriter::Bound {
   Lss lss;
   double acceleration = 0.0;  ///< At least that of any point of its axis, per unit of t squared.
@@ -83,7 +83,7 @@ struct CertificateWriter::Plane {
   Eigen::Vector3d normal;
   double offset = 0.0;
 
-  /// Of a triangle whose coordinates may be read as others, this far away.
+  /// The most along the normal of a triangle whose coordinates may be read as others, `blur` away.
   [[nodiscard]] double mostAlong(const Triangle& triangle, double blur) const {
     double most = -std::numeric_limits<double>::infinity();
     for (const Eigen::Vector3d& v : triangle.vertices) most = std::max(most, normal.dot(v));
@@ -130,7 +130,7 @@ CertificateWriter::CertificateWriter(const Avatar& avatar, const Scene& scene,
   }
 }
 
-/// Of the part that is looked at, `level` and `index` within it.
+/// The hull in the part that is looked at; `level` and `index` are within that part.
 CertificateWriter::Hull CertificateWriter::hullOf(LinkId carrier, LinkId link, const Bound& bound,
                                                   int level, std::int64_t index, double more) {
   Hull hull;
@@ -282,7 +282,7 @@ std::optional<std::string> CertificateWriter::link(LinkId link) {
   return text;
 }
 
-/// Those that it may not touch.
+/// The triangles that the link may not touch.
 CertificateWriter::Triangles CertificateWriter::trianglesFor(LinkId link) const {
   Triangles triangles = all_;
   for (const IgnoredPair& pair : asked_.ignored) {
@@ -295,7 +295,7 @@ CertificateWriter::Triangles CertificateWriter::trianglesFor(LinkId link) const 
   return triangles;
 }
 
-/// One for each two hulls whose boxes meet, unless an earlier one stands between them, too.
+/// One plane for each two hulls whose boxes meet, unless an earlier one is between them, too.
 bool CertificateWriter::planesBetween(const std::vector<Hull>& ones,
                                       const std::vector<Hull>& others, std::vector<Plane>& planes) {
   for (const Hull& one : ones) {

@@ -26,10 +26,10 @@ namespace foretouch {
 struct CertificateCounts {
   std::int64_t links = 0, capsules = 0, spans = 0, planes = 0;
   std::int64_t unproven = 0;  ///< Links, or edges, for which no spans were found.
-  std::int64_t pairs = 0;     ///< Of own links.
+  std::int64_t pairs = 0;     ///< Pairs of own links.
 };
 
-/// Beyond that each link touches nothing.
+/// What is to be shown beyond that each link touches nothing.
 struct CertificateAsked {
   double clearance = 0.0;  ///< Metres: from the scene, and between own links.
   std::vector<IgnoredPair> ignored;
@@ -48,8 +48,8 @@ class CertificateWriter {
                                  const std::vector<LinkId>& links);
 
   /// The lines about an edge, "edge K" first, on which the avatar makes these motions one after the
-  /// other, each as long: a power of two of them. All that is asked of all links. Nothing: no proof
-  /// is found of some of it.
+  /// other, each as long: a power of two of them. They prove all that is asked, of all links.
+  /// Nothing: no proof is found of some of it.
   [[nodiscard]] std::optional<std::string> edge(std::int64_t number,
                                                 const std::vector<ChainMotion>& parts);
 
@@ -86,8 +86,8 @@ class CertificateWriter {
 
   const Avatar& avatar_;
   const Scene& scene_;
-  std::vector<Eigen::AlignedBox3d> boxes_;  // of all that the verifier may read
-  std::vector<double> blurs_;               // how far that is from what is here
+  std::vector<Eigen::AlignedBox3d> boxes_;  // per triangle, around all that the verifier may read
+  std::vector<double> blurs_;               // per triangle, how far that is from what is here
   Triangles all_;
   CertificateAsked asked_;
   std::vector<MotionEvaluator> parts_;  // of the step or the edge
@@ -99,8 +99,8 @@ class CertificateWriter {
 /// What foretouch-verify reads, and what was found.
 struct EdgeCertificate {
   std::string scene, avatar, edges, proof;  ///< Texts of its four files.
-  std::vector<EdgeAnswer> answers;          ///< Of each edge.
-  std::vector<bool> isProven;  ///< Of each edge. Not of a clear one if it comes so near to
+  std::vector<EdgeAnswer> answers;          ///< One per edge.
+  std::vector<bool> isProven;  ///< One per edge. False also for a clear one that comes so near to
                                ///< something that no proof was found.
   CertificateCounts counts;    ///< `unproven` counts edges.
 };

@@ -201,7 +201,7 @@ class AsfReader {
     if (const auto problem = nameProblem(bone.name)) {
       return bvhError(ErrorCode::Syntax, bone.line, "the name of a bone " + *problem);
     }
-    // Of a direction only the direction counts.
+    // A direction's own length does not count.
     const double norm = direction.norm();
     bone.direction = norm > 0.0 ? Vector3d(direction * (length / norm)) : Vector3d::Zero();
     const bool isNew =

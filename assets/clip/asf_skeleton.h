@@ -45,7 +45,7 @@ struct AsfSkeleton {
   std::vector<JointId> parents;
   std::map<std::string, std::size_t, std::less<>> placeOf;  ///< By name.
   Eigen::Vector3d rootPosition = Eigen::Vector3d::Zero();   ///< In the file's unit.
-  double length = 1.0;                                      ///< Of `:units`.
+  double length = 1.0;                                      ///< The length of `:units`.
   std::vector<std::string> notes;
 };
 

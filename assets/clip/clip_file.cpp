@@ -20,7 +20,7 @@
 namespace foretouch {
 namespace {
 
-/// In lower case, with its dot.
+/// The extension in lower case, with its dot.
 std::string endingOf(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -28,7 +28,7 @@ std::string endingOf(const std::string& path) {
   return extension;
 }
 
-/// Of MVNX, which has a key for every frame: its own, so that each pose is one of the file's.
+/// For MVNX, which has a key for every frame: its own rate, so that each pose is one of the file's.
 std::optional<double> recordedRateOf(const std::string& path, const Model& model) {
   if (endingOf(path) != ".mvnx" || model.animations.empty()) return std::nullopt;
   const auto& keys = model.animations.front().tracks.front().positions;
@@ -39,7 +39,7 @@ std::optional<double> recordedRateOf(const std::string& path, const Model& model
   return 1.0 / shortest;
 }
 
-/// The frames between keys of such a file that are no neighbours.
+/// The frames between keys of such a file that are not neighbours.
 std::vector<ClipGap> gapsBetweenKeys(const Model& model, double rateHz) {
   std::vector<ClipGap> gaps;
   std::int64_t last = -1;
@@ -82,7 +82,7 @@ Result<ClipFile> readModel(const std::string& path, const ClipFileOptions& optio
   const double rateHz = recordedHz.value_or(options.rateHz);
   FORETOUCH_TRY(auto clip, inFile(clipFromModel(model, {options.animation, rateHz}), path));
   if (recordedHz) clip.gaps = gapsBetweenKeys(model, rateHz);
-  // Of other models who makes an avatar of them tells the notes.
+  // For other models, the code that makes an avatar of them reports the notes.
   if (endingOf(path) == ".mvnx") {
     clip.notes.insert(clip.notes.begin(), model.notes.begin(), model.notes.end());
   }

@@ -17,7 +17,7 @@ namespace foretouch {
 
 inline constexpr std::size_t kMaxJointTableBytes = std::size_t{256} << 20;
 
-/// Model: MVNX as well, whose segments are its nodes. WebXr: a session as iwer records it (.json).
+/// Model: also MVNX, whose segments are its nodes. WebXr: a session as iwer records it (.json).
 enum class ClipFormat : std::uint8_t { Bvh, Model, JointTable, Acclaim, WebXr };
 
 /// A table in numpy's format (.npz) counts as JointTable, but readClipFile() reads only CSV.
@@ -34,7 +34,7 @@ struct ClipFileOptions {
   std::string robot;                      ///< The URDF whose joints a table is about.
   std::string skeleton;                   ///< The ASF of an AMC; empty: the one beside it.
   std::vector<std::string> packagePaths;  ///< Folders of that URDF's packages.
-  JointTableOptions table;  ///< What a table does not say itself; of AMC and WebXR the rate alone.
+  JointTableOptions table;  ///< What a table does not say itself; for AMC and WebXR only the rate.
 };
 
 struct ClipFile {
@@ -42,7 +42,7 @@ struct ClipFile {
   /// True: already turned from Z-up. The reader of models turns their roots, so that a joint that
   /// the clip leaves at rest matches the avatar of the same model.
   bool isUpright = false;
-  FileFrame frame;  ///< Of BVH, which says nothing of itself: as asked.
+  FileFrame frame;  ///< For BVH, which does not declare it: as asked.
 };
 
 /// Errors name the file. What the format does not need is ignored, but for a table's robot.
@@ -52,7 +52,7 @@ struct ClipFile {
 /// The robot that options.robot names, read as that of a table. Errors name the file.
 [[nodiscard]] Result<Model> readRobotModel(const ClipFileOptions& options);
 
-/// Of options.robot: clipFromSampledJoints(). Errors name the file.
+/// clipFromSampledJoints() for options.robot. Errors name the file.
 [[nodiscard]] Result<Clip> sampleRobotFile(const ClipFileOptions& options, std::int32_t samples,
                                            std::uint64_t seed);
 

@@ -19,11 +19,11 @@ struct TimedRigidPose {
 };
 
 /// Columns `time` (s), `x`, `y`, `z` (m) and, all or none, `qw`, `qx`, `qy`, `qz`, in any order
-/// behind `time`; one row per pose, as far apart in time as one likes, later ones behind earlier
-/// ones. Errors name `name` as the file, and the line. Safe on hostile text.
+/// after `time`; one row per pose, as far apart in time as the author likes, later ones after
+/// earlier ones. Errors name `name` as the file, and the line. Safe on hostile text.
 [[nodiscard]] Result<std::vector<TimedRigidPose>> parseRigidPoses(std::string_view csv,
                                                                   const std::string& name);
-/// The same of a file of at most kMaxJointTableBytes.
+/// The same for a file of at most kMaxJointTableBytes.
 [[nodiscard]] Result<std::vector<TimedRigidPose>> readRigidPoses(const std::string& path);
 
 }  // namespace foretouch

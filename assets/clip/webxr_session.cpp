@@ -20,13 +20,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kPlaceNumbers = 7, kJointNumbers = 8;  // of a joint also its radius
+constexpr std::size_t kPlaceNumbers = 7, kJointNumbers = 8;  // a joint also has its radius
 constexpr double kMsPerS = 1000.0;
-/// Of a quaternion: four components, each rounded to a thousandth.
+/// How far a quaternion's norm may be off: four components, each rounded to a thousandth.
 constexpr double kMostNormError = 2e-3;
-/// Of the longest frame to the usual one, beyond which frames were left out.
+/// The ratio of a frame's time to the usual one beyond which frames were left out.
 constexpr double kNotedGap = 2.5;
-/// An instant as near to a frame, of the way to the next, is that frame's: times are rounded.
+/// An instant at most this share of the way from a frame is that frame's: times are rounded.
 constexpr double kAtFrame = 1e-6;
 
 Error wrong(const std::string& message, ErrorCode code = ErrorCode::Syntax,
@@ -77,7 +77,7 @@ std::string carrierOf(const std::string& joint) {
 struct Input {
   std::string name;
   bool hasGrip = false, hasHand = false;
-  std::vector<std::string> joints;  ///< Of a hand, in the file's order.
+  std::vector<std::string> joints;  ///< A hand's, in the file's order.
   std::size_t first = 0;            ///< Its first joint in the clip.
 };
 
@@ -295,7 +295,7 @@ class SessionReader {
     return local;
   }
 
-  /// Before an input is seen it is where it is first seen.
+  /// Before an input is seen, its place is where it is first seen.
   [[nodiscard]] const RigidPose& placeAt(std::size_t instant, std::size_t joint) const {
     return instant < seenFrom_[joint] ? firstSeen_[joint] : instants_[instant].places[joint];
   }
@@ -330,7 +330,7 @@ class SessionReader {
     return Done{};
   }
 
-  /// Of the next frame, at `t` between an instant and the one before it.
+  /// Adds the gaps of the next frame, at `t` between an instant and the one before it.
   void addGaps(std::size_t after, double t, std::vector<std::size_t>& lastGap, Clip& clip) const {
     const auto frame = static_cast<std::int64_t>(clip.frames.size());
     const Instant &from = instants_[after - 1], &to = instants_[after];

@@ -16,15 +16,15 @@
 
 namespace foretouch {
 
-/// Of text, which is in memory as a whole; its frames become poses one by one. Three quarters of an
-/// hour of two hands at 72 Hz.
+/// The most text, which is in memory as a whole; its frames become poses one by one. Enough for
+/// three quarters of an hour of two hands at 72 Hz.
 inline constexpr std::size_t kMaxSessionBytes = std::size_t{512} << 20;
 
-/// Metres, +Y up, as WebXR has them. Joints: "viewer"; of an input with a hand WebXR's 25 ("left
-/// index-finger-tip"), the wrist a root; of another one "left grip", or "left ray". Frames come
+/// Metres, +Y up, as WebXR has them. Joints: "viewer"; for an input with a hand WebXR's 25 ("left
+/// index-finger-tip"), the wrist a root; for another one "left grip", or "left ray". Frames come
 /// when the browser draws: the clip has as many at an even rate, or `rateHz`, on the straight way
-/// between the two around each instant. Where an input is absent it is held at its last place, with
-/// a note. Errors name `name`, and the frame.
+/// between the two around each instant. An absent input is held at its last place, with a note.
+/// Errors name `name`, and the frame.
 [[nodiscard]] Result<Clip> parseWebXrSession(std::string_view text, const std::string& name,
                                              std::optional<double> rateHz = {});
 

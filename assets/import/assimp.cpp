@@ -44,7 +44,7 @@ void addFace(const aiMesh& mesh, const aiFace& face, MeshTriangles& out) {
 }
 
 /// The formats that docs/formats.md names, but glTF, whose reader is our own. assimp has some fifty
-/// readers, and each is a way in for a file that somebody made to harm.
+/// readers, and each is a way in for a file that was made to do harm.
 constexpr std::array<std::string_view, 10> kAssimpFormats{".obj", ".stl", ".ply", ".dae", ".fbx",
                                                           ".3ds", ".off", ".x",   ".iqm", ".bvh"};
 

@@ -29,8 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<char, 8> kMagic{'F', 'T', 'S', 'C', 'E', 'N', 'E', '\n'};
-/// Of the arrays as they lie in memory: one more whenever a struct below changes, or what the tree
-/// means.
+/// The version of the arrays as they lie in memory: one more whenever a struct below changes, or
+/// what the tree means.
 constexpr std::uint32_t kLayout = 1;
 constexpr std::uint32_t kByteOrder = 0x01020304;
 constexpr std::uint64_t kAlignment = 64;
@@ -43,7 +43,7 @@ struct Header {
   std::array<char, 8> magic = kMagic;
   std::uint32_t byteOrder = kByteOrder, layout = kLayout;
   std::uint64_t check = 0;  ///< XXH3 of all that follows.
-  std::uint64_t bytes = 0;  ///< Of the file.
+  std::uint64_t bytes = 0;  ///< The file's size.
   std::uint64_t triangles = 0, nodes = 0, leaves = 0, objects = 0, notes = 0, textBytes = 0;
   double origin[3] = {}, vertexRounding = 0.0;
   std::uint64_t audit[4] = {};

@@ -9,7 +9,7 @@
 
 namespace foretouch::internal {
 
-/// By its first bytes.
+/// Is the file a baked scene, by its first bytes?
 [[nodiscard]] bool isBaked(const std::string& path);
 
 /// Ready to be asked. Errors: damaged, of another layout, read with other options, or baked from a

@@ -51,8 +51,8 @@ int askedVersion() {
   return version > 0 ? static_cast<int>(version) : 0;
 }
 
-/// A service may run under a filter of its own that kills whoever calls what its author did not
-/// know (systemd's SystemCallFilter=): there, a child asks.
+/// A service may run under a filter of its own that kills the process for a call that the filter's
+/// author did not know (systemd's SystemCallFilter=): there, a child asks.
 int versionOfLandlock() {
   if (prctl(PR_GET_SECCOMP) != SECCOMP_MODE_FILTER) return askedVersion();
   const pid_t child = fork();
@@ -75,7 +75,7 @@ constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
 #elif defined(__riscv) && __riscv_xlen == 64
 constexpr std::uint32_t kArchitecture = AUDIT_ARCH_RISCV64;
 #else
-constexpr std::uint32_t kArchitecture = 0;  // then there is no filter, and the caller is told
+constexpr std::uint32_t kArchitecture = 0;  // then there is no filter: see weaknessOf()
 #endif
 
 /// Filters are known where one at address 0 is a bad address, not a bad request.
@@ -362,7 +362,7 @@ void closeCageBehindUs() {
   out.allowWithout(SYS_mmap, 2, PROT_EXEC);
   out.allowWithout(SYS_mprotect, 2, PROT_EXEC);
   out.allowTheRest();
-  // What the parent set stands without it, so that a failure is none of the import.
+  // What the parent set stands without it, so that a failure here does not fail the import.
   static_cast<void>(install(filter.data(), filter.size()));
 }
 

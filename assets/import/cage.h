@@ -27,9 +27,9 @@ class Cage {
  public:
   /// No cage: enter() does nothing.
   Cage() = default;
-  /// Of a process that runs `program` and may read what lies in `readable` (folders, with all that
-  /// is below them, and files). It may load libraries from where the system and `libraryPath`
-  /// (LD_LIBRARY_PATH) have them.
+  /// The cage of a process that runs `program` and may read what lies in `readable` (folders, with
+  /// all that is below them, and files). The process may load libraries from where the system and
+  /// `libraryPath` (LD_LIBRARY_PATH) have them.
   Cage(const std::string& program, const std::vector<std::string>& readable,
        const std::string& libraryPath);
 
@@ -52,7 +52,7 @@ class Cage {
 };
 
 /// For the importer itself, once its libraries are loaded: from now on it runs no other program and
-/// gets no new code. Does nothing in a process that is in no cage: a developer's, by hand.
+/// gets no new code. Does nothing in a process without a cage: one that a developer runs by hand.
 void closeCageBehindUs();
 
 }  // namespace foretouch::internal

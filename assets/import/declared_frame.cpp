@@ -7,7 +7,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// 0.01 of the float nearest to it: what the file's text was.
+/// What the file's text was: for the float nearest to 0.01, it returns 0.01.
 double asWritten(float number) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.begin(), text.end(), number).ptr;

@@ -12,7 +12,7 @@ namespace foretouch::internal {
 
 struct ReadFrame {
   double metresPerUnit = 1.0;  ///< To multiply the scene's numbers by.
-  FileFrame frame;             ///< Of the numbers so multiplied.
+  FileFrame frame;             ///< The frame of the numbers so multiplied.
 };
 
 /// `extensions`: those of the reader that took the file, as assimp lists them.

@@ -16,7 +16,7 @@ constexpr std::string_view kTag = "_$AssimpFbx$_";
 /// What a track of the node itself has to know of the chain that was folded.
 struct Chain {
   Eigen::Matrix3d unpost = Eigen::Matrix3d::Identity();  ///< The inverse post-rotation.
-  Eigen::Vector3d scaleSigns = Eigen::Vector3d::Ones();  ///< Of the node's scale at rest.
+  Eigen::Vector3d scaleSigns = Eigen::Vector3d::Ones();  ///< Those of the scale at rest.
   bool hasPost = false;
 };
 
@@ -58,7 +58,7 @@ void correctPost(const Chain& chain, ModelTrack& track) {
   for (auto& key : track.rotations) key.value = key.value * after;
 }
 
-/// Is a component 0 in all keys, but not at rest? Of rotations, those of the axis.
+/// Is a component 0 in all keys, but not at rest? For rotations, a component of the axis.
 template <typename Keys, typename Vector>
 bool lacksComponent(const Keys& keys, const Vector& valueOf, const Eigen::Vector3d& rest) {
   constexpr double kSome = 1e-4;  // above what a turn about another axis leaves in single precision

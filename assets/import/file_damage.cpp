@@ -12,7 +12,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of the formats that assimp reads, those that are XML.
+/// Is it one of the XML formats among those that assimp reads?
 bool isXml(const std::string& extension) {
   constexpr std::array<std::string_view, 6> kExtensions{".dae", ".x3d",     ".amf",
                                                         ".irr", ".irrmesh", ".xml"};

@@ -9,7 +9,7 @@
 namespace foretouch::internal {
 
 /// The damage and its place; nothing if there is none, or if the format is not one of those in
-/// XML. Call it for refused files only: damage that a reader tolerates is no reason to
+/// XML. Call it for refused files only: damage that a reader tolerates is not a reason to
 /// refuse a file.
 [[nodiscard]] std::optional<std::string> damageOf(const std::string& path);
 

@@ -138,7 +138,7 @@ std::string_view GltfData::bytesOfBuffer(std::size_t buffer) {
   return held.substr(0, length);
 }
 
-/// Of a view, or of the compressed data of one: both name a buffer, an offset and a length.
+/// The bytes of a view, or of its compressed data: both name a buffer, an offset and a length.
 std::string_view GltfData::checkedBytes(const json& of, const std::string& place) {
   const auto buffer = of["buffer"].get<std::size_t>();
   const std::string_view held = bytesOfBuffer(buffer);

@@ -1,5 +1,5 @@
 // assets/import/gltf_data.h: the numbers of a glTF file: buffers, views of them, and accessors,
-// each checked where it is used, so that what nobody reads may be as it likes. In foretouch-import
+// each checked where it is used, so that what is not read may be anything. In foretouch-import
 // only. Not installed.
 #pragma once
 
@@ -34,14 +34,14 @@ class GltfData {
 
   [[nodiscard]] const nlohmann::json& document() const { return file_.document; }
 
-  /// Of an accessor of a known type ("VEC3"), as `user`, the place that names it, needs it. An
-  /// accessor without a view is zeros.
+  /// The numbers of an accessor of a known type ("VEC3"), as `user`, the place that names it, needs
+  /// them. An accessor without a view is zeros.
   [[nodiscard]] GltfNumbers numbers(std::size_t accessor, std::string_view type,
                                     const std::string& user);
-  /// The layout alone, of one whose numbers are elsewhere (Draco).
+  /// Only the layout, for an accessor whose numbers are elsewhere (Draco).
   [[nodiscard]] ElementLayout layoutOf(std::size_t accessor, std::string_view type,
                                        const std::string& user) const;
-  /// Decompressed (EXT_meshopt_compression). Valid as long as this is.
+  /// The view's bytes, decompressed (EXT_meshopt_compression). Valid as long as this is.
   [[nodiscard]] std::string_view bytesOfView(std::size_t view);
 
  private:

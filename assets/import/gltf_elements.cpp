@@ -19,7 +19,7 @@ enum ComponentType : std::uint64_t {
   kFloat
 };
 
-/// Anywhere: files do not always align what the format tells them to.
+/// Reads at any address: files do not always align what the format requires them to.
 template <typename T>
 double numberAt(const char* at) {
   T number;

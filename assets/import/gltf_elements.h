@@ -11,13 +11,13 @@
 
 namespace foretouch::internal {
 
-/// Of an accessor's "componentType"; 0 if it does not exist.
+/// The size of an accessor's "componentType"; 0 if there is no such type.
 [[nodiscard]] std::uint64_t componentBytes(const nlohmann::json& componentType);
 
 struct ElementShape {
   std::uint64_t rows = 0, columns = 0;
 };
-/// Of an accessor's "type"; 0 if it does not exist.
+/// The shape of an accessor's "type"; zeros if there is no such type.
 [[nodiscard]] ElementShape elementShape(const nlohmann::json& type);
 
 /// How elements are stored.
@@ -34,7 +34,7 @@ struct ElementLayout {
   }
   [[nodiscard]] std::uint64_t elementBytes() const { return columnBytes() * shape.columns; }
   [[nodiscard]] std::uint64_t step() const { return stride == 0 ? elementBytes() : stride; }
-  /// Of one element, column by column.
+  /// How many numbers one element has; they come column by column.
   [[nodiscard]] std::size_t width() const { return shape.rows * shape.columns; }
 };
 

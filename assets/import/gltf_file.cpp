@@ -36,7 +36,7 @@ std::string expected(const std::string& what, const std::string& found) {
 
 /// A chunk, from its header.
 struct Chunk {
-  std::uint64_t offset = 0;  ///< Of the header.
+  std::uint64_t offset = 0;  ///< Where the header is.
   std::uint32_t length = 0, type = 0;
   [[nodiscard]] std::uint64_t begin() const { return offset + kChunkHeaderBytes; }
   [[nodiscard]] std::uint64_t end() const { return begin() + length; }
@@ -204,7 +204,7 @@ GltfFile openGltf(const std::string& path) {
   file.path = path;
   file.bytes = bytesIn(path);
   Faults faults;
-  // Tools save a GLB under the other name now and then; the first bytes tell.
+  // Tools save a GLB under the other name now and then; the first bytes decide.
   const std::string extension = lowerExtensionOf(path);
   const bool isNamedBinary = extension == ".glb" || extension == ".vrm";
   file.isBinary = isNamedBinary || file.bytes.rfind("glTF", 0) == 0;

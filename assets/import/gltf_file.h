@@ -17,14 +17,14 @@ struct GltfFile {
   nlohmann::json document;  ///< Meets checkRules().
   bool isBinary = false;    ///< A GLB.
   std::size_t chunkBegin = 0;
-  std::optional<std::size_t> chunkBytes;  ///< Of a GLB's second chunk.
+  std::optional<std::size_t> chunkBytes;  ///< The size of a GLB's second chunk.
 
   [[nodiscard]] std::string_view chunk() const {
     return std::string_view(bytes).substr(chunkBegin, chunkBytes.value_or(0));
   }
 };
 
-/// By the file's extension.
+/// Is it a glTF file, by its extension?
 [[nodiscard]] bool isGltf(const std::string& path);
 
 /// Throws Failure, which names each fault with its place: a byte, a line or a path of keys.

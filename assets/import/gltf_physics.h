@@ -18,22 +18,22 @@ struct NodeCollider {
   std::size_t node = 0;  ///< In the file.
   std::string place;     ///< In the JSON.
   Lss lss;               ///< In the node's frame, as glTF has it: right-handed.
-  /// The node is there for it alone: nothing else is in it or below it, and no animation moves it.
-  /// So it is its parent's.
+  /// The node is there only for the collider: nothing else is in it or below it, and no animation
+  /// moves it. So the collider is its parent's.
   bool isAlone = false;
 };
 
-/// The same. Throws Failure: a negative radius, or numbers beyond kMaxCoordinate.
+/// The same collider. Throws Failure: a negative radius, or numbers beyond kMaxCoordinate.
 [[nodiscard]] NodeCollider checkedCollider(NodeCollider collider);
 
 struct GltfColliders {
   std::vector<NodeCollider> colliders;
-  std::vector<std::string> notes;  ///< What is no LSS, one sentence each.
+  std::vector<std::string> notes;  ///< What is not an LSS, one sentence each.
 };
 
-/// Of a document that checkRules() has passed. A capsule of two radii becomes the LSS with the
-/// larger one, which holds it. Throws Failure as checkedCollider() does, and for a shape that is
-/// not there.
+/// The colliders of a document that checkRules() has passed. A capsule of two radii becomes the LSS
+/// with the larger one, which holds it. Throws Failure as checkedCollider() does, and for a shape
+/// that is not there.
 [[nodiscard]] GltfColliders gltfColliders(const nlohmann::json& document);
 
 }  // namespace foretouch::internal

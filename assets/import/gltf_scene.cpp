@@ -21,8 +21,8 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::json;
 
-/// Read, and those that say how surfaces look or what they are called, which nobody asks here. What
-/// VRM adds of motion that is not followed gets notes of its own (assets/import/gltf_vrm.h).
+/// Those that are read, and those that say how surfaces look or are called, which are unused here.
+/// What VRM adds of motion that is not followed gets its own notes (assets/import/gltf_vrm.h).
 constexpr std::array<std::string_view, 20> kUnderstood{"KHR_mesh_quantization",
                                                        kMeshoptCompression,
                                                        kDracoCompression,

@@ -54,10 +54,10 @@ class GltfScene {
   /// Refuses a file that requires what is not understood, by name.
   explicit GltfScene(const std::string& path);
 
-  /// Of the file's default scene, parents before children, children in order. Several roots stand
-  /// below one that is not in the file, "ROOT". `limit` is of their number.
+  /// The nodes of the file's default scene, parents before children, children in order. Several
+  /// roots stand below one that is not in the file, "ROOT". `limit` is for their number.
   [[nodiscard]] std::vector<GltfNode> nodes(std::size_t limit);
-  /// Those of the node's mesh; none if it has none. Valid as long as this is.
+  /// The primitives of the node's mesh; none if it has no mesh. Valid as long as this is.
   [[nodiscard]] const std::vector<GltfPrimitive>& primitivesOf(const GltfNode& node);
   /// Where copies of the node's mesh stand, in the node's frame: one, unless it says otherwise
   /// (EXT_mesh_gpu_instancing).
@@ -68,7 +68,7 @@ class GltfScene {
   /// Primitives of all meshes.
   [[nodiscard]] std::size_t numPrimitives() const;
 
-  /// What the file has and is not read, one sentence each, as far as known by now.
+  /// What the file has that is not read, one sentence each, as far as known by now.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   void note(const std::string& text);
 

@@ -21,7 +21,7 @@ struct Vrm {
   std::vector<std::string> notes;  ///< What is not followed or not held, one sentence each.
 };
 
-/// Of a document that checkRules() has passed; empty where it is no such avatar. Throws Failure:
+/// The avatar in a document that checkRules() has passed; empty if it is not one. Throws Failure:
 /// two bones at one node, one bone twice, a collider without a shape, a negative radius, numbers
 /// beyond kMaxCoordinate.
 [[nodiscard]] Vrm vrmIn(const nlohmann::json& document);

@@ -1,5 +1,5 @@
-// assets/import/imported_scene.h: the options and the result of importing a scene, and where the
-// program is looked for that does it.
+// assets/import/imported_scene.h: the options and the result of importing a scene, and the places
+// where the program that does it is looked for.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace foretouch::internal {
 
 /// Where the copy of Foretouch that a program was built against keeps foretouch-import. A static
 /// library does not know: its prefix may have been moved, and the program that it is part of lies
-/// elsewhere. foretouchConfig.cmake does, and says it to everybody who links foretouch::assets, as
+/// elsewhere. foretouchConfig.cmake does, and hands it to all that links foretouch::assets, as
 /// FORETOUCH_PACKAGED_IMPORTER.
 /// Adds a place to those where the importer is looked for. `path` must live as long as the program.
 bool notePackagedImporter(const char* path);
@@ -31,7 +31,7 @@ namespace foretouch {
 struct SceneImportOptions {
   /// Metres per unit of the file, in place of what the file says. Finite, > 0.
   std::optional<double> scale;
-  std::optional<UpAxis> up;  ///< Of the file, in place of what it says.
+  std::optional<UpAxis> up;  ///< The file's, in place of what it says.
   /// Address space of the child. At most half of the machine's memory is used, or of what a control
   /// group (a container) allows this process; and for a small file no more than 1 GB: 990 MB, and
   /// 256 bytes for each byte that is read.

@@ -28,7 +28,7 @@ void endOnError(const char* text) {
   _exit(1);
 }
 
-/// Of dynamics, which play no part here; unset, libmujoco would write them to a file.
+/// Warnings of dynamics, which play no part here; without this, libmujoco writes them to a file.
 void ignoreWarning(const char* /*text*/) {}
 
 Vector3d vectorAt(const mjtNum* numbers, int index) {
@@ -138,7 +138,7 @@ class MjcfTreeBuilder {
     surface_.add(body, node);
   }
 
-  /// A root of its own. Of a robot by coordinates it must be the only one: it stands where the file
+  /// A root of its own. In a robot by coordinates it must be the only one: it stands where the file
   /// has it.
   std::int32_t addFree(int body, const Affine& toParent) {
     if (question_.isRobot) {
@@ -261,8 +261,8 @@ class MjcfTreeBuilder {
   ModelBuilder& builder_;
   MjcfSurface surface_;
   std::vector<JointRule> rules_;           // per joint
-  std::vector<std::int32_t> nodeOfJoint_;  // -1 of a free one
-  std::vector<std::int32_t> nodeOfBody_;   // -1 of the world, where it is no link
+  std::vector<std::int32_t> nodeOfJoint_;  // -1: a free one
+  std::vector<std::int32_t> nodeOfBody_;   // -1: the world, where it is not a link
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ struct DeleteMjModel {
 };
 using MjModelPointer = std::unique_ptr<mjModel, DeleteMjModel>;
 
-/// Throws Failure (assets/import/assimp.h) with the place for what libmujoco refuses. Never null.
+/// Throws Failure (assets/import/failure.h) with the place for what libmujoco refuses. Never null.
 [[nodiscard]] MjModelPointer compileMjcf(const MjcfText& text);
 
 /// The name at an address in mjModel::names; "" for a part without one.

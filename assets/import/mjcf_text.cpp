@@ -36,8 +36,8 @@ constexpr std::array<std::string_view, 13> kDefaultsWithoutShape{
     "position", "velocity", "intvelocity", "cylinder", "muscle", "adhesion"};
 constexpr std::array<std::string_view, 3> kMarksOfBodies{"site", "camera", "light"};
 constexpr std::array<std::string_view, 4> kClosedLoops{"connect", "weld", "flex", "tendon"};
-/// Of dynamics or looks, some of them younger than libmujoco 2.2, which refuses what it does not
-/// know.
+/// Attributes of dynamics or looks, some of them younger than libmujoco 2.2, which refuses what it
+/// does not know.
 constexpr std::array<std::string_view, 6> kAttributesWithoutShape{
     "user", "material", "gravcomp", "actuatorfrcrange", "actuatorfrclimited", "actuatorgravcomp"};
 /// Where files are, and what libmujoco would do to the model: we say it ourselves.
@@ -232,7 +232,7 @@ class Reducer {
   std::vector<std::string> worldGeoms_;
 };
 
-/// One element a line, so that a line of libmujoco's reports is an element's.
+/// One element per line, so that a line of libmujoco's reports is an element's.
 class Printer {
  public:
   Printer(const MjcfTree& tree, MjcfText& out) : tree_(tree), out_(out) {}
@@ -317,7 +317,7 @@ bool isMjcf(const std::string& path) {
   constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
   const auto text = readWholeFile(path, kMaxBytes);
   if (!text.ok()) return false;
-  // The first tag that is no comment, declaration or instruction.
+  // The first tag that is not a comment, declaration or instruction.
   std::string_view rest = text.value();
   for (std::size_t at = rest.find('<'); at != std::string_view::npos; at = rest.find('<')) {
     rest.remove_prefix(at);

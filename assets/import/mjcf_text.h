@@ -11,7 +11,7 @@
 namespace foretouch::internal {
 
 struct MjcfText {
-  /// Element by element, one a line; files of meshes have absolute paths.
+  /// Element by element, one per line; files of meshes have absolute paths.
   std::string xml;
   struct Place {
     std::size_t file = 0;
@@ -31,7 +31,7 @@ struct MjcfText {
 /// Puts what is included in its place. Keeps bodies with their joints and geoms, meshes, defaults,
 /// contacts and equalities of joints; drops what has no part in shape and joints (actuators,
 /// sensors, materials, ...), and what lies in the world itself, with a note. Throws Failure
-/// (assets/import/assimp.h) for what is no MJCF, for plugins, composites and height fields on
+/// (assets/import/failure.h) for what is not MJCF, for plugins, composites and height fields on
 /// bodies, for files that are missing or must not be read, and beyond the limits of a robot.
 [[nodiscard]] MjcfText readMjcfText(const ModelQuestion& question);
 

@@ -29,12 +29,12 @@ struct MjcfTree {
   std::vector<std::string> files;  ///< The model, then what it includes, as it names them.
 };
 
-/// "line 7: ", or of what the model includes "'arm.xml' line 7: ".
+/// "line 7: ", or for what the model includes "'arm.xml' line 7: ".
 [[nodiscard]] std::string placeIn(const std::vector<std::string>& files, std::size_t file,
                                   int line);
 
-/// Throws Failure (assets/import/assimp.h) with the place for what is not well-formed, no <mujoco>,
-/// nested too deeply, included twice, missing, or not among the files that may be read.
+/// Throws Failure (assets/import/failure.h) with the place for what is not well-formed, has no
+/// <mujoco>, is nested too deeply, included twice, missing, or not among those that may be read.
 [[nodiscard]] MjcfTree readMjcfTree(const ModelQuestion& question);
 
 /// The file `reference` of an element, in `folder` unless its path is absolute: its place. Throws

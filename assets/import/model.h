@@ -17,7 +17,7 @@ namespace foretouch::internal {
 /// The parent's request.
 struct ModelQuestion {
   std::string path;
-  bool visual = false;       ///< Of a robot: its visual description rather than its collision one.
+  bool visual = false;       ///< For a robot: its visual description, not its collision one.
   bool needsMeshes = false;  ///< ModelImportOptions::needsMeshes.
   bool isRobot = false;      ///< Refuse what ModelImportOptions::isRobot says.
   std::vector<std::string> packagePaths;
@@ -28,7 +28,7 @@ class ModelBuilder {
  public:
   /// Throws Failure (assets/import/failure.h) if the limits do not allow `more`.
   void count(const ModelSize& more);
-  /// Counts them as well. Throw Failure.
+  /// Add and count them. Throw Failure.
   void addLss(std::int32_t node, const Lss& lss);
   void addMesh(std::int32_t node, const std::string& name, std::vector<Eigen::Vector3d> vertices,
                const std::vector<std::array<std::int32_t, 3>>& triangles);
@@ -48,7 +48,7 @@ class ModelBuilder {
 [[nodiscard]] Model readGltf(const ModelQuestion& question);
 [[nodiscard]] Model readUrdf(const ModelQuestion& question);
 [[nodiscard]] Model readMvnx(const ModelQuestion& question);
-/// Where the program is built with libmujoco.
+/// Only where the program is built with libmujoco.
 [[nodiscard]] Model readMjcf(const ModelQuestion& question);
 
 }  // namespace foretouch::internal

@@ -24,13 +24,13 @@
 namespace foretouch::internal {
 namespace {
 
-/// assimp's own stream, of a file that is open already.
+/// assimp's own stream, for a file that is open already.
 class OpenedFile : public Assimp::DefaultIOStream {
  public:
   OpenedFile(std::FILE* file, const std::string& path) : DefaultIOStream(file, path) {}
 };
 
-/// Null if it is no regular file, whatever it was a moment ago.
+/// Null if it is not a regular file, whatever it was a moment ago.
 Assimp::IOStream* openedRegularFile(const std::string& path) {
   const int fd = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return nullptr;
@@ -57,8 +57,8 @@ bool isSameInLowerCase(std::string_view text, std::string_view word) {
          });
 }
 
-/// An STL in text whose keywords are in capitals, as some programs write it: assimp knows them in
-/// lower case alone. The name of the solid stays as it is. Nothing of any other file.
+/// An STL in text whose keywords are in capitals, as some programs write it: assimp knows them only
+/// in lower case. The name of the solid stays as it is. Nothing for any other file.
 std::optional<std::string> withKeywordsOfStlInLowerCase(const std::string& path) {
   constexpr std::string_view kSolid = "solid", kEndSolid = "endsolid";
   if (lowerExtensionOf(path) != ".stl") return std::nullopt;

@@ -15,7 +15,7 @@
 
 namespace foretouch {
 
-/// Which of a robot's two descriptions of a link becomes its surface: of MJCF, the geoms that
+/// Which of a robot's two descriptions of a link becomes its surface: in MJCF, the geoms that
 /// collide, or those that are only seen.
 enum class UrdfSurface : std::uint8_t { Collision, Visual };
 
@@ -24,11 +24,11 @@ struct ModelImportOptions {
   UrdfSurface urdfSurface = UrdfSurface::Collision;
   /// A robot: refuses by name what an avatar can do without, with a note, and a robot that moves
   /// by joint coordinates cannot: missing or unreadable meshes, limits the wrong way round, equal
-  /// or absent, a floating joint, a mimic of a joint that is not there. Of MJCF: docs/robots.md.
+  /// or absent, a floating joint, a mimic of a joint that is not there. For MJCF: docs/robots.md.
   bool isRobot = false;
   bool needsMeshes = false;  ///< A URDF: refuses missing and unreadable meshes, as isRobot does.
   /// Folders to search for package://NAME/..., as FOLDER/NAME/... and FOLDER/...; after them the
-  /// URDF's own folder and its parents. Of MJCF: folders that its files may lie in, besides its
+  /// URDF's own folder and its parents. For MJCF: folders that its files may lie in, besides its
   /// own.
   std::vector<std::string> packagePaths;
 };

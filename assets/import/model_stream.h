@@ -1,10 +1,10 @@
 // assets/import/model_stream.h: the stream in which foretouch-import sends a model to its parent.
 // Not installed.
 //
-// In the frames of assets/import/stream.h: nodes, parents first; then whose joints follow
-// others'; then each mesh, its vertices, its
-// triangles and its bones, each bone with its weights; then each animation, its tracks, each with
-// its keys; then notes. Every container states the number of its parts first; the trailer counts
+// In the frames of assets/import/stream.h: nodes, parents first; then the nodes whose joints
+// follow others'; then each mesh, its vertices, its triangles and its bones, each bone with its
+// weights; then each animation, its tracks, each with its keys; then notes. Every container states
+// the number of its parts first; the trailer counts
 // the frames.
 #pragma once
 

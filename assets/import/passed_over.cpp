@@ -129,7 +129,7 @@ std::vector<std::string> passedOverInPly(std::string_view text) {
   return notes;
 }
 
-/// Of every word the number of times that the text has it.
+/// For every word, the number of times that the text has it.
 template <std::size_t N>
 std::vector<std::string> wordsIn(std::string_view text, const std::array<Word, N>& words) {
   std::vector<std::string> notes;
@@ -144,8 +144,8 @@ std::vector<std::string> wordsIn(std::string_view text, const std::array<Word, N
   return notes;
 }
 
-// "COLLADA - Digital Asset Schema Release 1.5.0": geometry that is no mesh, and interpolations that
-// are no straight lines.
+// "COLLADA - Digital Asset Schema Release 1.5.0": geometry that is not a mesh, and interpolations
+// that are not straight lines.
 constexpr char kNoMesh[] = "geometry that is no mesh is left out";
 constexpr char kStraight[] = "keys of curves are joined by straight lines";
 constexpr std::array<Word, 5> kOfCollada{{{"<spline", kNoMesh},
@@ -162,7 +162,7 @@ constexpr std::array<Word, 4> kOfColladaAnimations{{{"BEZIER", kStraight},
 constexpr std::array<Word, 3> kOfFbx{
     {{"NurbsSurface", kNoMesh}, {"NurbsCurve", kNoMesh}, {"PatchDimensions", kNoMesh}}};
 
-/// Little-endian, of an array of numbers in a binary file.
+/// A little-endian number of an array in a binary file.
 std::uint32_t wordAt(std::string_view bytes, std::size_t at) {
   std::uint32_t word = 0;
   for (std::size_t i = 4; i > 0 && at + i <= bytes.size(); --i) {

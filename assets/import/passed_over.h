@@ -1,5 +1,5 @@
 // assets/import/passed_over.h: what a file has and assimp's readers pass over without a word, or
-// read wrongly: surfaces that are no polygons, curves between keys. In foretouch-import only. Not
+// read wrongly: surfaces that are not polygons, curves between keys. In foretouch-import only. Not
 // installed.
 #pragma once
 

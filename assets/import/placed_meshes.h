@@ -25,7 +25,7 @@ struct PlacedMeshes {
   };
   struct Placement {
     std::size_t mesh;
-    std::string name;  ///< Of the node, else of the mesh.
+    std::string name;  ///< The node's, else the mesh's.
     Affine toFile;     ///< Into the file's own frame, in metres.
   };
 
@@ -43,7 +43,7 @@ struct PlacedMeshes {
   std::size_t nameBytes_ = 0;  // as the parent will count them
 };
 
-/// The reader that the file's extension asks for. Throws Failure.
+/// By the reader that the file's extension asks for. Throws Failure.
 [[nodiscard]] PlacedMeshes placedMeshesOf(const std::string& path);
 /// The two readers.
 [[nodiscard]] PlacedMeshes placedMeshesByAssimp(const std::string& path);

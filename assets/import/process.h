@@ -18,7 +18,7 @@ namespace foretouch::internal {
 /// address space nor the size of files nor the number of processes is limited.
 struct ProcessLimits {
   std::size_t addressSpaceBytes = 0;
-  double seconds = 0.0;  ///< Of wall time, and (rounded up) of CPU time.
+  double seconds = 0.0;  ///< The most wall time, and (rounded up) CPU time.
   Cage cage = {};        ///< None by default.
 };
 

@@ -36,7 +36,7 @@ std::string shortest(double number) {
   return text.data();
 }
 
-/// Half of what there is remains for everybody else, whatever the caller allows.
+/// Half of what there is remains for other processes, whatever the caller allows.
 std::size_t memoryFor(const SceneImportOptions& options) {
   const auto usable = usableMemory();
   if (!usable) return options.memoryLimitBytes;
@@ -155,7 +155,7 @@ Error reportedFailure(const std::string& path, const SceneImportOptions& options
     case ImportFailure::TooLarge:
       return importError(path, ErrorCode::LimitExceeded, "the model is too large: " + text);
     case ImportFailure::OutOfMemory:
-      // It says which limit: its own grows with the bytes that it has read.
+      // The importer says which limit: its own grows with the bytes that it has read.
       return importError(
           path, ErrorCode::ImportCrashed,
           "the importer ran out of its memory limit of " +

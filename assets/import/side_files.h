@@ -8,10 +8,10 @@
 
 namespace foretouch::internal {
 
-/// Folders with all that is below them. Of a URDF file, its own folder and the folders of packages
+/// Folders with all that is below them. For a URDF file, its own folder and the folders of packages
 /// that the caller names; besides, its package (the nearest folder above it with a package.xml)
 /// and what lies beside the package; without a package, the folder above its own, never the root.
-/// Of a MuJoCo model (.xml, .mjcf), its own folder and those that the caller names. Of any other
+/// For a MuJoCo model (.xml, .mjcf), its own folder and those that the caller names. For any other
 /// model, its own folder.
 [[nodiscard]] std::vector<std::string> foldersBeside(const std::string& model,
                                                      const std::vector<std::string>& packagePaths);

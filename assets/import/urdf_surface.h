@@ -50,7 +50,7 @@ class UrdfSurface {
   /// Null, with a note, if the file is missing or unreadable; throws if the question says so.
   const FlatMesh* meshOf(const std::string& reference, const std::string& link);
   [[nodiscard]] std::string find(const std::string& reference) const;
-  /// A note; of a robot, a refusal.
+  /// Adds a note; for a robot, refuses the file.
   void lose(const std::string& what);
 
   const ModelQuestion& question_;

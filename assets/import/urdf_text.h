@@ -25,7 +25,7 @@ struct UrdfText {
 /// Keeps links with their shapes and joints with their frames, axes, limits and mimics. Drops the
 /// rest (masses, materials, transmissions), which could only cause further refusals. Adds limits to
 /// joints, and effort and velocity to limits, because urdfdom requires them. Throws Failure
-/// (assets/import/assimp.h) if `text` is not XML with a <robot>.
+/// (assets/import/failure.h) if `text` is not XML with a <robot>.
 [[nodiscard]] UrdfText readUrdfText(const std::string& text);
 
 }  // namespace foretouch::internal

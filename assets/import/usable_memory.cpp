@@ -27,7 +27,7 @@ std::optional<std::size_t> limitIn(const std::string& file) {
   return isNumber ? std::optional(bytes) : std::nullopt;
 }
 
-/// Of `group`, a path that begins with '/', and of all groups around it.
+/// The least limit of `group`, a path that begins with '/', and of all groups around it.
 std::optional<std::size_t> limitUpwards(const std::string& mount, std::string group,
                                         const char* name) {
   std::optional<std::size_t> least;

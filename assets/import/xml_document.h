@@ -7,7 +7,7 @@
 
 namespace foretouch::internal {
 
-/// Throws Failure (assets/import/assimp.h) with the line if `text` is not well-formed.
+/// Throws Failure (assets/import/failure.h) with the line if `text` is not well-formed.
 void parseXml(const std::string& text, TiXmlDocument& document);
 
 /// "" if the element has no such attribute.

@@ -44,7 +44,7 @@ std::vector<double> reachesOf(const Model& model, const std::vector<Affine>& wor
   return reach;
 }
 
-/// Of a track, the part of its frames that turns.
+/// The part of a track's frame that turns.
 Quaternion turnOf(const Affine& frame) {
   return Quaternion(nearestRotation(frame.linear));
 }

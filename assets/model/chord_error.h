@@ -13,7 +13,7 @@ namespace foretouch::internal {
 /// How far (m) a point of the model may be from where its splines have it, halfway and at the
 /// quarters between poses that are taken `rateHz` times per second: the sum, over the joints that
 /// move it, of how far each leaves its chord. From above, as chords may err in different
-/// directions; of the tracks that are splines alone. 0: none is. It falls with the square of the
+/// directions; counts only tracks that are splines. 0: none is. It falls with the square of the
 /// rate.
 [[nodiscard]] double chordErrorOf(const Model& model, const std::vector<SampledTrack>& tracks,
                                   std::size_t frames, double rateHz);

@@ -11,7 +11,7 @@
 namespace foretouch {
 namespace {
 
-/// Of each coordinate, its column.
+/// The column of each coordinate.
 Result<std::vector<std::size_t>> columnsOf(const Robot& robot, const internal::JointTable& table) {
   std::vector<std::string> names;
   std::vector<std::size_t> columns;
@@ -41,7 +41,7 @@ Result<EdgeTable> edgesOf(const Robot& robot, std::string_view csv) {
   if (edges.count == 0) return Error::of(ErrorCode::Empty, "expected two rows of each edge");
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const auto refused = [&](Error error) {
-      error.file.clear();  // of a configuration it is "q"
+      error.file.clear();  // for a configuration it is "q"
       error.line = table.lines[row];
       return error;
     };

@@ -91,7 +91,7 @@ class TableRobot {
 
   std::vector<LinkId> linkOfNode_;
   std::vector<Column> columns_;
-  std::vector<std::int32_t> coordinates_;  // per column; -1: of a joint that does not move
+  std::vector<std::int32_t> coordinates_;  // per column; -1: its joint does not move
   std::vector<double> units_;              // per column: radians or metres per unit of it
   std::vector<bool> isNamed_;              // per link
   JointId base_ = 0;                       // moves with the table's roots

@@ -17,7 +17,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of the mean spacing: clocks that print milliseconds at 100 Hz stay below it.
+/// A share of the mean spacing: clocks that print milliseconds at 100 Hz stay below it.
 constexpr double kSpacingTolerance = 0.01;
 
 std::string_view trimmed(std::string_view text) {

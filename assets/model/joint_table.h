@@ -21,8 +21,8 @@ struct JointTable {
   std::vector<std::int64_t> lines;        ///< Per row, its line in the text.
   double frameTimeS = 0.0;                ///< The mean spacing of rows, if they have one.
   std::vector<RigidPose> roots;  ///< Per row; empty: the root stays where the robot has it.
-  double radiansPerUnit = 1.0;   ///< Of the angles in rows.
-  double metresPerUnit = 1.0;    ///< Of the lengths in rows.
+  double radiansPerUnit = 1.0;   ///< For the angles in rows.
+  double metresPerUnit = 1.0;    ///< For the lengths in rows.
 };
 
 /// Limit on rows x columns.

@@ -42,8 +42,8 @@ struct ModelNode {
       lss;  ///< Spheres and capsules that the file declares as such, in the node's frame.
   ModelJointType joint = ModelJointType::Free;
   std::string jointName;       ///< URDF and MJCF name joints apart from links; else empty.
-  bool isOnlooker = false;     ///< A camera or a light: what it does is no motion of a body.
-  std::int32_t fileNode = -1;  ///< Of glTF: its number in the file; -1: none has it.
+  bool isOnlooker = false;     ///< A camera or a light: what it does is not a body's motion.
+  std::int32_t fileNode = -1;  ///< For glTF: its number in the file; -1: it has none.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< The joint's, in the node's frame, unit.
   double lowerLimit = 0.0, upperLimit = 0.0;        ///< Radians or metres; equal: none stated.
 };
@@ -123,10 +123,10 @@ enum class QuaternionOrder : std::uint8_t { Xyzw, Wxyz };
 
 struct JointTableOptions {
   /// For a table without a header: its columns' names, in order; or only the name of a layout that
-  /// is known (tableLayouts()), which says units, rate and order as well. Empty: as the header
+  /// is known (tableLayouts()), which also says units, rate and order. Empty: as the header
   /// says.
   std::vector<std::string> columns;
-  std::optional<double> rateHz;               ///< Rows per second, of a table without times.
+  std::optional<double> rateHz;               ///< Rows per second, for a table without times.
   std::optional<QuaternionOrder> quaternion;  ///< In arrays, whose names need not say it.
   bool isInDegrees = false;                   ///< Or as the layout has it.
   std::optional<double> metresPerUnit;        ///< Empty: metres, or as the layout has it.

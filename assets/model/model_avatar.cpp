@@ -19,8 +19,8 @@ namespace {
 
 using internal::ModelLinks;
 
-/// Of 1: rounding of a chain of frames without scale stays below it, and such frames leave the
-/// file's values unchanged.
+/// Distance from the identity: the rounding of a chain of frames without scale stays below it, and
+/// such frames leave the file's values unchanged.
 constexpr double kNoScale = 1e-9;
 
 /// The node's own LSS in the link's frame. An uneven scale does not turn an LSS into an LSS: the

@@ -91,7 +91,7 @@ struct ModelRobot {
   ModelAvatarReport report;
 };
 
-/// Links and LSS as of avatarFromModel(); a coordinate has the name of the file's joint, and its
+/// Links and LSS as by avatarFromModel(); a coordinate has the name of the file's joint, and its
 /// limits. Errors: as avatarFromModel() and Robot::build(), a node without a joint (a floating one)
 /// below another one, and triangles that are not finite.
 [[nodiscard]] Result<ModelRobot> robotFromModel(const Model& model,
@@ -104,7 +104,7 @@ struct JointTable;
 [[nodiscard]] Result<Clip> clipOfTable(const Model& model, const JointTable& table);
 
 /// The joints of a model's links, link by link, with those that follow others. One that is free
-/// counts as fixed. `linkOfNode`: kNoParent, where a node is no link.
+/// counts as fixed. `linkOfNode`: kNoParent, where a node is not a link.
 [[nodiscard]] std::vector<RobotJoint> robotJoints(const Model& model,
                                                   const std::vector<LinkId>& linkOfNode,
                                                   std::size_t numLinks);

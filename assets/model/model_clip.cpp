@@ -18,7 +18,7 @@
 namespace foretouch {
 namespace {
 
-/// Of a frame: a duration that is a whole number of frames up to rounding gets no extra frame.
+/// A share of a frame: a duration that is a whole number of frames to rounding gets no extra frame.
 constexpr double kWholeFrame = 1e-6;
 
 std::vector<std::string> namesOf(const std::vector<ModelAnimation>& animations) {
@@ -69,7 +69,7 @@ Result<const ModelAnimation*> findAnimation(const Model& model, const std::strin
                        nearestAnimations(wanted, names));
 }
 
-/// Which one is played is never a secret, where the user named none of several.
+/// Says which one is played, where the user named none of several.
 void noteChoice(const Model& model, const std::string& wanted, std::vector<std::string>& notes) {
   if (!wanted.empty() || model.animations.size() < 2) return;
   const std::vector<std::string> names = namesOf(model.animations);
@@ -137,7 +137,7 @@ Result<std::size_t> countFrames(const ModelAnimation& animation,
                                                  " Hz that is more frames than a clip may have");
 }
 
-/// The frames that keys would have said which are not usable.
+/// The frames that unusable keys would have given.
 std::vector<ClipGap> gapsOf(const std::vector<internal::SampledTrack>& tracks, std::size_t count,
                             double rateHz) {
   std::vector<ClipGap> gaps;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr char kPivotMark[] = "_$AssimpFbx$_";
 constexpr char kNameless[] = "unnamed";
-/// Of 1: above the single-precision rounding of a frame without scale.
+/// Distance from the identity: above the single-precision rounding of a frame without scale.
 constexpr double kNoticeableScale = 1e-4;
 /// No unit is that far from metres; products of smaller values stay finite.
 constexpr double kLargestScale = 1e9;
@@ -93,8 +93,8 @@ void LinkFinder::findServed() {
   }
 }
 
-/// A camera or a light that nothing else makes a link is none, however it moves; nor is what moves
-/// only such (a camera's crane). A joint of the body that carries a camera stays one.
+/// A camera or a light is not a link, however it moves, unless something else makes it one; nor is
+/// what moves only such (a camera's crane). A joint of the body that carries a camera stays a link.
 void LinkFinder::leaveOutOnlookers() {
   const auto isAlone = [&](std::size_t node) {
     return !loaded_[node] && (model_.nodes[node].isOnlooker || hasChildren_[node]);

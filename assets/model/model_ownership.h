@@ -16,7 +16,7 @@ struct NodeInfluence {
   double weight = 0.0;  ///< > 0
 };
 
-/// Of one ModelMesh. A mesh without bones has no influences: all of it moves with its node.
+/// What moves one ModelMesh. A mesh without bones has no influences: all of it moves with its node.
 struct MeshOwnership {
   /// Per vertex, ascending by node, weights summing to one; a vertex without usable weights follows
   /// the mesh's own node.

@@ -39,7 +39,7 @@ RobotJoint jointOf(const ModelNode& node) {
   return joint;
 }
 
-/// Every joint must be one of the robot's: a link that moves in a way that no coordinate tells
+/// Every joint must be one of the robot's: a link that moves in a way that no coordinate gives
 /// would be proven free where it is not.
 Result<Done> checkJoints(const Model& model, const std::vector<LinkId>& linkOfNode) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {

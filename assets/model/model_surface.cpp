@@ -58,8 +58,8 @@ class SurfaceBuilder {
   const ModelOwnership& ownership_;
   ModelSurface surface_;
   std::vector<Corners> corners_;
-  std::unordered_map<std::int32_t, Affine> placings_;  ///< Of this mesh: node -> mesh to link.
-  std::vector<std::int32_t> skinVertices_;             ///< Of this mesh's vertices.
+  std::unordered_map<std::int32_t, Affine> placings_;  ///< This mesh's: node -> mesh to link.
+  std::vector<std::int32_t> skinVertices_;             ///< Per vertex of this mesh.
 };
 
 /// For bones from bind time; if a bone is listed twice, the first counts.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kScaleNote = 1e-3;  // of the scale; exporters round to float
 
-/// Of the sorted keys, those before and after `timeS`, and the share of the way between them.
+/// The sorted keys before and after `timeS`, and the share of the way between them.
 template <typename Key>
 struct Between {
   const Key& before;

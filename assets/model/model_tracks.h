@@ -41,7 +41,7 @@ class SampledTrack {
   struct Key {
     double timeS;
     Value value;
-    Tangent in, out;  ///< Zero if the keys are no spline.
+    Tangent in, out;  ///< Zero if the keys are not a spline.
   };
   using PositionKey = Key<Eigen::Vector3d, Eigen::Vector3d>;
   using RotationKey = Key<Quaternion, Eigen::Vector4d>;

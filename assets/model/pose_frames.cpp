@@ -13,11 +13,11 @@
 namespace foretouch::internal {
 namespace {
 
-/// Metres, and of the offset. Keys in single precision repeat a rest offset no more exactly; a
-/// translation that only repeats it must not override the offset of an avatar of other build.
+/// Metres from the rest offset. Keys in single precision repeat it no more exactly; a translation
+/// that only repeats it must not override the offset of an avatar of other build.
 constexpr double kSameOffset = 1e-6;
 
-/// Of the shape: above the single-precision rounding of keys that keep it rigid.
+/// Relative to the shape: above the single-precision rounding of keys that keep it rigid.
 constexpr double kNoticeableShear = 1e-3;
 
 }  // namespace

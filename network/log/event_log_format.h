@@ -46,7 +46,7 @@ struct BlockEvent {
   std::uint64_t previous = 0;    ///< Offset of the last block event; 0 in the opening one.
   std::uint64_t blockBytes = 0;  ///< Right before this event.
   std::uint64_t blockEvents = 0;
-  std::int64_t firstNumber = 0;  ///< Of the block's first event, or of the next one if it has none.
+  std::int64_t firstNumber = 0;  ///< The block's first event's, or the next one's if it has none.
   std::int64_t utimeUs = 0;      ///< This event's own stamp: the last one of its block.
   std::int64_t earliestUs = 0, latestUs = 0;  ///< Stamps in the block.
   std::uint64_t blockHash = 0;                ///< XXH64 of the block's bytes.

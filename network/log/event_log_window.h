@@ -21,7 +21,7 @@ class LogBytes {
   virtual Result<Done> read(std::uint64_t offset, std::uint8_t* bytes, std::size_t count) = 0;
 };
 
-/// Errors: not found, no regular file, not readable.
+/// Errors: not found, not a regular file, not readable.
 [[nodiscard]] Result<std::unique_ptr<LogBytes>> openLogFile(const std::string& path);
 
 /// An event as its header frames it.

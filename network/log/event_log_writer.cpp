@@ -73,7 +73,7 @@ struct EventLogWriter::Impl {
   std::uint64_t good = 0;   ///< Bytes of the file that are sound.
   bool hasRemains = false;  ///< Bytes of a failed write after them, still to cut off.
   Bytes block;              ///< Events that are not in the file yet.
-  BlockEvent check;         ///< Of this block as it grows.
+  BlockEvent check;         ///< This block's, as it grows.
   std::int64_t firstUs = 0;
 };
 

@@ -33,7 +33,7 @@ constexpr milliseconds kStalledAfter{1000};
 constexpr std::size_t kMostSentPerTurn = std::size_t{256} << 10;
 constexpr char kEndOfHeaders[] = "\r\n\r\n";
 
-/// Part of a response: of a shared text, or of its own.
+/// Part of a response: from a shared text, or from its own.
 struct Segment {
   std::shared_ptr<const std::string> owner;
   std::size_t offset = 0, size = 0;
@@ -108,7 +108,7 @@ class BoundedHttp::MemoryStream final : public httplib::Stream {
   }
   ssize_t write(const char* text, std::size_t size) override {
     for (const auto& whole : shared_) {
-      // Of unrelated addresses std::less has an order, the operators have none.
+      // std::less has an order for unrelated addresses, the operators have none.
       const std::less_equal<> isUpTo;
       const char* const end = whole->data() + whole->size();
       if (!isUpTo(whole->data(), text) || !isUpTo(text + size, end)) continue;
@@ -153,7 +153,7 @@ BoundedHttp::~BoundedHttp() {
 void BoundedHttp::end() {
   isStopping_ = true;
   const std::uint64_t one = 1;
-  static_cast<void>(::write(wake_.get(), &one, sizeof one) < 0);  // a full counter wakes as well
+  static_cast<void>(::write(wake_.get(), &one, sizeof one) < 0);  // a full counter wakes, too
   if (thread_.joinable()) thread_.join();
   const socket_t listening = svr_sock_.exchange(INVALID_SOCKET);
   if (listening != INVALID_SOCKET) ::close(listening);
@@ -317,7 +317,7 @@ Result<Done> BoundedHttp::start(const std::string& what, const std::string& host
   } else {
     port_ = bind_to_port(address, port) ? port : -1;
   }
-  // The library's own backlog is of five.
+  // The library's own backlog is five.
   if (port_ <= 0 || ::listen(svr_sock_, kBacklog) != 0 || wake_.get() < 0) {
     return cannotServe(what, host, port,
                        errno != 0 ? std::generic_category().message(errno) : "the system refuses");

@@ -1,5 +1,5 @@
 // network/service/bounded_http.h: cpp-httplib's handlers behind a server within bounds. One thread
-// reads all requests and sends all responses, and waits for nobody: a slow client costs the others
+// reads all requests and sends all responses, and waits for no client: a slow one costs the others
 // nothing. Only complete requests reach a handler, in that thread. One request per connection;
 // limits on its bytes and time, on the connections, and on those of one address, whose oldest
 // unfinished one makes way for a new one. GET and HEAD only. Not installed: it exposes cpp-httplib.
@@ -26,12 +26,12 @@ struct HttpBounds {
   int responseMs = 1000;            ///< More time, for the response.
 };
 
-/// Connections at a time, and of one address.
+/// Connections at a time, and those from one address.
 inline constexpr std::size_t kMaxHttpConnections = 128;
 inline constexpr std::size_t kMaxHttpPerAddress = kMaxHttpConnections / 2;
 
 /// Whether the request names a host that is not this machine: a stranger's name that leads here
-/// (DNS rebinding), or several names. A request of no browser may name none.
+/// (DNS rebinding), or several names. A request that no browser sends may name none.
 [[nodiscard]] bool namesForeignHost(const httplib::Request& request);
 
 class BoundedHttp final : public httplib::Server {
@@ -43,7 +43,7 @@ class BoundedHttp final : public httplib::Server {
 
   /// Takes a socket whose response was sent; false: it did not.
   using Taker = std::function<bool(socket_t)>;
-  /// Called after a request was handled, in the same thread: who takes the socket afterwards;
+  /// Called after a request was handled, in the same thread: what takes the socket afterwards;
   /// empty: it is closed. Set before start().
   std::function<Taker()> takerOfLast;
   /// A response that is part of this text refers to it instead of copying it. Before start().
@@ -76,7 +76,7 @@ class BoundedHttp final : public httplib::Server {
   int port_ = 0;
   internal::FileDescriptor wake_;
   std::vector<std::shared_ptr<const std::string>> shared_;
-  std::vector<std::unique_ptr<Client>> clients_;  // of the thread
+  std::vector<std::unique_ptr<Client>> clients_;  // the thread's
   bool isAccepting_ = true;                       // the system has descriptors
   std::thread thread_;
 };

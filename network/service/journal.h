@@ -27,8 +27,8 @@ class JournalSink {
 };
 
 struct LogLimits {
-  std::uint64_t bytes = 0;  ///< Of one file, before the next one begins; 0: no limit.
-  int files = 8;            ///< That stay; the oldest goes when another one begins. At least 1.
+  std::uint64_t bytes = 0;  ///< In one file, before the next one begins; 0: no limit.
+  int files = 8;            ///< Kept; the oldest goes when another one begins. At least 1.
 };
 
 /// A new event log (EventLogWriter); an existing file is an error. Beyond the limit it goes on in
@@ -70,7 +70,7 @@ class Journal {
  private:
   struct Impl;
   explicit Journal(std::shared_ptr<Impl> impl);
-  std::shared_ptr<Impl> impl_;  // the thread's as well
+  std::shared_ptr<Impl> impl_;  // the thread's, too
 };
 
 }  // namespace foretouch

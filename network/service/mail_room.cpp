@@ -127,7 +127,7 @@ std::size_t MailRoom::firstReady() const {
 
 MailRoom::Posted MailRoom::post(std::size_t avatar, std::unique_ptr<Mail>& mail) {
   const std::lock_guard lock(mutex_);
-  // What is answered is told, whatever comes.
+  // The world hears of what is answered, whatever comes.
   if (isClosed_ && mail->kind != MailKind::Step) return Posted::Closed;
   Box& box = boxes_[avatar];
   if (!isWanted(box, *mail)) return box.known.empty() ? Posted::TooEarly : Posted::Unwanted;

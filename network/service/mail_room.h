@@ -33,7 +33,7 @@ enum class MailKind : std::uint8_t {
   Body,
   RigidPose,
   Step,
-  Silence  ///< Of an avatar: no pose has come for long, or none will.
+  Silence  ///< An avatar's: no pose has come for long, or none will.
 };
 
 /// What an avatar's stream has to tell the world: records, and the step that an accepted pose
@@ -49,7 +49,7 @@ struct StepMail {
   std::vector<UndecidedReason> unknown, unknownJoints;
 
   void keep(const StreamStep& step);
-  /// Lives as long as this.
+  /// The step; lives as long as this.
   [[nodiscard]] StreamStep step() const;
 };
 
@@ -70,7 +70,7 @@ struct Mail {
 /// Different skeletons that wait for one avatar: more than a few mean that somebody floods. The
 /// oldest is then dropped, like a pose.
 inline constexpr std::size_t kMaxWaitingSkeletons = 8;
-/// Of all bodies of a world together, states that wait.
+/// States that wait, of all bodies of a world together.
 inline constexpr std::size_t kMaxWaitingStates = 1024;
 /// Steps that a world has not been told of. They are answered, and so none is dropped: beyond so
 /// many no poses are taken.
@@ -90,7 +90,7 @@ class MailRoom {
     DroppedPose,      ///< The oldest waiting pose was dropped.
     DroppedSkeleton,  ///< The oldest waiting skeleton was dropped.
     Unwanted,         ///< A pose of another skeleton than those that are known: see know().
-    TooEarly,         ///< The same before any is.
+    TooEarly,         ///< The same, before any skeleton is known.
     Behind,           ///< A pose while the world is kMaxWaitingSteps behind.
     Closed,           ///< The room takes no more mail.
   };
@@ -98,19 +98,19 @@ class MailRoom {
   /// worker.
   Posted post(std::size_t avatar, std::unique_ptr<Mail>& mail);
 
-  /// From now on a pose for the avatar is refused at once, and takes nobody's place, unless its
+  /// From now on a pose for the avatar is refused at once, and takes no other's place, unless its
   /// hash is one of these, or that of a skeleton that waits or is being handled. Without a call of
   /// this, every pose is taken.
   void know(std::size_t avatar, const std::vector<std::int64_t>& hashes);
 
   enum class Taken : std::uint8_t { Mail, Lead, Nothing, Closed };
-  /// Exchanges `mail` for the next mail of an avatar that nobody handles; waits up to `wait` for
+  /// Exchanges `mail` for the next mail of an avatar that no thread handles; waits up to `wait` for
   /// one. The caller owns the avatar until finish(). If there is no such mail and no leader, the
   /// caller becomes the leader until endLead(). Closed: no mail is left and none will come.
   Taken takeOrLead(std::size_t& avatar, std::unique_ptr<Mail>& mail,
                    std::chrono::milliseconds wait);
   void finish(std::size_t avatar);
-  /// `isForGood`: nobody leads from now on, because nothing more will come.
+  /// `isForGood`: no thread leads from now on, because nothing more will come.
   void endLead(bool isForGood);
   /// Waits until a leader has ended for good.
   void waitForLastLead();
@@ -121,7 +121,7 @@ class MailRoom {
  private:
   struct Box {
     std::vector<std::unique_ptr<Mail>> mail;  // oldest first; short, so that erasing is cheap
-    std::size_t poses = 0, skeletons = 0;     // rigid poses, and states of bodies, as well
+    std::size_t poses = 0, skeletons = 0;     // with rigid poses, and with states of bodies
     bool isReady = false;                     // in ready_
     bool isHandled = false;                   // by a thread, now
     bool isSelective = false;
@@ -149,13 +149,13 @@ class MailRoom {
   }
   Taken takeNow(std::size_t& avatar, std::unique_ptr<Mail>& mail);
 
-  const std::size_t maxPoses_, maxHandled_, world_;  // the last one is no box if there is no world
+  const std::size_t maxPoses_, maxHandled_, world_;  // without a world the last one is not a box
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Box> boxes_;
-  std::vector<std::size_t> ready_;  // avatars with mail that nobody handles, longest waiting first
+  std::vector<std::size_t> ready_;  // avatars with mail and no thread, longest waiting first
   std::vector<std::unique_ptr<Mail>> empty_;
-  std::size_t handled_ = 0, steps_ = 0;  // of avatars; that wait
+  std::size_t handled_ = 0, steps_ = 0;  // avatars in hand; steps that wait
   bool isLed_ = false, isLeadOver_ = false;
   bool isClosed_ = false;
 };

@@ -1,7 +1,7 @@
 // network/service/metrics_server.h: GET /metrics and GET /healthz over HTTP/1.1. A request may take
 // a few kilobytes and a second, its response another one; one request per connection. Slow clients
-// delay nobody. On an address of this machine alone, a request under another host name is answered
-// 403 (DNS rebinding). No TLS, no passwords: meant for this machine. Not installed.
+// delay no others. On an address of this machine alone, a request under another host name is
+// answered 403 (DNS rebinding). No TLS, no passwords: meant for this machine. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace foretouch {
 
-/// Of a request, headers included: no scraper needs more.
+/// The most of a request, headers included: no scraper needs more.
 inline constexpr std::size_t kMaxRequestBytes = 4096;
 /// From the connection to the last byte of the request, and again to that of the response.
 inline constexpr int kRequestMs = 1000;

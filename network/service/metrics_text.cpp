@@ -68,7 +68,7 @@ class Page {
     line(name + "_sum", "", number(values.sumUs() * kSecondsPerUs));
     line(name + "_count", "", std::to_string(values.count()));
   }
-  /// Of one metric, `value` of each avatar.
+  /// One metric: `value` of each avatar.
   template <typename Counts, typename Value>
   void ofAvatars(const std::string& name, const std::string& help, const char* type,
                  const Counts& counts, const Value& value) {

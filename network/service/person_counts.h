@@ -24,7 +24,7 @@ struct PersonCount {
 
 struct PersonCounts {
   std::vector<PersonCount> avatars;  ///< Those of whose persons something was said, by number.
-  LatencyHistogram times;            ///< Of a message, the person's part of the work.
+  LatencyHistogram times;            ///< The person's part of the work, per message.
 };
 
 class PersonCounter {

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of an event beside its channel and payload (network/log/event_log.h).
+/// The size of an event beside its channel and payload (network/log/event_log.h).
 constexpr std::uint64_t kEventBytes = 28;
 
 class RollingLog final : public JournalSink {
@@ -71,7 +71,7 @@ class RollingLog final : public JournalSink {
     // Room first: the disk may be full of these.
     while (files_.size() >= static_cast<std::size_t>(limits_.files)) {
       std::error_code none;
-      fs::remove(files_.front(), none);  // gone already, or somebody else's affair
+      fs::remove(files_.front(), none);  // gone already, or not ours to mend
       files_.pop_front();
     }
     if (writer_) FORETOUCH_CHECK(writer_->close());

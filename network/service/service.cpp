@@ -56,7 +56,7 @@ std::optional<Error> problemOf(const std::vector<StreamSolver>& avatars, const W
   if (options.statusEvery < milliseconds(1)) {
     return refused(ErrorCode::OutOfRange, "expected a status at most every millisecond");
   }
-  // Of the names, FORETOUCH_SKELETON and FORETOUCH_CONTACTS are the longest.
+  // FORETOUCH_SKELETON and FORETOUCH_CONTACTS are the longest names.
   if (internal::ServiceChannels(options.suffix).skeleton.size() > kMaxChannelBytes) {
     return refused(ErrorCode::LimitExceeded, "expected a suffix that leaves channel names within " +
                                                  std::to_string(kMaxChannelBytes) +
@@ -113,7 +113,7 @@ struct Service::Impl final : internal::Outlet {
   const internal::ServiceChannels channels;
   ServiceFacts facts;
   std::vector<internal::StreamDesk> streams;
-  std::unordered_map<std::int32_t, std::size_t> indexOf;  // of an avatar's id: its stream
+  std::unordered_map<std::int32_t, std::size_t> indexOf;  // by an avatar's id: its stream
   MailRoom room;
   internal::MessageSeal seal;
   ServiceCounter counter;
@@ -129,7 +129,7 @@ struct Service::Impl final : internal::Outlet {
   AnswerTimes lastSecond;
 
   std::atomic<bool> isStopping{false};
-  ThreadBeat receiverBeat, statusBeat;  // of the receiving thread; of the status thread
+  ThreadBeat receiverBeat, statusBeat;  // the receiving thread's; the status thread's
   std::vector<ThreadBeat> threadBeats;
   std::thread statusThread;
   std::vector<std::thread> threads;  // receive and answer, in turns
@@ -200,7 +200,7 @@ struct Service::Impl final : internal::Outlet {
     return isOver;
   }
 
-  /// To those whose persons wait for a pose.
+  /// Posts a silence to those whose persons wait for a pose.
   void tellSilence(bool isOver, std::unique_ptr<Mail>& mail) {
     if (parts.persons.empty()) return;
     const auto now = std::chrono::steady_clock::now();
@@ -239,7 +239,7 @@ struct Service::Impl final : internal::Outlet {
     }
   }
 
-  /// Several senders tell of one world: their signatures' times have no order among each other, so
+  /// Several senders speak of one world: their signatures' times have no order among each other, so
   /// it is their sequences that show what is old.
   template <typename Message>
   void sortWorld(WireMessage& message, Message& into, std::unique_ptr<Mail>& mail) {

@@ -10,9 +10,9 @@
 // sees each step after its answer went out, in the thread that answered it.
 // Where an avatar is solid (StreamSolver::makeSolid), its thread shows it after it has sent the
 // answer: one solid_t per accepted pose.
-// Where something is claimed of an avatar's person (ServiceParts::persons), the thread says then
+// Where something is claimed of an avatar's person (ServiceParts::persons), the thread then says
 // what follows: at least one person_t per accepted pose. Where there is a moving world, the thread
-// then tells it of the pose, and sends what solid bodies of it show, and what happened between
+// then tells it of the pose, and sends what its solid bodies show, and what happened between
 // bodies, as far as that is known; one thread at a time does that.
 //
 // At every moment: received = answered + rejected + waiting. Not installed.
@@ -51,7 +51,7 @@ inline constexpr std::size_t kMaxServiceQueue = 65536;
 struct ServiceOptions {
   int workers = 1;           ///< 1 to kMaxServiceWorkers.
   std::size_t queue = 256;   ///< Poses that may wait per avatar; 1 to kMaxServiceQueue.
-  std::string suffix;        ///< Of all channels.
+  std::string suffix;        ///< Ends the names of all channels.
   std::string build, scene;  ///< For the status.
   std::chrono::milliseconds statusEvery{1000};   ///< At least 1.
   std::chrono::milliseconds stuckAfter{10'000};  ///< A thread without progress for this long is
@@ -59,8 +59,8 @@ struct ServiceOptions {
   std::chrono::milliseconds unacceptedAfter{10'000};  ///< Poses that come for so long, and none of
                                                       ///< them accepted, are ill health.
   SpeakerPolicy speaker;
-  /// Messages without its signature are refused, and what the service says is signed. None: what is
-  /// signed is taken as if it were not.
+  /// Messages without its signature are refused, and what the service says is signed. None: signed
+  /// messages are taken as if they were not.
   std::optional<MessageKey> key;
   JournalOptions journal;
 };
@@ -72,8 +72,8 @@ struct ServiceParts {
   std::unique_ptr<JournalSink> journal;  ///< None: records nothing.
   const Clock* clock = &systemClock();   ///< Outlives the service.
   StepObserver* observer = nullptr;      ///< Outlives the service; may be none.
-  std::optional<WorldSolver> world;      ///< None: nobody asks what bodies do to each other.
-  std::vector<PersonStream> persons;     ///< Of some of the avatars, each at most once.
+  std::optional<WorldSolver> world;      ///< None: no query about what bodies do to each other.
+  std::vector<PersonStream> persons;     ///< For some of the avatars, each at most once.
 };
 
 /// The channels that a service reads.
@@ -98,13 +98,13 @@ class Service {
   /// As published; latencies are those of the last whole second.
   [[nodiscard]] StatusMessage status() const;
   [[nodiscard]] ServiceCounts counts() const;
-  /// Of all answers since the start.
+  /// The times of all answers since the start.
   [[nodiscard]] AnswerTimes times() const;
-  /// Of solid avatars, since the start.
+  /// The counts of solid avatars, since the start.
   [[nodiscard]] SolidCounts solidCounts() const;
-  /// Of persons, since the start.
+  /// The counts of persons, since the start.
   [[nodiscard]] PersonCounts personCounts() const;
-  /// Of the moving world; nothing if there is none.
+  /// The report of the moving world; nothing if there is none.
   [[nodiscard]] std::optional<WorldReport> world() const;
   [[nodiscard]] const ServiceFacts& facts() const;
   [[nodiscard]] ServiceHealth health() const;

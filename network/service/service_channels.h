@@ -7,7 +7,7 @@
 
 namespace foretouch::internal {
 
-/// Of everything but the world that moves (world_desk.h).
+/// The channels of everything but the moving world (world_desk.h).
 struct ServiceChannels {
   explicit ServiceChannels(const std::string& suffix)
       : skeleton(kSkeletonChannel + suffix),

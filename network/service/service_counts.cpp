@@ -28,7 +28,7 @@ void ServiceCounter::receivedPose(std::int64_t utimeUs) {
 }
 
 void ServiceCounter::rejectedPose(Reject reason) {
-  // Poses of avatars of other services on the same network are none of ours.
+  // Poses of avatars of other services on the same network are not ours.
   const bool isOurs = reason != Reject::UnknownAvatar;
   const std::int64_t nowMs = steadyMs();
   const std::lock_guard lock(mutex_);

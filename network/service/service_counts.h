@@ -28,10 +28,10 @@ struct ServiceCounts {
   std::uint64_t waiting = 0;   ///< In the mailboxes, or in work.
   std::uint64_t lost = 0;      ///< Poses that never came, by the gaps in sequence.
   std::uint64_t gaps = 0;      ///< Answers across a gap.
-  std::uint64_t vastGaps = 0;  ///< Of them, across more than kMostCountedLost poses: not in `lost`.
+  std::uint64_t vastGaps = 0;  ///< Those across more than kMostCountedLost poses: not in `lost`.
   std::uint64_t skeletons = 0;
-  RejectCounts rejects{};          ///< Of poses.
-  RejectCounts skeletonRejects{};  ///< Of skeletons.
+  RejectCounts rejects{};          ///< Refused poses.
+  RejectCounts skeletonRejects{};  ///< Refused skeletons.
   std::uint64_t publishFailures = 0, journalFailures = 0;
   std::uint64_t unrecorded = 0;  ///< Refused messages that the log leaves out on purpose.
   WireCounts wire;
@@ -49,7 +49,7 @@ struct AnswerTimes {
 class ServiceCounter {
  public:
   void receivedPose(std::int64_t utimeUs);
-  /// Of a pose that was received.
+  /// For a pose that was received.
   void rejectedPose(Reject reason);
   void answeredPose(double latencyUs, double queryUs);
   void receivedSkeleton();
@@ -64,16 +64,16 @@ class ServiceCounter {
   void wire(const WireCounts& counts);
 
   [[nodiscard]] ServiceCounts counts() const;
-  /// Since the start.
+  /// The times since the start.
   [[nodiscard]] AnswerTimes times() const;
-  /// Since the last call of this.
+  /// The times since the last call of this.
   [[nodiscard]] AnswerTimes takeRecentTimes();
 
  private:
   mutable std::mutex mutex_;
   ServiceCounts counts_;
   AnswerTimes all_, recent_;
-  // Of refused poses since the last accepted one (steady clock, ms).
+  // Refused poses since the last accepted one (steady clock, ms).
   bool isUnaccepted_ = false;
   std::int64_t firstRefusedMs_ = 0, lastRefusedMs_ = 0;
 };

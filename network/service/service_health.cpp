@@ -14,7 +14,7 @@ std::string secondsOf(std::int64_t ms) {
   return secondsText(static_cast<double>(ms) * kSPerMs);
 }
 
-/// What ails the log harms no answer: nobody should end a service for it.
+/// What ails the log harms no answer: it is not a reason to end a service.
 void addJournal(const ServiceState& state, const HealthLimits& limits, ServiceHealth& health) {
   if (!state.hasJournal) return;
   if (state.journalIdleMs > limits.stuckAfter.count()) {

@@ -1,4 +1,4 @@
-// network/service/service_health.h: what a service's state means for whoever watches over it. Pure.
+// network/service/service_health.h: what a service's state means for what watches over it. Pure.
 // Not installed.
 #pragma once
 

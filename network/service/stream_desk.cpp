@@ -148,7 +148,7 @@ void StreamDesk::addUp() {
   added_ = counts;
 }
 
-/// Poses of skeletons that nobody has said need not wait.
+/// Poses of skeletons that no sender has said need not wait.
 void StreamDesk::tellKnown() {
   stream_.listKnownHashes(nowKnown_);
   if (known_ == nowKnown_) return;
@@ -157,7 +157,7 @@ void StreamDesk::tellKnown() {
 }
 
 void StreamDesk::reject(MailKind kind, Reject reason) {
-  if (kind == MailKind::Silence) return;  // nobody sent it
+  if (kind == MailKind::Silence) return;  // no sender sent it
   kind == MailKind::Pose ? service_.counter.rejectedPose(reason)
                          : service_.counter.rejectedSkeleton(reason);
 }

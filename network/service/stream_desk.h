@@ -1,6 +1,6 @@
-// network/service/stream_desk.h: one avatar's stream in a service: its poses are answered, shown
-// where it is solid, and their person told of; the journal and the world hear of all of it. Not
-// installed.
+// network/service/stream_desk.h: one avatar's stream in a service: answers its poses, shows them
+// where it is solid, and says what follows for its person; the journal and the world hear of all
+// of it. Not installed.
 #pragma once
 
 #include <chrono>
@@ -48,10 +48,10 @@ struct StreamMemory {
 
 class StreamDesk {
  public:
-  /// `index`: of its box in the room.
+  /// `index`: the number of its box in the room.
   StreamDesk(StreamSolver solver, const SpeakerPolicy& policy, std::size_t index,
              const StreamSurroundings& surroundings);
-  /// Of the same avatar; outlives this.
+  /// `person` is the same avatar's, and outlives this.
   void sayOf(PersonStream& person) { person_ = &person; }
 
   // For the receiving thread.
@@ -60,7 +60,7 @@ class StreamDesk {
   /// Whether its person waits for a pose that has not come for long, or, if nothing comes any more,
   /// never will. Says so once: a MailKind::Silence then ends the wait.
   [[nodiscard]] bool waitsInVain(std::chrono::steady_clock::time_point now, bool isOver);
-  /// Answers. After an exception, see abandon().
+  /// Answers the mail. After an exception, see abandon().
   void take(const Mail& mail, StreamMemory& memory);
   /// An exception has left the stream's state unknown: it answers nothing more. Refuses the mail,
   /// unless it is answered already.

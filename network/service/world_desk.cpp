@@ -6,7 +6,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// Whoever watches over a service asks every second, and must hear of one that is busy.
+/// What watches over a service asks every second, and must hear of one that is busy.
 constexpr std::chrono::milliseconds kReportWait{100}, kReportLook{1};
 
 }  // namespace

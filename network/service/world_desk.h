@@ -25,9 +25,9 @@ class WorldDesk final : WorldRecord {
   /// A message about bodies; or what an avatar's stream said, which is recorded, and the step that
   /// its pose ended.
   void take(Mail& mail);
-  /// Refused before it came here: not decodable, or pushed out.
+  /// Counts what was refused before it came here: not decodable, or pushed out.
   void refused(MailKind kind, std::size_t poses, Reject reason);
-  /// Where the world is busy for longer than a tenth of a second: the last one.
+  /// The report; the last one if the world is busy for longer than a tenth of a second.
   [[nodiscard]] WorldReport report() const;
   [[nodiscard]] const std::string& bodyChannel() const { return bodyChannel_; }
   [[nodiscard]] const std::string& rigidChannel() const { return rigidChannel_; }
@@ -48,12 +48,12 @@ class WorldDesk final : WorldRecord {
   const Clock& clock_;
   Outlet& outlet_;
   SolidCounter& solids_;
-  mutable std::mutex mutex_;  // of the next members, but the last two
+  mutable std::mutex mutex_;  // for the next members, but the last two
   BoundWorld world_;
   std::vector<EventsMessage> answers_;
   Bytes payload_;
   WorldTimes times_;
-  mutable std::mutex reportMutex_;  // of the next member
+  mutable std::mutex reportMutex_;  // for the next member
   mutable WorldReport lastReport_;
 };
 

@@ -64,7 +64,7 @@ struct StreamCounts {
   std::uint64_t gaps = 0;       ///< Steps AcrossGap.
   std::uint64_t vastGaps = 0;   ///< Those across more than kMostCountedLost poses.
   std::uint64_t timelines = 0;  ///< Begun.
-  RejectCounts rejects{};       ///< Of poses and skeletons.
+  RejectCounts rejects{};       ///< Refused poses and skeletons.
 };
 
 class AvatarStream {

@@ -86,8 +86,8 @@ void BoundStream::bringIn(const Heard& heard, const PoseMessage& message, Stream
   if (reject != Reject::None) said->payload.clear();
 }
 
-/// Before whatever is recorded after a change: of senders whose poses are all refused, a record has
-/// no more than of the poses.
+/// Comes before whatever is recorded after a change: a record has no more of senders whose poses
+/// are all refused than of those poses.
 void BoundStream::tellSpeaker(StreamRecord& record) {
   if (!nextSpeaker_) return;
   record.speaker(*nextSpeaker_);

@@ -83,7 +83,7 @@ PosedStep PersonStream::between(const Kept& from, const Kept& to) {
   return step;
 }
 
-/// Of the poses that are kept; 0: the newest.
+/// A pose that is kept, by its age; 0: the newest.
 const PersonStream::Kept* PersonStream::back(int i) const {
   const auto older = countOf(i);
   return older < std::min(numKept_, kept_.size()) ? &kept_[(numKept_ - 1 - older) % kept_.size()]
@@ -137,7 +137,7 @@ void PersonStream::follow(const StreamStep& step) {
   lookAhead(said_[own]);
 }
 
-/// For the pose after the newest step.
+/// Whether it waits for the pose after the newest step.
 bool PersonStream::waits() const {
   return model_ == MotionModel::CubicLate && numKept_ > 1 && !hasEndedWait_;
 }
@@ -244,7 +244,7 @@ void PersonStream::sayGap(const StreamStep& step) {
   followLost(step, from, stepsAcross(step));
 }
 
-/// What poses that nobody has let happen, of all links or of some.
+/// What may have happened across poses that are missing, for all links or for some.
 void PersonStream::sayAcross(const StreamStep& step, const Kept& from, const Kept& to,
                              std::int64_t steps, const std::vector<std::uint8_t>& isUnknown,
                              const std::vector<std::uint8_t>* isOf) {
@@ -298,7 +298,7 @@ void PersonStream::lose(std::size_t link, const Kept& from) {
   lostSince_[link] = static_cast<std::int8_t>(place - lost_.begin());
 }
 
-/// Of the links that are lost since then and known from `to` on.
+/// About the links that are lost since then and known from `to` on.
 void PersonStream::sayFound(const StreamStep& step, std::size_t since, const Kept& to) {
   LostSince& lost = lost_[since];
   isFound_.assign(isUnknown_.size(), 0);

@@ -4,10 +4,10 @@
 // clock that measures personUs: what it says follows from the steps, the scene and the options
 // alone, so that a recorded stream repeats it.
 //
-// - A step is answered when its poses are known: of MotionModel::CubicLate a pose later, or where a
+// - A step is answered when its poses are known: by MotionModel::CubicLate a pose later, or where a
 //   gap or another timeline begins, or the wait for the pose ends (endWait()). So a pose has one
 //   message, or two.
-// - A bound is about poses at its rate: of a step that is not so long nothing is claimed.
+// - A bound is about poses at its rate: nothing is claimed of a step that is not so long.
 // - A link that a pose does not know is unclaimed in every step whose curve that pose bends. Once
 //   it is known again a message of its own says what it touched from the last pose before these
 //   steps to the first one behind them, as across lost poses.
@@ -37,7 +37,7 @@
 namespace foretouch {
 
 inline constexpr std::int64_t kMostAheadUs = 10'000'000;
-/// Links that are lost since as many different poses are followed; of others nothing is said.
+/// Links that are lost since as many different poses are followed; nothing is said of others.
 inline constexpr std::size_t kMostLostSince = 6;
 
 struct PersonStreamOptions {
@@ -59,7 +59,7 @@ class PersonStream {
   /// Follows the step of one accepted pose, in the order of acceptance.
   void follow(const StreamStep& step);
   /// The pose that is waited for has not come for long, or never will: says the last step without
-  /// it. Nothing is said where nothing waits.
+  /// it. Says nothing where nothing waits.
   void endWait();
   /// Whether this is what endWait() says now: a recorded stream says when a wait ended.
   [[nodiscard]] bool isEndOfWait(const PersonMessage& message) const;

@@ -1,5 +1,5 @@
-// network/stream/solid_answer.h: what a SolidMessage says, from a solid avatar's tick: of an avatar
-// alone (stream_solver.h), and of one among what moves (world_stream/). Not installed.
+// network/stream/solid_answer.h: what a SolidMessage says, from a solid avatar's tick: for one
+// alone (stream_solver.h), and for one among what moves (world_stream/). Not installed.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ namespace foretouch::internal {
 bool findTracked(const Skeleton& skeleton, const std::vector<UndecidedReason>& unknownJoints,
                  std::vector<std::uint8_t>& isTracked);
 
-/// Whom a message is about, and the options. `avatarHash`: of its skeleton.
+/// Fills in which avatar a message is about, and the options. `avatarHash`: its skeleton's.
 void fillSolidHead(std::int32_t id, std::int64_t avatarHash, const SolidOptions& options,
                    SolidMessage& answer);
 

@@ -1,13 +1,13 @@
-// network/stream/speaker_gate.h: which sender speaks for an avatar. Whoever's pose is accepted
+// network/stream/speaker_gate.h: which sender speaks for an avatar. The one whose pose is accepted
 // first does, by address and port; the messages of others go no further. Another sender takes over
 //   - once the speaker has been silent for SpeakerPolicy::takeoverUs, or
 //   - while the speaker has said fewer than SpeakerPolicy::confirmations accepted poses, by as many
 //     poses in a row without an accepted one of the speaker in between. So one pose said in a
 //     silence costs the true sender a few poses, not the whole silence.
-// More than that would be no defence: whoever floods has any number of poses between two true ones.
+// More would not be a defence: a sender that floods has any number of poses between two true ones.
 //
-// An address is no proof where others can send under it; a key is (network/wire/message_key.h). Not
-// installed.
+// An address proves nothing where others can send under it; a key does
+// (network/wire/message_key.h). Not installed.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ inline constexpr std::int64_t kMostTakeoverUs = 3'600'000'000;  ///< An hour.
 
 struct SpeakerPolicy {
   /// A speaker that has said nothing for so long may be replaced. 0 to kMostTakeoverUs; 0: at any
-  /// time, by anybody.
+  /// time, by any sender.
   std::int64_t takeoverUs = 2'000'000;
   int confirmations = 3;  ///< As StreamPolicy's.
 };
@@ -32,10 +32,10 @@ class SpeakerGate {
   explicit SpeakerGate(const SpeakerPolicy& policy) : policy_(policy) {}
 
   enum class Admission : std::uint8_t {
-    Speaker,   ///< Of the one that speaks, or of a sender that nobody knows (liblcm).
-    Open,      ///< Nobody speaks yet.
-    Takeover,  ///< Of another one: if its pose is accepted, it speaks from then on.
-    Refused,   ///< Of another one.
+    Speaker,   ///< From the speaker, or from an unknown sender (liblcm).
+    Open,      ///< No sender speaks yet.
+    Takeover,  ///< From another one: if its pose is accepted, it speaks from then on.
+    Refused,   ///< From another one.
   };
   /// About a pose. `utimeUs`: its receipt. Counts it as a confirmation.
   [[nodiscard]] Admission admit(const UdpmSender& sender, std::int64_t utimeUs);
@@ -58,7 +58,7 @@ class SpeakerGate {
   // Written by the thread that answers, read by the one that receives.
   std::atomic<std::uint64_t> speaker_{kNobody};  // address and port
   std::atomic<std::int64_t> heardUs_{0};         // when it last said something
-  std::atomic<int> poses_{0};                    // of it accepted, up to the confirmations
+  std::atomic<int> poses_{0};                    // accepted from it, up to the confirmations
   UdpmSender contender_;
   int run_ = 0;  // of the contender's poses since the speaker's last one
 };

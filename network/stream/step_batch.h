@@ -19,7 +19,7 @@ inline constexpr std::size_t kMaxBatchContacts = 4096;
 
 /// A step of a batch, and where its contacts end in StepBatch::contacts().
 struct BatchedStep {
-  std::int64_t sequence = 0;  ///< Of the pose that ends the step.
+  std::int64_t sequence = 0;  ///< That of the pose that ends the step.
   std::int64_t utimeFromUs = 0, utimeToUs = 0;
   std::size_t endOfContacts = 0;
 };
@@ -66,7 +66,7 @@ class StepBatch {
   [[nodiscard]] const std::vector<LinkContact>& contacts() const { return contacts_; }
   /// The steps that have any of these, in order.
   [[nodiscard]] const std::vector<BatchedStep>& touchingSteps() const { return touchingSteps_; }
-  /// Of the person, step by step; beyond kMaxBatchContacts none.
+  /// What the person touched, step by step; none beyond kMaxBatchContacts.
   [[nodiscard]] const std::vector<WatchedBracket>& brackets() const { return brackets_; }
   /// Contacts beyond kMaxBatchContacts.
   [[nodiscard]] std::uint64_t numLeftOut() const { return numLeftOut_; }

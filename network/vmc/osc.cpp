@@ -10,12 +10,12 @@ constexpr std::size_t kWord = 4;
 constexpr std::string_view kBundle{"#bundle\0", 8};
 constexpr std::size_t kTimeTag = 8;
 
-/// With the zeros behind it, of which there is at least one.
+/// The length with the zeros after it, of which there is at least one.
 std::size_t padded(std::size_t length) {
   return length / kWord * kWord + kWord;
 }
 
-/// Of the bytes that stand at a place.
+/// The number that has these bits.
 template <typename Number, typename Bits>
 Number numberOf(Bits bits) {
   static_assert(sizeof(Number) == sizeof(Bits));

@@ -28,7 +28,7 @@ Matrix3d unityFrame() {
   return frame;
 }
 
-/// Of Unity's world in ours, as FT_AXES_Y_UP_LEFT has it.
+/// The mirror from Unity's world to ours, as FT_AXES_Y_UP_LEFT has it.
 Matrix3d worldMirror() {
   return Vector3d(1, 1, -1).asDiagonal();
 }

@@ -18,7 +18,7 @@ namespace foretouch {
 /// What the rotations of a sender's bones are relative to.
 enum class VmcBones : std::uint8_t {
   Original,    ///< As in the sender's model, which is the avatar's: what the protocol says.
-  Normalized,  ///< Of bones that a T-pose does not turn, of any model (VRM 1.0's control rig).
+  Normalized,  ///< Bones that a T-pose does not turn, in any model (VRM 1.0's control rig).
 };
 
 /// What one sender says of one instant, in Unity's axes.
@@ -36,19 +36,19 @@ struct VmcFrame {
 
 class VmcBody {
  public:
-  /// Errors (Mismatch): an avatar that is no humanoid, that does not stand along the axes, or does
-  /// not rest in a T-pose (Normalized alone).
+  /// Errors (Mismatch): an avatar that is not a humanoid, that does not stand along the axes, or
+  /// does not rest in a T-pose (only for Normalized).
   static Result<VmcBody> make(std::int32_t avatar, const Skeleton& skeleton, VmcBones bones);
 
   [[nodiscard]] std::int32_t avatar() const { return avatar_; }
-  /// Of a bone by Unity's name; nothing if the avatar has no such part.
+  /// The number of a bone by Unity's name; nothing if the avatar has no such part.
   [[nodiscard]] std::optional<std::size_t> boneOf(std::string_view unityName) const;
   [[nodiscard]] std::size_t numBones() const { return joints_.size(); }
 
   /// The avatar's joints that are of these bones, or carry the hips, as a sender's skeleton.
   [[nodiscard]] RawSkeleton skeletonOf(const std::vector<bool>& bones) const;
   /// Replaces joints and translations of `message`: those of the bones in `of` that the frame has,
-  /// by their places in skeletonOf(of). Bones that are no rotations are listed as not valid.
+  /// by their places in skeletonOf(of). Bones that are not rotations are listed as not valid.
   void fill(const std::vector<bool>& of, const VmcFrame& frame, PoseMessage& message) const;
 
  private:
@@ -56,7 +56,7 @@ class VmcBody {
   Result<Done> settle(VmcBones bones);
   [[nodiscard]] std::vector<bool> jointsOf(const std::vector<bool>& bones) const;
   [[nodiscard]] RigidPose placeOf(const RigidPose& root) const;
-  /// Of a joint in a message.
+  /// What a message says of a joint.
   struct Said {
     RigidPose pose;
     std::uint8_t flags = 0;

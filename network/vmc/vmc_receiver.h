@@ -13,7 +13,7 @@
 
 namespace foretouch {
 
-/// Of one port; a sender that has been silent for kVmcSilentUs makes way for another one.
+/// Senders per port; one that has been silent for kVmcSilentUs makes way for another one.
 inline constexpr std::size_t kMaxVmcSenders = 16;
 inline constexpr std::int64_t kVmcSilentUs = 2'000'000;
 
@@ -26,10 +26,10 @@ struct VmcOptions {
   /// Whose datagrams are taken is as with openUdpmReceiver(): by the ttl and `senders`.
   UdpmUrl url;
   std::vector<Network> senders;
-  std::string suffix;  ///< Of the channels that poses come out on.
+  std::string suffix;  ///< Ends the names of the channels that poses come out on.
 };
 
-/// `other` may be none. Listens on this machine's loopback alone where nobody else is heard.
+/// `other` may be none. Listens only on this machine's loopback where no other machine is heard.
 /// Errors: a port that is taken.
 [[nodiscard]] Result<std::unique_ptr<Receiver>> openVmcReceiver(std::unique_ptr<Receiver> other,
                                                                 std::vector<VmcPort> ports,

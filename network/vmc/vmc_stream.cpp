@@ -11,7 +11,7 @@ namespace {
 constexpr double kUsPerS = 1e6;
 constexpr std::size_t kPlaceNumbers = 7;  // x, y, z; quaternion x, y, z, w
 
-/// Of a name and kPlaceNumbers numbers, or more.
+/// The place in a message of a name and kPlaceNumbers numbers, or more.
 bool readPlace(const OscMessage& message, RigidPose& place) {
   if (message.numArguments < 1 + kPlaceNumbers || !message.arguments[0].text) return false;
   std::array<double, kPlaceNumbers> n{};

@@ -40,9 +40,9 @@ class VmcStream {
   struct Said {
     std::optional<SkeletonMessage> skeleton;  ///< Before the pose.
     PoseMessage pose;
-    std::int64_t receiveUtimeUs = 0;  ///< Of the frame's last datagram.
+    std::int64_t receiveUtimeUs = 0;  ///< The frame's last datagram's.
   };
-  /// Appends what the datagram completes. False: no OSC packet, and nothing of it counts.
+  /// Appends what the datagram completes. False: not an OSC packet, and nothing of it counts.
   [[nodiscard]] bool take(ByteView datagram, std::int64_t receiveUtimeUs, std::vector<Said>& said);
 
  private:

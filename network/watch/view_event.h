@@ -23,7 +23,7 @@ struct ContactTexts {
 struct ViewEvent {
   std::size_t topic = 0;  ///< The newer of two events of a topic replaces the older one.
   std::string name;       ///< "step"
-  SharedText fields;      ///< Of a JSON object, separated by commas.
+  SharedText fields;      ///< Those of a JSON object, separated by commas.
   /// For an event about steps, further fields: contacts, the number of steps it covers (skipped is
   /// one less), and the number of contacts without room.
   std::uint64_t steps = 0;  ///< 0: no further fields.

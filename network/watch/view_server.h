@@ -19,7 +19,7 @@
 
 namespace foretouch {
 
-/// Of a request, headers included: for localhost, a browser may send other programs' cookies.
+/// The most of a request, headers included: a browser may send localhost other programs' cookies.
 inline constexpr std::size_t kMaxViewRequestBytes = 16384;
 
 class ViewServer {

@@ -12,7 +12,7 @@
 namespace foretouch {
 
 /// Limit on the bytes of contacts that wait for one viewer, not counting those of the newest
-/// events. Beyond it the oldest of a topic are dropped, and the event tells the viewer how many
+/// events. Beyond it the oldest of a topic are dropped, and the event reports how many
 /// (contacts_left_out).
 inline constexpr std::size_t kMaxBacklogBytes = std::size_t{1} << 20;
 
@@ -25,7 +25,7 @@ class ViewerBacklog {
   /// The next text, of the topic that has waited longest; none if nothing waits.
   [[nodiscard]] SharedText next();
   [[nodiscard]] bool isEmpty() const { return order_.empty(); }
-  /// Of waiting contacts, without those of the newest events.
+  /// The bytes of waiting contacts, without those of the newest events.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:

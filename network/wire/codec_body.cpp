@@ -39,7 +39,7 @@ Reject checkCarrier(const body_t& wire) {
   if (wire.carried_by == wire.body) return Reject::CarrierLoop;
   const bool isFree = wire.carried_by == kNoBody;
   if (isFree && (wire.carried_link != 0 || wire.moves_in_frame != 0)) return Reject::BadIndex;
-  // Of an avatar, skeleton_t and pose_t say the rest.
+  // For an avatar, skeleton_t and pose_t say the rest.
   return wire.kind == body_t::AVATAR && !isFree ? Reject::BadIndex : Reject::None;
 }
 

@@ -97,7 +97,7 @@ Reject readContacts(const contacts_t& wire, ContactsMessage& message) {
   return message.contacts.size() == notClear ? Reject::None : Reject::BadIndex;
 }
 
-/// Of receive_utime, send_utime and query_us; in a solid_t solid_us.
+/// The size of receive_utime, send_utime and query_us; in a solid_t solid_us.
 constexpr std::size_t kStampBytes = 2 * sizeof(std::int64_t) + sizeof(double);
 
 }  // namespace

@@ -38,8 +38,8 @@ Reject checkHead(const events_t& wire) {
   return countOf(wire.num_events) <= kMaxToldEvents ? Reject::None : Reject::Limit;
 }
 
-/// Readers of before LeaveCause::Moved know three causes, and refuse others. They look at the
-/// reason of what is unresolved alone, so that of a LEAVE tells whether it is one.
+/// Readers from before LeaveCause::Moved know three causes, and refuse others. They look only at
+/// the reason of what is unresolved, so the reason of a LEAVE can say whether it is a Moved.
 constexpr UndecidedReason kReasonOfMoved = UndecidedReason::Gap;
 bool isTornApart(const ToldEvent& told, UndecidedReason reason) {
   return told.event.kind == EventKind::Leave && told.cause == ToldCause::Apart &&

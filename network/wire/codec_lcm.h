@@ -13,7 +13,7 @@
 
 namespace foretouch {
 
-/// Of stamps (us), sequences and counts: below this, differences of two of them fit in an int64.
+/// The most of stamps (us), sequences and counts: differences of two such fit in an int64.
 inline constexpr std::int64_t kMaxWireInteger = (std::int64_t{1} << 62) - 1;
 
 /// Checks all bytes before lcm-gen's decoder sees one or allocates anything.

@@ -40,7 +40,7 @@ Reject readLinks(const person_t& wire, PersonMessage& message) {
   constexpr wire::Whole kNotBefore{-1};
   const std::size_t n = countOf(wire.num_links);
   message.verdicts.resize(n);
-  // Of no links the decoder leaves the array of the message before.
+  // For no links, the decoder leaves the array of the message before.
   message.notBeforeUs.assign(wire.not_before.begin(), wire.not_before.begin() + wire.num_links);
   for (std::size_t i = 0; i < n; ++i) {
     const Reject reject = kNotBefore(wire.not_before[i]);

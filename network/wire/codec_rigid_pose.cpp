@@ -36,7 +36,7 @@ constexpr auto kPlace =
                     field(in(&BodyPose::pose, &RigidPose::translation), &rigid_pose_t::position_x,
                           &rigid_pose_t::position_y, &rigid_pose_t::position_z, wire::kCoordinate));
 
-/// Of thousands of bodies, in the time of sorting them.
+/// Also for thousands of bodies, in the time of sorting them.
 bool areDifferent(const std::vector<BodyPose>& told) {
   std::vector<BodyNumber> bodies;
   bodies.reserve(told.size());

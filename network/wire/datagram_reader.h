@@ -1,5 +1,5 @@
-// network/wire/datagram_reader.h: reads a socket's datagrams, many at a call, of those who are
-// heard. Not installed.
+// network/wire/datagram_reader.h: reads a socket's datagrams, many per call, from the senders that
+// are heard. Not installed.
 #pragma once
 
 #include <cstddef>

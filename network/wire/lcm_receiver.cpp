@@ -23,7 +23,7 @@ constexpr int kMostAtOnce = 64;
 // liblcm's thread and its self-test select() on some ten descriptors that they open.
 constexpr int kMaxDescriptor = FD_SETSIZE - 32;
 
-/// A regular expression for this text alone.
+/// A regular expression for only this text.
 std::string escaped(const std::string& channel) {
   std::string expression;
   for (const char c : channel) {
@@ -80,7 +80,7 @@ class LcmReceiver : public Receiver {
 
   const std::string url_;
   std::unique_ptr<lcm_t, void (*)(lcm_t*)> lcm_;
-  std::vector<WireMessage>* messages_ = nullptr;  ///< Of the running call of receive().
+  std::vector<WireMessage>* messages_ = nullptr;  ///< Those of the running call of receive().
   WireCounts counts_;
 };
 

@@ -118,7 +118,7 @@ inline constexpr auto kSolidOptions =
                     field("tolerance", &SolidMessage::tolerance, &solid_t::tolerance, kNotNegative),
                     field("catch_up", &SolidMessage::catchUp, &solid_t::catch_up, kNotNegative),
                     field("work_budget", &SolidMessage::workBudget, &solid_t::work_budget, kWhole));
-/// Of whatever holds what is shown at one tick: this message, a page's step, a line of a file.
+/// For whatever holds what is shown at one tick: this message, a page's step, a line of a file.
 template <typename Shown>
 constexpr auto shownState() {
   return std::make_tuple(field("state", &Shown::state, &solid_t::state, codeBelow(kNumSolidStates)),
@@ -156,7 +156,7 @@ constexpr auto solidCounters(Outer of) {
       field("work", in(of, &SolidCounters::work), &solid_t::work, kWhole));
 }
 
-/// What is pushed, of a row that holds a contact and its link's name: in solid_t and in pushes_t.
+/// What is pushed, for a row that holds a contact and its link's name: in solid_t and in pushes_t.
 template <typename Wire, typename Row, typename Contact>
 constexpr auto pushedLink(Contact Row::*contact, std::string Row::*linkName) {
   return std::make_tuple(field(in(contact, &Contact::link), &Wire::links, kAny),

@@ -64,7 +64,7 @@ struct MessageKey::Impl {
   }
   std::unique_ptr<EVP_MAC, void (*)(EVP_MAC*)> method;
   std::unique_ptr<EVP_MAC_CTX, void (*)(EVP_MAC_CTX*)> start;
-  bool isReady = false;  ///< A system that allows FIPS methods alone has no SipHash.
+  bool isReady = false;  ///< A system that allows only FIPS methods has no SipHash.
 };
 
 MessageKey::MessageKey(const std::array<std::uint8_t, kKeyBytes>& key)
@@ -137,7 +137,7 @@ void MessageKey::sign(std::string_view channel, std::int64_t utimeUs, Bytes& pay
 Reject MessageKey::open(std::string_view channel, ByteView payload, SignedPayload& opened) const {
   if (!hasMark(payload)) return Reject::Unauthenticated;
   const ByteView covered(payload.data, payload.size - kNumberBytes);
-  // Two whole numbers: how long it takes to compare them tells nothing of their bytes.
+  // Two whole numbers: how long it takes to compare them reveals nothing of their bytes.
   if (codeOf(channel, covered) != numberAt(payload.data + covered.size)) {
     return Reject::Unauthenticated;
   }

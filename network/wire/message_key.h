@@ -1,7 +1,7 @@
 // network/wire/message_key.h: a key that senders, services and listeners share, and the code that
-// it adds to their messages, so that nobody else can speak for them. The code is SipHash-2-4 of 64
-// bits
-// ([Aumasson12]), by OpenSSL's libcrypto.
+// it adds to their messages, so that no other program can speak for them. The code is SipHash-2-4
+// of 64 bits ([Aumasson12]), by
+// OpenSSL's libcrypto.
 //
 // A signed payload is the payload, "FTSIGN01", the time of sending (i64, us since the Unix epoch),
 // and the code (u64), big-endian: 24 bytes more. The code covers the channel, a NUL, and all before
@@ -22,7 +22,7 @@ namespace foretouch {
 
 inline constexpr std::size_t kKeyBytes = 16;
 inline constexpr std::size_t kSignatureBytes = 24;
-/// A signed message may be as much older or newer (us) than the clock of who receives it says.
+/// A signed message may be this much older or newer (us) than its receiver's clock says.
 inline constexpr std::int64_t kMostSignatureAgeUs = 10'000'000;
 
 /// A payload without its signature.

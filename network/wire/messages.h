@@ -47,12 +47,12 @@ enum class Reject : std::uint8_t {
   FutureSession,  ///< Its sender says it starts more than a day after the message arrived.
   Late,           ///< For an instant that the world has answered already.
   // About a moving world.
-  UnknownBody,   ///< A pose of a body that nobody introduced; a carrier or link that is not there.
+  UnknownBody,   ///< A pose of a body not introduced before; a carrier or link that is not there.
   HeldFast,      ///< A pose of a body that another one holds fast.
   UnknownShape,  ///< A body whose shape is not in the world file.
   CarrierLoop,   ///< A body that would carry itself.
   SolidCarrier,  ///< A body that a solid one would carry.
-  // About who says it.
+  // About its sender.
   OtherSender,      ///< Not from the address and port that speak for the avatar.
   Unauthenticated,  ///< Without the code that the key makes, or with another one.
   Replayed,         ///< With a right code, and old, or of a time that is not now.
@@ -76,7 +76,7 @@ inline constexpr char kContactsChannel[] = "FORETOUCH_CONTACTS";
 inline constexpr char kSolidChannel[] = "FORETOUCH_SOLID";
 inline constexpr char kPersonChannel[] = "FORETOUCH_PERSON";
 inline constexpr char kStatusChannel[] = "FORETOUCH_STATUS";
-/// Of logs only.
+/// For logs only.
 inline constexpr char kSpeakerChannel[] = "FORETOUCH_SPEAKER";
 /// Length of a whole channel name, suffix included, in bytes (LCM_MAX_CHANNEL_NAME_LENGTH).
 inline constexpr std::size_t kMaxChannelBytes = 63;
@@ -129,7 +129,7 @@ struct PoseMessage {
   std::int64_t sendUtimeUs = 0;
   std::int64_t skeletonHash = 0;
   std::vector<PoseJoint> joints;              ///< Each joint at most once, in any order.
-  std::vector<PoseTranslation> translations;  ///< Of joints that are in `joints`.
+  std::vector<PoseTranslation> translations;  ///< For joints that are in `joints`.
 };
 
 /// The kind of step that an answer covers.
@@ -158,7 +158,7 @@ struct ContactsMessage {
   double tolerance = 0.0;
   Fidelity fidelity = Fidelity::Link;
   std::int64_t workBudget = 0;            ///< QueryOptions::workBudget; 0: none.
-  std::vector<Verdict> verdicts;          ///< Of every link of the avatar, in order.
+  std::vector<Verdict> verdicts;          ///< One per link of the avatar, in order.
   std::vector<AnsweredContact> contacts;  ///< Links that are not clear, earliest first.
   std::int64_t receiveUtimeUs = 0;
   std::int64_t sendUtimeUs = 0;
@@ -245,7 +245,7 @@ struct PersonMessage {
   StepKind kind = StepKind::First;  ///< The step's; First: none is answered.
   std::int64_t sequenceFrom = 0, sequenceTo = 0;
   std::int64_t utimeFromUs = 0, utimeToUs = 0;
-  std::vector<BracketVerdict> verdicts;   ///< Of every link and the scene, in order.
+  std::vector<BracketVerdict> verdicts;   ///< Each link's with the scene, in order.
   std::vector<std::int64_t> notBeforeUs;  ///< As many: no touch until then; -1: not claimed.
   std::int64_t aheadUs = 0;               ///< How far it looks ahead of utimeUs; 0: not at all.
   std::vector<ToldBracket> brackets;      ///< What is Possible or Certain.
@@ -284,8 +284,8 @@ struct SpeakerMessage {
   std::uint16_t port = 0;     ///< UDP, in host byte order.
 };
 
-/// Of names, parents and rest pose, as defined in docs/formats.md ("Skeleton hash"): XXH64 over the
-/// joints in order. Two skeletons with the same hash count as the same.
+/// The hash of names, parents and rest pose, as defined in docs/formats.md ("Skeleton hash"): XXH64
+/// over the joints in order. Two skeletons with the same hash count as the same.
 [[nodiscard]] std::int64_t skeletonHash(const RawSkeleton& skeleton);
 
 }  // namespace foretouch

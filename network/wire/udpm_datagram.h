@@ -1,8 +1,8 @@
 // network/wire/udpm_datagram.h: one datagram of LCM's UDP multicast protocol ("UDPM"), as bytes.
-// Integers are big-endian. Source: lcm-proj/lcm, docs/content/udp-multicast-protocol.md. short:
-// "LC02" u32 sequence, channel, NUL, payload fragment: "LC03" u32 sequence, u32 message bytes, u32
-// offset, u16 number, u16 fragments; then, in fragment 0 only, channel and NUL; then the payload's
-// part from offset on Not installed.
+// Integers are big-endian. Source: lcm-proj/lcm, docs/content/udp-multicast-protocol.md. Short:
+// "LC02", u32 sequence, channel, NUL, payload. Fragment: "LC03", u32 sequence, u32 message bytes,
+// u32 offset, u16 number, u16 fragments; then, in fragment 0 only, channel and NUL; then the
+// payload's part from offset on. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ inline constexpr std::size_t kMaxShortBytes = 65499;
 inline constexpr std::size_t kMaxFragmentBytes = 65487;
 /// Fragments of one message: more than kMaxMessageBytes needs in the smallest cuts in use.
 inline constexpr std::size_t kMaxFragments = 4096;
-inline constexpr std::size_t kMaxDatagramBytes = 65507;  ///< Of UDP over IPv4.
+inline constexpr std::size_t kMaxDatagramBytes = 65507;  ///< The limit of UDP over IPv4.
 
 /// Why a datagram is not valid. Counted, never fatal.
 enum class DatagramFault : std::uint8_t {
@@ -33,7 +33,7 @@ enum class DatagramFault : std::uint8_t {
   Conflict,    ///< Disagrees with other fragments of the same message.
   Repeated,    ///< A fragment that came before.
   Incomplete,  ///< A message dropped before its missing fragments came.
-  Osc,         ///< Of a VMC port: no whole OSC packet.
+  Osc,         ///< At a VMC port: not a whole OSC packet.
 };
 inline constexpr std::size_t kNumDatagramFaults =
     static_cast<std::size_t>(DatagramFault::Osc) + 1;
@@ -45,7 +45,7 @@ struct UdpmDatagram {
   std::string_view channel;  ///< Empty in fragments other than the first.
   ByteView payload;
   bool isFragment = false;
-  std::uint32_t messageBytes = 0, offset = 0;  ///< Of fragments.
+  std::uint32_t messageBytes = 0, offset = 0;  ///< Only in fragments.
   std::uint16_t fragment = 0, fragments = 0;
 };
 

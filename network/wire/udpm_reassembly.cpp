@@ -238,7 +238,7 @@ void UdpmReassembler::makeWay(const UdpmSender& newcomer, const Partial* kept) {
   for (Slot& slot : slots_) {
     if (!slot || &*slot == kept) continue;
     const UdpmSender& sender = slot->key.sender;
-    // The newcomer's message counts as well.
+    // The newcomer's message counts, too.
     int ofSender = sender == newcomer ? 1 : 0;
     int ofAddress = sender.address == newcomer.address ? 1 : 0;
     for (const Slot& other : slots_) {

@@ -3,7 +3,7 @@
 //
 // Linux drops datagrams that come from outside under one of the machine's own addresses (martians),
 // and to most groups those from 0.0.0.0, which is what lo's own have (ip_mc_validate_source in
-// net/ipv4/route.c). So such an address means this machine. An address is no proof beyond that:
+// net/ipv4/route.c). So such an address means this machine. An address proves no more than that:
 // docs/streaming.md, "Who is believed".
 #pragma once
 
@@ -18,8 +18,8 @@ namespace foretouch {
 /// Addresses in host byte order.
 class SenderFilter {
  public:
-  /// A ttl of 0 means this machine alone; `networks` replace that, and this machine is always among
-  /// them. A ttl above 0 without `networks`: everybody.
+  /// A ttl of 0 means only this machine; `networks` replace that, and this machine is always among
+  /// them. A ttl above 0 without `networks`: every sender.
   SenderFilter(const UdpmUrl& url, std::vector<Network> networks);
   /// The same at a port that no group leads to: there 0.0.0.0 is not this machine.
   static SenderFilter ofUnicast(const UdpmUrl& url, std::vector<Network> networks);

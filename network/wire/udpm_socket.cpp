@@ -91,7 +91,7 @@ Result<internal::FileDescriptor> openListeningSocket(const UdpmUrl& url) {
   // Else Linux delivers the groups that any program on this machine has joined on this port.
   const int off = 0;
   setsockopt(fd, IPPROTO_IP, IP_MULTICAST_ALL, &off, sizeof off);
-  // To the group, not to any address: datagrams to this machine alone are not for us.
+  // To the group, not to any address: datagrams to only this machine are not for us.
   const sockaddr_in address = addressOf(url);
   if (bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     return socketError(url, "cannot listen", errno);

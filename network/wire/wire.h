@@ -78,7 +78,7 @@ class Receiver {
   [[nodiscard]] virtual WireCounts counts() const = 0;
   /// What the system gave of UdpmUrl::receiveBufferBytes; 0: not known.
   [[nodiscard]] virtual std::size_t receiveBufferBytes() const { return 0; }
-  /// Becomes readable when something came, for who waits for more than one receiver; -1: none.
+  /// Becomes readable when something came, for waiting for more than one receiver; -1: none.
   [[nodiscard]] virtual int readableFd() const { return -1; }
 };
 
@@ -94,7 +94,7 @@ inline constexpr std::size_t kMaxPartialBytes = 16u << 20;
 [[nodiscard]] Result<std::unique_ptr<Receiver>> openUdpmReceiver(
     const UdpmUrl& url, const std::vector<std::string>& channels,
     const std::vector<Network>& senders = {});
-/// The same by liblcm, from everybody. Two crafted datagrams can crash its receiving thread: for
+/// The same by liblcm, from all senders. Two crafted datagrams can crash its receiving thread: for
 /// trusted networks only.
 [[nodiscard]] Result<std::unique_ptr<Receiver>> openLcmReceiver(
     const std::string& url, const std::vector<std::string>& channels);

@@ -1,7 +1,7 @@
 // network/wire/wire_fields.h: a message's fields as one list: for each field its name in lines of
 // JSON, its place in the message, its place in the lcm-gen type, and which values are legal. A
-// reader checks every value before it hands it on, and what a list writes it reads. Whoever tells
-// of a message by names has them from here; a field without a name is one that he does not tell.
+// reader checks every value before it hands it on, and what a list writes it reads. Code that
+// writes a message by names has them from here, and leaves out a field without a name.
 //
 // The same list serves a message's head, whose fields stand alone, and its rows (contacts, joints),
 // whose fields stand in one vector each.
@@ -75,7 +75,7 @@ struct Real {
 };
 inline constexpr Real kFinite, kNotNegative{0.0}, kFraction{0.0, 1.0};
 
-/// Of a vector: finite, and no longer than a unit vector, but for rounding.
+/// A vector: finite, and no longer than a unit vector, but for rounding.
 struct Unit {
   Reject operator()(const Eigen::Vector3d& vector) const {
     constexpr double kMost = 1.0 + 1e-6;
@@ -230,7 +230,7 @@ constexpr Numbers<Member, Wired, 4, Rule> field(const char* name, Member member,
   return {name, member, {w, x, y, z}, rule};
 }
 
-/// One that nobody tells by name.
+/// A field that is not reported by name.
 template <typename Member, typename... Rest,
           typename = std::enable_if_t<!std::is_convertible_v<Member, const char*>>>
 constexpr auto field(Member member, Rest... rest) {

@@ -26,7 +26,7 @@ inline constexpr BodyNumber kNoBody = -1;
 
 enum class BodyMessageKind : std::int8_t { Rigid = 0, Avatar = 1 };
 
-/// What a body is, and who carries it since when.
+/// What a body is, and what carries it since when.
 struct BodyMessage {
   BodyNumber body = 0;
   std::int64_t session = 0, sequence = 0;
@@ -66,7 +66,7 @@ struct RigidPoseMessage {
 struct ToldBody {
   BodyNumber body = 0;
   std::int64_t knownUntilUs = -1;  ///< Its last accepted pose; -1: none yet.
-  bool isWaitedFor = false;        ///< By the watermark.
+  bool isWaitedFor = false;        ///< The watermark waits for it.
 };
 
 /// Part of a window in which a body is not known: nothing is claimed of it, nor of what it carries.
@@ -77,15 +77,15 @@ struct UnknownPart {
   std::int64_t fromUs = 0, toUs = 0;
 };
 
-/// Why a contact ends, as messages tell it: LeaveCause::Moved is an Apart there that says so
-/// besides, and one cause only streams know.
+/// Why a contact ends, as messages report it: there, LeaveCause::Moved is an Apart that says so
+/// besides. Only streams know one of the causes.
 enum class ToldCause : std::uint8_t { Apart = 0, NotAsked = 1, BodyGone = 2 };
 inline constexpr std::uint8_t kNumToldCauses = 3;
 
 /// As WorldEvent, with the numbers that messages give to bodies: kStillScene and kEveryBody stay.
 struct ToldEvent {
   WorldEvent event;                    ///< `isAssumed`: rests on something that is not known.
-  ToldCause cause = ToldCause::Apart;  ///< Of Apart, WorldEvent::cause says whether it is Moved.
+  ToldCause cause = ToldCause::Apart;  ///< For Apart, WorldEvent::cause says whether it is Moved.
 };
 
 /// Limits of an events_t, so that its lists fit into kMaxListed, and all into kMaxMessageBytes.

@@ -16,15 +16,15 @@ SpeakerGate& BoundWorld::gateOf(BodyNumber body) {
   return *gates_.emplace(body, std::make_unique<SpeakerGate>(policy_)).first->second;
 }
 
-/// Of a body that is there.
+/// Precondition: the body is there.
 bool BoundWorld::mayPass(const Heard& heard, BodyNumber body, WorldRecord& record) {
   if (heard.sender == UdpmSender()) return true;  // liblcm does not say who
   SpeakerGate& gate = gateOf(body);
   switch (gate.admit(heard.sender, heard.receiveUtimeUs)) {
     case SpeakerGate::Admission::Refused: return false;
     case SpeakerGate::Admission::Takeover:
-      // Who speaks for an avatar is a matter of its own stream: to say it here as well would change
-      // that in a replay.
+      // Which sender speaks for an avatar is its own stream's affair: to say it here, too, would
+      // change that in a replay.
       if (solver_.isAvatar(body)) return true;
       record.speaker({body, std::max<std::int64_t>(0, heard.receiveUtimeUs),
                       ntohl(heard.sender.address), ntohs(heard.sender.port)});
@@ -57,7 +57,7 @@ Reject BoundWorld::take(const Heard& heard, const BodyMessage& message, WorldRec
     solver_.refusedState(reason);
     return reason;
   }
-  // Whoever speaks first of a body that is gone is nobody's contender.
+  // A sender that speaks first of a body that is gone contends with none.
   if (!isThere) gates_.erase(message.body);
   reason = solver_.take(message, heard.receiveUtimeUs);
   if (reason != Reject::None) return reason;

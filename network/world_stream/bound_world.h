@@ -3,7 +3,7 @@
 // the solver, and is not recorded. So a recorded stream repeats the answers without knowing who
 // sent what. Avatars are bound by their own streams.
 //
-// A sender may have as many bodies as there are places left. So nobody takes all of them: the first
+// A sender may have as many bodies as there are places left. So none takes all of them: the first
 // one leaves half, the next one a quarter, and so on. Not installed.
 #pragma once
 

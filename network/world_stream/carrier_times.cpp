@@ -9,12 +9,12 @@ namespace {
 
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
-/// Of bodies above or below one, at all times: more than so many spans are not looked at. Eight
+/// Of the bodies above or below one, at all times, no more than so many spans are looked at. Eight
 /// that hang on one another and are handed over ten times a second stay far below.
 constexpr std::size_t kMostLooked = 1024;
 
-/// Calls `visit(carrier, fromUs, toUs)` for each time from `fromUs` on in which somebody carries
-/// it.
+/// Calls `visit(carrier, fromUs, toUs)` for each time from `fromUs` on in which another body
+/// carries it.
 template <typename Visit>
 void forEachCarrier(const LiveBody& body, std::int64_t fromUs, const Visit& visit) {
   const std::size_t told = body.carriers.size(), all = told + body.changes.size();
@@ -90,7 +90,7 @@ Reject carrierFault(const LiveBodies& bodies, BodyNumber body, BodyNumber carrie
 
 bool isUnknown(const LiveBodies& bodies, BodyNumber body, LinkId link, std::int64_t fromUs,
                std::int64_t toUs) {
-  if (body < 0) return false;  // the scene, everybody
+  if (body < 0) return false;  // the scene, every body
   struct Part {
     BodyNumber body;
     LinkId link;
@@ -104,7 +104,7 @@ bool isUnknown(const LiveBodies& bodies, BodyNumber body, LinkId link, std::int6
     const LiveBody& known = found->second;
     if (known.isUnknown(part.link, fromUs, toUs)) return true;
     if (!known.isHeldFast && known.saidUntilUs() < toUs) return true;
-    // At the instant of a change, by whoever carried it until then as well.
+    // At the instant of a change, also by the body that carried it until then.
     for (std::size_t c = 0; c < known.carriers.size(); ++c) {
       const LiveCarrier& by = known.carriers[c];
       const bool isOver = c + 1 < known.carriers.size() && known.carriers[c + 1].sinceUs < fromUs;

@@ -1,5 +1,5 @@
-// network/world_stream/carrier_times.h: who carries whom, and when, by all that was said of the
-// bodies of a live world: what the world has been told, and what waits. Not installed.
+// network/world_stream/carrier_times.h: which body carries which, and when, by all that was said of
+// the bodies of a live world: what the world has been told, and what waits. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace foretouch::internal {
                                   std::int64_t sinceUs);
 
 /// Whether a link of a body (kEveryLink: any) is unknown in [fromUs, toUs], by what the world has
-/// been told of it, or of who carries it. O(carriers).
+/// been told of it, or of what carries it. O(carriers).
 [[nodiscard]] bool isUnknown(const LiveBodies& bodies, BodyNumber body, LinkId link,
                              std::int64_t fromUs, std::int64_t toUs);
 

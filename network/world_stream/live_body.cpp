@@ -8,8 +8,8 @@ bool isSamePose(const RigidPose& x, const RigidPose& y) {
   return x.translation == y.translation && x.rotation.coeffs() == y.rotation.coeffs();
 }
 
-/// A pose at the very instant of a change is in the frame before it: of the first one that is heard
-/// it must be the same pose.
+/// A pose at the very instant of a change is in the frame before it: at the first change that is
+/// heard, it must be the same pose.
 bool LiveBody::hasFrameOf(std::int64_t utimeUs, const RigidPose& pose) const {
   return utimeUs > firstUs || (utimeUs == firstUs && isSamePose(pose, firstPose));
 }
@@ -51,7 +51,7 @@ bool LiveBody::isUnknown(LinkId link, std::int64_t fromUs, std::int64_t toUs) co
 
 Reject rigidPlaceFault(const LiveBody& body, const RigidPlace& place, std::int64_t receiveUtimeUs,
                        std::int64_t restartUs, bool& isGap) {
-  // Nobody knows whether the first pose that is heard is the first one.
+  // It is not known whether the first pose that is heard is the first one.
   isGap = !body.hasStream;
   if (isGap) return Reject::None;
   if (place.utimeUs <= body.knownUntilUs) {

@@ -26,14 +26,14 @@ struct LiveKnot {
   std::int64_t utimeUs = 0;
   /// Nothing: it is not known. For the world it is then where it was.
   std::optional<Pose> pose;
-  // Of a solid body.
+  // For a solid body.
   std::int64_t session = 0, sequence = 0, lost = 0;
   bool isGap = false;  ///< Something before it is not known.
   bool areRootsKnown = true;
   std::vector<std::uint8_t> isTracked{};  ///< One per joint; none: all are.
 };
 
-/// From an instant on, another one carries the body, or nobody, or it is gone.
+/// From an instant on, another one carries the body, or none does, or it is gone.
 struct LiveChange {
   std::int64_t sinceUs = 0;
   bool isPresent = true;
@@ -59,7 +59,7 @@ struct UnknownSpan {
   std::int64_t fromUs = 0, toUs = 0;
 };
 
-/// Who carries a body since when.
+/// What carries a body since when.
 struct LiveCarrier {
   std::int64_t sinceUs = 0;
   BodyNumber carrier = kNoBody;
@@ -76,8 +76,8 @@ struct LiveBody {
   bool hasStream = false;  ///< A pose was accepted; the next four are of the last one.
   bool isOtherSpeaker = false;
   std::int64_t session = 0, sequence = 0, knownUntilUs = -1, heardUs = 0;
-  std::int64_t stateSession = 0, stateSequence = -1;  ///< Of the last accepted body_t.
-  LiveChange state;                                   ///< That was accepted last.
+  std::int64_t stateSession = 0, stateSequence = -1;  ///< The last accepted body_t's.
+  LiveChange state;                                   ///< The one accepted last.
   std::int64_t firstUs = -1;  ///< Since when its first state holds; before it no frame is known.
   RigidPose firstPose;        ///< Then.
   /// What was announced and is not due; states count from their instants on.
@@ -89,7 +89,7 @@ struct LiveBody {
   std::int64_t backUs = -1;
   bool skips = false;  ///< Something between its last accepted pose and the next one is missing.
   std::deque<LiveKnot> knots;      ///< Not told to the world.
-  std::deque<LiveChange> changes;  ///< Likewise, by time.
+  std::deque<LiveChange> changes;  ///< Not told to the world, by time.
   std::vector<UnknownSpan> unknown;
 
   // What the world knows.

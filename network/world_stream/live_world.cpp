@@ -17,7 +17,7 @@ constexpr std::size_t kMostSlots = 4096;
 
 constexpr std::int64_t kEarliest = std::numeric_limits<std::int64_t>::min();
 
-/// LiveWorld::Due::rank. Of who is carried: one more each time that it waits for its carrier.
+/// LiveWorld::Due::rank. For a body that is carried: one more each time it waits for its carrier.
 constexpr int kIsPose = 0, kIsLetGo = 1, kIsCarried = 2;
 
 Pose poseOf(const RigidPose& rigid) {
@@ -84,7 +84,7 @@ bool LiveWorld::hasRoomFor(std::size_t bodies) const {
 }
 
 std::optional<BodyNumber> LiveWorld::numberOf(BodyId slot, std::int64_t utimeUs) const {
-  if (slot < 0) return slot;  // the scene, everybody
+  if (slot < 0) return slot;  // the scene, every body
   if (slotOf(slot) >= slots_.size()) return std::nullopt;
   const Slot& place = slots_[slotOf(slot)];
   if (place.goneUs && utimeUs >= *place.goneUs) return std::nullopt;
@@ -123,7 +123,7 @@ void LiveWorld::offer(LiveBody& body, std::int64_t untilUs, std::int64_t notBefo
 void LiveWorld::tell(LiveBodies& bodies, std::int64_t untilUs) {
   for (auto& [number, body] : bodies) offer(body, untilUs, kEarliest);
   tellDue(bodies, untilUs);
-  // Of those that still wait, what was to follow.
+  // What was to follow of those that still wait.
   while (!waiting_.empty()) {
     tellWaiting(untilUs);
     tellDue(bodies, untilUs);
@@ -160,7 +160,7 @@ void LiveWorld::tellNext(LiveBodies& bodies, const Due& due, std::int64_t untilU
   if (!wasThere && body.slot) wake(body, due.us, untilUs);
 }
 
-/// Of two who change their carriers at one instant the carrier comes first.
+/// If two bodies change their carriers at one instant, the carrier comes first.
 bool LiveWorld::waitsForCarrier(LiveBodies& bodies, const Due& due, std::int64_t untilUs) {
   if (due.rank < kIsCarried || due.rank > kIsCarried + kMostCarriers) return false;
   const auto carrier = bodies.find(due.body->changes.front().carrier);
@@ -169,7 +169,7 @@ bool LiveWorld::waitsForCarrier(LiveBodies& bodies, const Due& due, std::int64_t
   return next && next->us == due.us && next->rank == kIsCarried;
 }
 
-/// `carrier` is there from `utimeUs` on: who waits for it goes on.
+/// `carrier` is there from `utimeUs` on: what waits for it goes on.
 void LiveWorld::wake(const LiveBody& carrier, std::int64_t utimeUs, std::int64_t untilUs) {
   const auto waits = [&](const LiveBody* other) {
     return other->changes.front().carrier == carrier.number;
@@ -182,7 +182,7 @@ void LiveWorld::wake(const LiveBody& carrier, std::int64_t utimeUs, std::int64_t
   waiting_.erase(first, waiting_.end());
 }
 
-/// Nobody will carry them by now. A change whose time is over by the next one is given up.
+/// No body will carry them by now. A change whose time is over by the next one is given up.
 void LiveWorld::tellWaiting(std::int64_t untilUs) {
   const std::vector<LiveBody*> waiting = std::exchange(waiting_, {});
   for (LiveBody* const body : waiting) {
@@ -195,7 +195,7 @@ void LiveWorld::tellWaiting(std::int64_t untilUs) {
   }
 }
 
-/// What nobody has said until `untilUs`.
+/// Fills in what its stream has not said until `untilUs`.
 void LiveWorld::holdShort(LiveBody& body, std::int64_t untilUs) {
   if (!isShort(body, untilUs)) return;
   body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, untilUs);
@@ -212,8 +212,8 @@ void LiveWorld::markSince(LiveBody& body, const LiveChange& change, std::int64_t
   if (fromUs < untilUs) body.addUnknown(kEveryLink, UndecidedReason::Gap, fromUs, untilUs);
 }
 
-/// The body's next change, which nobody could follow, has ended by the one after it. What was said
-/// in between is of no use.
+/// The body's next change, which could not be followed, has ended by the one after it. What was
+/// said in between is of no use.
 void LiveWorld::giveUp(LiveBody& body) {
   const std::int64_t endUs = body.changes[1].sinceUs;
   body.addUnknown(kEveryLink, UndecidedReason::Gap, body.changes[0].sinceUs, endUs);
@@ -287,7 +287,7 @@ void LiveWorld::takeKnot(LiveBody& body, const LiveKnot& knot) {
   }
 }
 
-/// Nobody said where it was from its last pose on.
+/// It is not known where it was from its last pose on.
 void LiveWorld::holdUntil(LiveBody& body, std::int64_t utimeUs) {
   if (!body.slot || body.isHeldFast || body.toldUntilUs >= utimeUs) return;
   body.addUnknown(kEveryLink, UndecidedReason::Gap, body.toldUntilUs, utimeUs);
@@ -316,7 +316,7 @@ bool LiveWorld::takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& chang
   } else {
     isTaken = attach(bodies, body, change, untilUs);
   }
-  // Put off for a later answer as well: that one does not know since when it was said.
+  // Also if put off for a later answer: that one does not know since when it was said.
   if (change.sinceUs > saidUs) {
     body.addUnknown(kEveryLink, UndecidedReason::Gap, saidUs, change.sinceUs);
   }
@@ -346,7 +346,7 @@ bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change,
   }
   if (isNew) body.beginUs = change.sinceUs;
   changed(body, change);
-  // Nobody knows which of its poses is heard first.
+  // It is not known which of its poses is heard first.
   if (isNew && change.movesInFrame) body.isElsewhere = true;
   return true;
 }
@@ -365,13 +365,13 @@ void LiveWorld::changed(LiveBody& body, const LiveChange& change) {
   body.carriers.push_back({change.sinceUs, change.carrier, change.link});
 }
 
-/// Nobody carries it from here on; or it is told to be here.
+/// No body carries it from here on; or its state says that it is here.
 void LiveWorld::letGo(LiveBody& body, const LiveChange& change) {
   const bool isCarried = !body.carriers.empty() && body.carriers.back().carrier != kNoBody;
   const Pose pose = poseOf(change.pose);
   if (!body.slot) {
     push(body, change.sinceUs, pose);
-    body.isElsewhere = true;  // nobody knows which of its poses is heard first
+    body.isElsewhere = true;  // not known which of its poses is heard first
     return;
   }
   if (!isCarried) return letGoUnheard(body, change);
@@ -384,7 +384,7 @@ void LiveWorld::letGo(LiveBody& body, const LiveChange& change) {
   changed(body, change);
 }
 
-/// Nobody carries it since then: so somebody did before, which was not heard.
+/// No body carries it since then: so one did before, which was not heard.
 void LiveWorld::letGoUnheard(LiveBody& body, const LiveChange& change) {
   const std::int64_t untilUs = body.toldUntilUs;
   body.addUnknown(kEveryLink, UndecidedReason::Gap, std::min(untilUs, change.sinceUs),

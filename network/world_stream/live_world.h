@@ -1,5 +1,5 @@
-// network/world_stream/live_world.h: the World of a live stream: what its bodies have said until an
-// instant is told to it there, and what happens is followed. Not installed.
+// network/world_stream/live_world.h: the World of a live stream: at an instant, tells it what its
+// bodies have said until then, and follows what happens. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ struct GoneBody {
 /// One thread.
 class LiveWorld {
  public:
-  /// Nobody is there yet. `holdsStill`: whoever says nothing stays where he was. Errors: those of
-  /// World::build(), WorldSetup::ask and SolidBodies::make().
+  /// No body is there yet. `holdsStill`: a body that says nothing stays where it was. Errors: those
+  /// of World::build(), WorldSetup::ask and SolidBodies::make().
   static Result<LiveWorld> make(const WorldSetup& setup, bool holdsStill, std::int64_t fromUs);
 
   /// Whether so many more bodies may come before it must be made anew.
@@ -50,7 +50,7 @@ class LiveWorld {
   /// The latest pose that it was told.
   [[nodiscard]] std::optional<std::int64_t> knownUntilUs() { return world().knownUntilUs(); }
 
-  /// Whose place in the world this is, if it was there at that instant.
+  /// The body whose place in the world this is, if it was there at that instant.
   [[nodiscard]] std::optional<BodyNumber> numberOf(BodyId slot, std::int64_t utimeUs) const;
   /// Bodies that tell() found gone; the caller empties it.
   std::vector<GoneBody>& gone() { return gone_; }
@@ -66,11 +66,11 @@ class LiveWorld {
       : setup_(&setup), holdsStill_(holdsStill), follower_(std::move(follower)) {}
   [[nodiscard]] World& world() { return solids_ ? solids_->world() : *world_; }
   [[nodiscard]] Result<BodyId> add(const LiveBody& body, const BodyOptions& options);
-  /// What a body has to tell next. What everybody tells comes in the order of time, whoever tells
-  /// it: so where one is to carry another, all is told that came before.
+  /// What a body has to tell next. What all bodies tell comes in the order of time: so where one is
+  /// to carry another, all that came before has been told.
   struct Due {
     std::int64_t us = 0;
-    /// At one instant: poses, which are in the frame before it, then who is let go of, then who is
+    /// At one instant: poses, which are in the frame before it, then bodies let go of, then bodies
     /// carried, each after its carrier.
     int rank = 0;
     LiveBody* body = nullptr;

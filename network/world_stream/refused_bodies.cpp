@@ -6,9 +6,9 @@
 namespace foretouch {
 namespace {
 
-/// More are not kept: whoever was refused least lately makes place.
+/// More are not kept: the body that was refused longest ago makes place.
 constexpr std::size_t kMostKept = 256;
-/// Of whom no pose came for so long, nobody waits to hear.
+/// A body of which no pose came for so long is not listed any more.
 constexpr std::int64_t kOverUs = 2'000'000;
 
 }  // namespace

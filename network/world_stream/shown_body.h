@@ -8,7 +8,7 @@
 
 namespace foretouch {
 
-/// But for the stamps of receiving and sending.
+/// Both messages, but for the stamps of receiving and sending.
 struct ShownBody {
   SolidMessage solid;
   PushesMessage pushes;

@@ -159,7 +159,7 @@ void SolidBodies::findInstants(std::int64_t untilUs) {
   instants_.push_back(untilUs);
 }
 
-/// Where its tracker says that it is then.
+/// Sets its target: where its tracker says that it is then.
 void SolidBodies::aim(Solid& solid, std::int64_t utimeUs) {
   std::deque<LiveKnot>& knots = solid.knots;
   const auto count = [&](const LiveKnot& knot) {

@@ -29,29 +29,29 @@ namespace foretouch::internal {
 /// One thread.
 class SolidBodies {
  public:
-  /// Nobody is there yet. Errors: those of SolidWorld::build() and WorldSetup::ask.
+  /// No body is there yet. Errors: those of SolidWorld::build() and WorldSetup::ask.
   static Result<std::unique_ptr<SolidBodies>> make(const WorldSetup& setup, std::int64_t fromUs);
 
   [[nodiscard]] World& world() { return world_.world(); }
   /// What no body of the world meets; it is the first one, and known until the last tick's end, so
-  /// that the world can be asked until there, whoever is there.
+  /// that the world can be asked until there, whichever bodies are there.
   [[nodiscard]] BodyId clock() const { return clock_; }
   /// Errors: as SolidWorld::add(); more joints than a message holds.
   Result<BodyId> add(BodyNumber number, const WorldShape& shape, const SolidOptions& options,
                      const BodyOptions& body);
   /// The next pose of a body that was added. Precondition: later than its last one.
   void follow(BodyId body, const LiveKnot& knot);
-  /// Nobody says where it is then: taken to be where it was.
+  /// No pose says where it is then: it is taken to be where it was.
   void hold(BodyId body, std::int64_t utimeUs);
 
-  /// Whose place in the world that is; nothing if nobody's any more.
+  /// The body whose place in the world that is; nothing if it is no body's any more.
   using NumberOf = std::function<std::optional<BodyNumber>(BodyId)>;
-  /// From the last tick's end until then. `timeline`: for messages. Fills `shown`: of each tick
+  /// From the last tick's end until then. `timeline`: for messages. Fills `shown`: for each tick
   /// those that have begun, by body. Errors: a time of more ticks than one advance has; as
   /// SolidWorld::tick().
   Result<Done> tick(std::int64_t untilUs, std::int64_t timeline, const NumberOf& numberOf,
                     std::vector<ShownBody>& shown);
-  /// Of the last tick(), as SolidOptions::workBudget.
+  /// The work of the last tick(), as SolidOptions::workBudget.
   [[nodiscard]] std::uint64_t work() const { return work_; }
 
  private:

@@ -96,7 +96,7 @@ Reject WorldRoster::whyNot(const BodyMessage& message) const {
     if (isSession && message.sequence == body.stateSequence) return Reject::Duplicate;
     if (isSession && message.sequence < body.stateSequence) return Reject::OutOfOrder;
   }
-  if (!body.state.isPresent) return Reject::Late;  // gone, and told so already
+  if (!body.state.isPresent) return Reject::Late;  // gone, and said so already
   if (body.changes.size() >= kMostWaitingChanges) return Reject::Overrun;
   return carrierFaultOf(message);
 }
@@ -166,7 +166,7 @@ Reject WorldRoster::timeFault(LiveBody& body, std::int64_t utimeUs, std::int64_t
     return Reject::Late;
   }
   if (utimeUs > nowUs + policy_.aheadUs || utimeUs > kMostUtimeUs) return Reject::FutureStamp;
-  // Nobody waits for so long.
+  // No answer waits for so long.
   return utimeUs < nowUs - std::max(policy_.waitUs, kMostWorldWaitUs) ? Reject::Late : Reject::None;
 }
 
@@ -174,7 +174,7 @@ void WorldRoster::keep(LiveBody& body, LiveKnot knot, bool isGap, std::int64_t r
   received(receiveUtimeUs);
   const bool isKnown = knot.pose.has_value();
   const std::int64_t saidUs = body.saidUntilUs();
-  // Who is silent for longer than anybody waits is so whether or not others went on meanwhile.
+  // A silence longer than bodies are waited for is one whether or not others went on meanwhile.
   const bool wasSilent =
       policy_.whenSilent != WhenSilent::Wait && knot.utimeUs - saidUs > policy_.waitUs;
   const bool isPassed = answeredUs_ && saidUs < *answeredUs_;
@@ -314,11 +314,11 @@ std::optional<std::int64_t> WorldRoster::watermark() {
     waitsFor_ = number;
   }
   const auto furthest = slowest ? slowest : latest;
-  // Stamps of what has not happened hurry nobody: who speaks now speaks of now.
+  // Stamps of what has not happened hurry no body: what is said now is about now.
   return furthest ? std::optional(std::min(*furthest, nowUs_)) : std::nullopt;
 }
 
-/// Whoever is gone by this makes place for others.
+/// A body that is gone by this makes place for others.
 void WorldRoster::forgetSilent() {
   for (auto& [number, body] : bodies_) {
     if (body.isAvatar || !body.state.isPresent || nowUs_ - body.heardUs <= policy_.forgetUs) {

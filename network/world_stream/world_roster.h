@@ -1,5 +1,5 @@
 // network/world_stream/world_roster.h: the bodies of a live world: which messages about them are
-// accepted, how far all that is waited for is known, and who is gone. Not installed.
+// accepted, how far all that is waited for is known, and which are gone. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ class WorldRoster {
   /// As WorldSolver's.
   [[nodiscard]] const std::vector<Reject>& reasons() const { return reasons_; }
 
-  /// How far all is known that is waited for; nothing if nobody is there.
+  /// How far all that is waited for is known; nothing if no body is there.
   [[nodiscard]] std::optional<std::int64_t> watermark();
   /// All before is answered: later messages about it are late. Nothing: the timeline begins anew.
   void answered(std::optional<std::int64_t> utimeUs);

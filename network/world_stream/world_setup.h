@@ -1,5 +1,5 @@
 // network/world_stream/world_setup.h: what a live world is made of: the shapes that messages name,
-// the avatars that pose_t tells of, and how long anybody is waited for. Not installed.
+// the avatars that pose_t is about, and how long a body is waited for. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -23,14 +23,14 @@ namespace foretouch {
 /// A shape that bodies may have: exactly one of the first two after its name is there.
 struct WorldShape {
   std::string name;
-  std::optional<Avatar> avatar;  ///< Or a rigid prop made of LSS: of one link.
+  std::optional<Avatar> avatar;  ///< Or a rigid prop made of LSS: one link.
   std::optional<Scene> mesh;
   BodyGroup group = 0;
   std::optional<PairRules> self;
 };
 
-/// Of what touches, as defined in docs/formats.md ("Shape hash"): XXH64 of the names, parents, rest
-/// pose and LSS of its links, or of its triangles. Never 0.
+/// The hash of what touches, as defined in docs/formats.md ("Shape hash"): XXH64 of the names,
+/// parents, rest pose and LSS of its links, or of its triangles. Never 0.
 [[nodiscard]] std::int64_t shapeHash(const WorldShape& shape);
 
 struct WorldSetup {
@@ -50,12 +50,12 @@ struct WorldSetup {
 };
 /// Whether any body of the world is solid.
 [[nodiscard]] bool hasSolidBodies(const WorldSetup& setup);
-/// Of a solid body; null: it is none.
+/// The options of a solid body; null: it is not solid.
 [[nodiscard]] const SolidOptions* solidOptionsOf(const WorldSetup& setup, BodyNumber body);
 
 /// Times in microseconds.
 struct WorldPolicy {
-  /// A body that has told nothing captured in the last `waitUs` before the newest receipt is silent
+  /// A body that has said nothing captured in the last `waitUs` before the newest receipt is silent
   /// (unless `whenSilent` is Wait): the watermark goes on without it. So clocks of senders must
   /// agree with the service's within this. 1 to kMostWorldWaitUs.
   std::int64_t waitUs = 200'000;
@@ -63,24 +63,24 @@ struct WorldPolicy {
   WhenSilent whenSilent = WhenSilent::Undecided;
   /// A pose captured later than this after its receipt is refused. 0 to kMostWorldWaitUs.
   std::int64_t aheadUs = 1'000'000;
-  /// A body that nobody speaks of for so long is gone. At least `waitUs`.
+  /// A body that no sender speaks of for so long is gone. At least `waitUs`.
   std::int64_t forgetUs = 60'000'000;
-  /// That are there at a time, avatars included. 1 to kMaxToldBodies.
+  /// Bodies that are there at a time, avatars included. 1 to kMaxToldBodies.
   std::size_t maxBodies = 1024;
 };
 inline constexpr std::int64_t kMostWorldWaitUs = 60'000'000;
 /// Accepted poses of a body that wait for the watermark; more are refused (Overrun).
 inline constexpr std::size_t kMostWaitingKnots = 1024;
-/// Changes of who carries a body that wait likewise.
+/// Changes of what carries a body that wait for the watermark; more are refused (Overrun).
 inline constexpr std::size_t kMostWaitingChanges = 64;
-/// What a served world's WorldOptions should be: ten milliseconds a window, perhaps, whatever is
-/// there; and nobody is asked about more neighbours than a crowd of people has.
+/// What a served world's WorldOptions should be: ten milliseconds per window, perhaps, whatever is
+/// there; and no body is asked about more neighbours than a crowd of people has.
 inline constexpr std::uint64_t kServedWorkPerWindow = 1'000'000;
 inline constexpr std::size_t kServedMostNear = 64;
 /// One advance follows the world from pose to pose, but in at most so many windows.
 inline constexpr std::uint64_t kMostWindowsPerAdvance = 64;
-/// The watermark moves by at least so much (us): whoever sends more often than that, or much of
-/// many bodies by turns, does not make as many answers, each of which lists all bodies.
+/// The watermark moves by at least so much (us): a sender that sends more often, or much of many
+/// bodies by turns, does not cause as many answers, each of which lists all bodies.
 inline constexpr std::int64_t kLeastAdvanceUs = 1000;
 /// How many bodies may hang on one another.
 inline constexpr int kMostCarriers = 8;

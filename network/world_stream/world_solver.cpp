@@ -139,7 +139,7 @@ struct WorldSolver::Impl {
       roster.answered(std::nullopt);
     }
     const auto until = roster.watermark();
-    // Not before all who begin together have said where they do.
+    // Not before all bodies that begin together have said where they do.
     if (until && !world && *until > firstUs()) begin(firstUs(), true);
     if (until && world && *until - fromUs >= leastAdvanceUs) answerUntil(*until, answers, count);
     answers.resize(count);
@@ -150,7 +150,7 @@ struct WorldSolver::Impl {
     if (!world->hasRoomFor(roster.bodies().size())) begin(fromUs, true);
     world->tell(roster.bodies(), untilUs);
     const bool isShown = show(untilUs);
-    // Nobody may be there yet: then there is no world to ask.
+    // There may be no body yet: then there is no world to ask.
     const auto knownUs = world->knownUntilUs();
     bool isAnswered = isShown && knownUs && *knownUs >= untilUs;
     if (isAnswered && !world->follow(untilUs, found).ok()) {
@@ -200,11 +200,11 @@ struct WorldSolver::Impl {
     if (!isAnswered) begin(untilUs, true);
   }
 
-  /// The events of those who are there, by their numbers.
+  /// The events of the bodies that are there, by their numbers.
   void translate(std::int64_t untilUs) {
     static_cast<void>(untilUs);
     for (const WorldEvent& event : found.events) {
-      // Who is gone is not silent.
+      // A body that is gone is not silent.
       const auto a = world->numberOf(event.a.body, event.time.us);
       const auto b = world->numberOf(event.b.body, event.time.us);
       if (!a || !b) continue;

@@ -4,11 +4,11 @@
 // receipts and their order alone. The service, the replay of a log and the simulator run the same
 // code, so their answers are equal, byte for byte.
 //
-// The watermark is where all is known that is waited for: the earliest last pose of the bodies that
-// are not silent (WorldPolicy::waitUs). Nothing is claimed of who is not known: messages list what
+// The watermark is where all that is waited for is known: the earliest last pose of the bodies that
+// are not silent (WorldPolicy::waitUs). Nothing is claimed of what is not known: messages list it
 // (UnknownPart), and mark events that rest on it. Clocks of senders are compared with the receipts,
 // by one clock: no sender can hold up the others for longer than waitUs, or hurry them: the
-// watermark never passes the newest receipt, and whoever comes too late for it, but in time, is
+// watermark never passes the newest receipt, and a body that is too late for it, but in time, is
 // waited for from then on. Solid bodies (WorldSetup::ServedAvatar::solid) go on with the watermark:
 // what they show, and what presses against them, comes beside the events, which are about what is
 // shown. docs/streaming.md, "A moving world", has the whole story. Not installed.
@@ -41,7 +41,7 @@ class WorldSolver {
 
   /// Each says whether the message is accepted. What is refused changes nothing, and counts.
   [[nodiscard]] Reject take(const BodyMessage& message, std::int64_t receiveUtimeUs);
-  /// None if any of its bodies accepts its pose; the others count as well. Else the first reason.
+  /// None if any of its bodies accepts its pose; the others count, too. Else the first reason.
   [[nodiscard]] Reject take(const RigidPoseMessage& message, std::int64_t receiveUtimeUs);
   /// The step of an accepted pose_t. A pose that the world refuses is answered all the same.
   [[nodiscard]] Reject take(BodyNumber avatar, const StreamStep& step, std::int64_t receiveUtimeUs);
@@ -49,12 +49,12 @@ class WorldSolver {
   void changeSpeaker(BodyNumber body);
   /// A state, or a body's pose, was refused before it came here.
   void refusedState(Reject reason);
-  /// `body`: kNoBody where nobody knows of whom it is.
+  /// `body`: kNoBody where it is not known whose pose it is.
   void refusedPose(BodyNumber body, Reject reason, std::int64_t receiveUtimeUs);
-  /// The last take() changed who is waited for, though it refused the message: so a replay needs it
-  /// as well.
+  /// The last take() changed which bodies are waited for, though it refused the message: so a
+  /// replay needs it, too.
   [[nodiscard]] bool isNoted() const;
-  /// Of the last rigid_pose_t: why the pose of each of its bodies was refused.
+  /// Why the last rigid_pose_t's pose of each of its bodies was refused.
   [[nodiscard]] const std::vector<Reject>& reasons() const;
 
   /// After each take(): moves the watermark as far as it can, and fills `answers`, but for the
