@@ -59,7 +59,7 @@ class ModelMotion {
   /// The pose at t in [0,1]; the given ones, bit for bit, at both ends. `pose` is resized. At a
   /// constant rate only for the ends: ChainMotion has the others.
   void poseAt(double t, Pose& pose) const;
-  /// The pose of these joints (a flag per joint); in between, the others stay as the step begins.
+  /// Poses these joints (a flag per joint; none: all); in between, others stay as the step begins.
   void poseAt(double t, const std::vector<std::uint8_t>& isMoved, Pose& pose) const;
   /// For the piece [begin, end] of the step, with the joint's constant rate between poseAt(begin)
   /// and poseAt(end). Infinite: the piece is too long to say.

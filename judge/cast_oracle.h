@@ -42,8 +42,8 @@ struct CastShape {
 /// from both ends of the way, and not along it.
 [[nodiscard]] bool surelyCrosses(const CastShape& shape, Real until, const OraclePart& part,
                                  Real margin);
-/// Whether a ray crosses the surface an odd number of times, where it passes near no edge. The
-/// triangles are those of a closed surface.
+/// Whether a ray crosses the closed surface an odd number of times: the first of fifty that passes
+/// near no edge, or, where each does, one more.
 [[nodiscard]] bool isInside(const Vec3r& p, const std::vector<Corners<Real>>& surface);
 /// The distance of a point from the part's surface; negative for a point in a capsule.
 [[nodiscard]] Real heightOver(const Vec3d& p, const OraclePart& part);

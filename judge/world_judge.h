@@ -57,8 +57,8 @@ class OracleWorld {
   [[nodiscard]] Real separationAt(int a, int linkOfA, int b, int linkOfB, std::int64_t fromUs,
                                   Real us) const;
   /// Those of all links of a and of b, row after row; for links that are proven farther apart than
-  /// `beyond` (m), at least that. Links without parts are infinitely far apart. `isFromLeft`: where
-  /// a body changes its carrier then.
+  /// `beyond` (m), at least that. Links without parts are infinitely far apart, and of one body all
+  /// but pairs of a link and a later one. `isFromLeft`: where a body changes its carrier then.
   [[nodiscard]] std::vector<Real> separationsAt(int a, int b, std::int64_t fromUs, Real us,
                                                 bool isFromLeft, Real beyond) const;
   /// The first instant, of a window in which both are there, at which two links are within kTouch.

@@ -16,7 +16,7 @@ namespace internal {
 /// Unit roundoff of float.
 inline constexpr float kUnitRoundoffOfFloat = 0x1p-24F;
 
-/// Covers the rounding of a norm and of a bound's own few operations: 4,500 unit roundoffs of
+/// Covers the rounding of a norm and of a bound's own few operations: 9,000 unit roundoffs of
 /// double. Bounds are too large by that much.
 inline constexpr double kInflation = 1.0 + 1e-12;
 

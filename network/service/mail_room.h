@@ -73,7 +73,7 @@ inline constexpr std::size_t kMaxWaitingSkeletons = 8;
 /// States that wait, of all bodies of a world together.
 inline constexpr std::size_t kMaxWaitingStates = 1024;
 /// Steps that a world has not been told of. They are answered, and so none is dropped: beyond so
-/// many no poses are taken.
+/// many no poses of avatars are taken.
 inline constexpr std::size_t kMaxWaitingSteps = 8192;
 
 class MailRoom {

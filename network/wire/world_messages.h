@@ -65,7 +65,7 @@ struct RigidPoseMessage {
 /// A body that is there where a window ends.
 struct ToldBody {
   BodyNumber body = 0;
-  std::int64_t knownUntilUs = -1;  ///< Its last accepted pose; -1: none yet.
+  std::int64_t knownUntilUs = -1;  ///< Its last pose, or state that was due; -1: none.
   bool isWaitedFor = false;        ///< The watermark waits for it.
 };
 

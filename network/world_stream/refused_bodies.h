@@ -16,7 +16,7 @@ namespace foretouch {
 struct RefusedBody {
   BodyNumber body = 0;
   Reject reason = Reject::None;  ///< Why the last pose was refused.
-  std::int64_t sinceUs = 0;      ///< Receipt of the first one since a pose was accepted.
+  std::int64_t sinceUs = 0;      ///< Receipt of the first since one was accepted, or a pause.
   std::int64_t lastUs = 0;       ///< Receipt of the last one.
   std::uint64_t poses = 0;       ///< Since then.
 };
