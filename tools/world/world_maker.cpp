@@ -53,7 +53,8 @@ class WorldMaker {
       FORETOUCH_CHECK(changeAt(first->file->utimeUs, {first, next}));
       first = next;
     }
-    return checkAll();
+    takePoses();
+    return Done{};
   }
 
  private:
@@ -99,7 +100,7 @@ class WorldMaker {
   Result<Done> push(BodyId body, std::int64_t utimeUs, const Pose& pose, const std::string& file,
                     std::int64_t line);
   Result<Done> pushUntil(BodyId body, std::int64_t untilUs);
-  Result<Done> checkAll();
+  void takePoses();
 
   LoadedWorld& loaded_;
   std::vector<BodyKnots> knots_;
@@ -346,7 +347,7 @@ Result<Done> WorldMaker::tell(const DueChange& due) {
 }
 
 /// Fills in the poses of each body, and until when the world itself is known.
-Result<Done> WorldMaker::checkAll() {
+void WorldMaker::takePoses() {
   for (BodyId body = 0; body < numBodies(); ++body) {
     LoadedBody& loaded = bodyOf(body);
     const auto& knots = knots_[slotOf(body)].knots;
@@ -359,7 +360,6 @@ Result<Done> WorldMaker::checkAll() {
   }
   const auto knownUs = loaded_.world.knownUntilUs();
   if (knownUs) loaded_.endUs = std::max(loaded_.beginUs + 1, std::min(loaded_.endUs, *knownUs));
-  return Done{};
 }
 
 }  // namespace
