@@ -141,29 +141,25 @@ class WindowQuery {
       ++near[slotOf(pair.b)];
     }
     if (std::none_of(near.begin(), near.end(), [&](std::uint32_t n) { return n > most; })) return;
-    scratch_.isCrowded.resize(near.size());
+    std::vector<bool>& isCrowded = scratch_.isCrowded;
+    for (const std::uint32_t n : near) isCrowded.push_back(n > most);
+    // One that is silent as well is so from its last pose on, and crowded from the begin.
+    auto& silent = answer_.silent;
+    silent.erase(std::remove_if(silent.begin(), silent.end(),
+                                [&](const SilentBody& s) { return isCrowded[slotOf(s.body)]; }),
+                 silent.end());
     for (BodyId id = 0; id < numBodies(); ++id) {
-      scratch_.isCrowded[slotOf(id)] = near[slotOf(id)] > most;
-      if (near[slotOf(id)] <= most) continue;
-      answer_.silent.push_back(
-          {id, window_.fromUs, WhenSilent::Undecided, UndecidedReason::WorkBudget});
+      if (!isCrowded[slotOf(id)]) continue;
+      silent.push_back({id, window_.fromUs, WhenSilent::Undecided, UndecidedReason::WorkBudget});
     }
+    std::sort(silent.begin(), silent.end(),
+              [](const SilentBody& x, const SilentBody& y) { return x.body < y.body; });
     std::vector<MeetingBodies>& pairs = scratch_.meeting;
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
                                [&](const MeetingBodies& pair) {
-                                 return scratch_.isCrowded[slotOf(pair.a)] &&
-                                        scratch_.isCrowded[slotOf(pair.b)];
+                                 return isCrowded[slotOf(pair.a)] && isCrowded[slotOf(pair.b)];
                                }),
                 pairs.end());
-    // One that is silent as well is so from its last pose on, and crowded from the begin.
-    auto& silent = answer_.silent;
-    std::sort(silent.begin(), silent.end(), [](const SilentBody& x, const SilentBody& y) {
-      return std::tie(x.body, x.sinceUs) < std::tie(y.body, y.sinceUs);
-    });
-    silent.erase(
-        std::unique(silent.begin(), silent.end(),
-                    [](const SilentBody& x, const SilentBody& y) { return x.body == y.body; }),
-        silent.end());
   }
 
   /// Most props are far from everything: only of the others more than a rough box is needed.

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "middleware/events/world_follower.h"
+#include "middleware/scratch.h"
 #include "middleware/world/world.h"
 #include "tests/middleware/world/random_worlds.h"
 
@@ -135,6 +136,33 @@ TEST(Crowds, NothingFalseIsClaimedOfThem) {
     }
   }
   EXPECT_GT(judged, 4'000);
+}
+
+// Their silence does not hide that they were not asked about each other.
+TEST(Crowds, WhoHoldsStillInOneIsCrowdedAllTheSame) {
+  WorldOptions options;
+  options.mostNear = 8;
+  World world = World::build(std::nullopt, options).value();
+  const Avatar ball = crowdBall();
+  BodyOptions held;
+  held.whenSilent = WhenSilent::HoldStill;
+  for (int i = 0; i < kHeap; ++i) {
+    const BodyId body = world.add(ball, held).value();
+    ASSERT_TRUE(world.push(body, 0, placeAt({0.001 * i, 0.0, 0.0})).ok());
+  }
+  const BodyId known = world.add(ball).value();
+  for (const std::int64_t us : {0, 20'000}) {
+    ASSERT_TRUE(world.push(known, us, placeAt({0.0, 50.0, 0.0})).ok());
+  }
+  Scratch scratch;
+  WorldContacts answer;
+  const auto done = world.contacts(10'000, 20'000, scratch, answer);
+  ASSERT_TRUE(done.ok()) << describe(done.error());
+  ASSERT_EQ(answer.silent.size(), static_cast<std::size_t>(kHeap));
+  for (const SilentBody& silent : answer.silent) {
+    EXPECT_EQ(silent.takenTo, WhenSilent::Undecided) << silent.body;
+    EXPECT_EQ(silent.reason, UndecidedReason::WorkBudget) << silent.body;
+  }
 }
 
 TEST(Crowds, ACallHasOnlySoManyWindows) {
