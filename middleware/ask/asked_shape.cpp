@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Steps of a cast. Each halves what is left at least, and mostly squares it; a cast that took so
-/// many is told to hit where it is, which is early.
+/// many is reported as a hit where it is, which is early.
 constexpr int kMostSteps = 128;
 
 /// How far a point of the axis may be from its true place after it moved: a product, a sum, and the

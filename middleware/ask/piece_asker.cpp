@@ -21,7 +21,7 @@ Vector3d faceOf(const Hull& piece) {
   return (v[1] - v[0]).cross(v[2] - v[0]);
 }
 
-/// From the piece to the shape.
+/// The normal from the piece to the shape.
 Vector3d normalOf(const AskedShape& shape, const Hull& piece, const Separation& apart) {
   if (apart.distance > kAskTolerance) return unitOf(apart.difference);
   // Their difference is noise: what faces the shape on its way says more.

@@ -16,7 +16,7 @@ namespace foretouch::internal {
 
 /// Stretches of world time: 2^18 us each, a quarter of a second.
 inline constexpr int kStretchShift = 18;
-/// Of each body the boxes of so many stretches are kept, the last two seconds.
+/// The boxes of so many stretches are kept per body: the last two seconds.
 inline constexpr std::size_t kStretchesKept = 8;
 
 /// How far a body reaches in any of some poses, and in between.
@@ -32,11 +32,11 @@ class PosesReach {
   Aabb roots_;
 };
 
-/// Of one body.
+/// The boxes of one body.
 class RoughBoxes {
  public:
   /// A box that holds the body at the instant, and in most of the stretch around it; null if
-  /// somebody carries it then, or unless it has a later pose. O(1) where it is kept; else O(joints)
+  /// it is carried then, or has no later pose. O(1) where it is kept; else O(joints)
   /// for each pose of the stretch that came since.
   [[nodiscard]] const Aabb* at(const WorldBody& body, const BodyKind& kind, std::int64_t utimeUs);
 

@@ -79,7 +79,7 @@ class WayBoxes {
   [[nodiscard]] double lengthOf(double square) const;
 
   bool moves_;
-  double low_[3], high_[3];  ///< Of the shape's box, grown; a sphere's radius apart, at rest.
+  double low_[3], high_[3];  ///< The shape's box, grown; a sphere's radius apart, at rest.
   double inverse_[3];
   double reach_, squareReach_, radius_;
 };
