@@ -73,7 +73,7 @@ bool SystemSpans::next() {
     beginUs_ = spanUs_ = nextUs_;
     members_.clear();
     if (addMember(a_) && (b_ == kStillScene || addMember(b_))) return findEnd();
-    // Whoever is not there yet appears with his first episode.
+    // A body that is not there yet appears with its first episode.
     nextUs_ = toUs_;
     for (const BodyId body : {a_, b_}) {
       if (body == kStillScene || world_->body(body).episodeAt(beginUs_) != nullptr) continue;
@@ -118,8 +118,8 @@ void SystemSpans::narrow() {
   endUs_ = nextUs_;
 }
 
-/// Behind those who carry it. False: one of them is not there at the span's begin. Whoever carries
-/// is there before he does.
+/// Adds it behind those that carry it. False: one of them is not there at the span's begin. What
+/// carries a body is there before it does.
 bool SystemSpans::addMember(BodyId body) {
   world_->chainAt(body, beginUs_, chain_);
   for (; !chain_.empty(); chain_.pop_back()) {
@@ -140,7 +140,7 @@ bool SystemSpans::addMember(BodyId body) {
   return true;
 }
 
-/// False: one of them is undecided from the span's begin on.
+/// Finds the span's end. False: one of them is undecided from the span's begin on.
 bool SystemSpans::findEnd() {
   endUs_ = toUs_;
   isAssumed_ = false;

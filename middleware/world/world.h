@@ -56,7 +56,7 @@ class World {
   /// The body's next pose: in W, or in the frame of what carries it and lets it move. Errors: as
   /// Track::push(), an unknown body (Error::index), and a body that is carried and held fast.
   Result<Done> push(BodyId body, std::int64_t utimeUs, const Pose& pose);
-  /// The same of a body of one joint, as every mesh is.
+  /// The same for a body of one joint, as every mesh is.
   Result<Done> push(BodyId body, std::int64_t utimeUs, const RigidPose& pose);
 
   /// From `utimeUs` on, the body is carried; `pose` is its pose there in the frame of the carrier's
@@ -76,7 +76,7 @@ class World {
   /// Whether bodies of two groups are asked if they meet; everything is, to begin with. Errors: a
   /// group out of range.
   Result<Done> ask(BodyGroup a, BodyGroup b, bool isAsked);
-  /// The same of bodies of a group and the static scene.
+  /// The same for bodies of a group and the static scene.
   Result<Done> askStill(BodyGroup group, bool isAsked);
 
   /// All is known, or taken to be, until here: the earliest last pose of the bodies that wait for
@@ -90,7 +90,7 @@ class World {
   /// for these. Depends on the poses alone, not on the order in which they came, nor on how many
   /// threads share the work. Allocates nothing once the scratch and the answer have grown, as long
   /// as no body is added or carried in another way. The promise: docs/guarantees.md 15. Errors,
-  /// which name who or what: a window without length, that begins before what was forgotten, or
+  /// which name what is wrong: a window without length, that begins before what was forgotten, or
   /// ends after knownUntilUs(); carriers whose chains are too deep together; on a pool, memory ran
   /// out (DeviceFailed): the answer then means nothing. The world must not change meanwhile.
   Result<Done> contacts(std::int64_t fromUs, std::int64_t toUs, Scratch& scratch,
@@ -116,7 +116,7 @@ class World {
   /// The same by memory: lets go of the oldest poses of all until poseBytes() is at most `bytes`,
   /// or nothing is left before knownUntilUs(). Returns the instant before which it has forgotten.
   std::int64_t forgetBeyond(std::size_t bytes);
-  /// What the poses that are kept take: of a pose of n joints 56 n + 256, an allocator's share
+  /// The bytes that the kept poses take: a pose of n joints takes 56 n + 256, an allocator's share
   /// included. O(bodies).
   [[nodiscard]] std::size_t poseBytes() const;
 
