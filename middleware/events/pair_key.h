@@ -1,4 +1,4 @@
-// middleware/events/pair_key.h: which two an event, a contact or an open part is about. Not
+// middleware/events/pair_key.h: the two that an event, a contact or an open part is about. Not
 // installed.
 #pragma once
 
@@ -31,7 +31,7 @@ struct PairKey {
   return key.linkOfA == kEveryLink || key.linkOfB == kEveryLink;
 }
 
-/// Of whatever has two sides.
+/// The key of anything that has two sides.
 template <typename TwoSided>
 [[nodiscard]] PairKey keyOf(const TwoSided& of, ObjectId object) {
   return {of.a.body, of.a.link, of.b.body, of.b.link, object};
