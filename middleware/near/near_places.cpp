@@ -55,7 +55,7 @@ class LocalPair {
   [[nodiscard]] double extent() const {
     return axis_.lpNorm<1>() + v_[1].lpNorm<1>() + v_[2].lpNorm<1>();
   }
-  /// Of the axis' middle over a plane through `p`, doubled.
+  /// The height of the axis' middle over a plane through `p`, doubled.
   [[nodiscard]] double side(const Vector3d& normal, const Vector3d& p) const {
     return normal.dot(a_ - p) + normal.dot(b_ - p);
   }
@@ -174,7 +174,7 @@ class PlaceMaker {
 
   [[nodiscard]] const LocalPair& pair() const { return pair_; }
 
-  /// The difference of its points has a direction.
+  /// Whether the difference of its points has a direction.
   [[nodiscard]] bool isApart(const Spot& spot) const {
     return std::sqrt(spot.squared) > kNoisyDifference * pair_.extent();
   }
@@ -227,12 +227,12 @@ class PlaceMaker {
     }
   }
 
-  /// The unit `v` is within kFlatDirection of the direction of `w`, on either side.
+  /// Whether the unit `v` is within kFlatDirection of the direction of `w`, on either side.
   static bool isAlong(const Vector3d& v, const Vector3d& w) {
     const double length = w.norm();
     return length > 0.0 && v.cross(w).norm() <= kFlatDirection * length;
   }
-  /// The unit `v` is within kFlatDirection of the plane across `w`.
+  /// Whether the unit `v` is within kFlatDirection of the plane across `w`.
   static bool isAcross(const Vector3d& v, const Vector3d& w) {
     const double length = w.norm();
     return length > 0.0 && std::abs(v.dot(w)) <= kFlatDirection * length;
