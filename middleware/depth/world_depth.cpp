@@ -187,8 +187,8 @@ class Question {
   const WorldTime& time_;
   Scratch& scratch_;
   WorldDepthMemory& memory_;
-  double rounding_ = 0.0;  // of LSS in W
-  double most_ = 0.0;      // of those seen from a mesh
+  double rounding_ = 0.0;  // that of LSS in W
+  double most_ = 0.0;      // that of those seen from a mesh
   bool isAssumed_ = false;
 };
 
