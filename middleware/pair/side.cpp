@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a blended point, in its links' own: the second time covers the products and sums of so many
+/// A blended point's, in its links' own: the second time covers the products and sums of so many
 /// shares; more of them cost in proportion.
 constexpr double kBlendedRounding = 2.0, kSharesCovered = 16.0;
 
