@@ -110,7 +110,7 @@ struct PartScratch {
   std::vector<HierarchyChild> parts;                // a stack
   std::vector<std::int32_t> linkTriangles;          // those the stack ended in
   SkinLanes skin;                                   // at skinned fidelity
-  // At the start of a skin: of clusters; of triangles that may touch; of parts; of triangles apart.
+  // A skin's pairs at the start: of clusters, triangles that may touch, parts, triangles apart.
   std::vector<StartPair> clusterPairs, startPairs;
   std::vector<Candidate> partPairs, nearPairs;
 };
