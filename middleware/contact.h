@@ -130,7 +130,7 @@ struct StepContacts {
   std::vector<LinkContact> links;  ///< One per link of the avatar, in order.
   /// With Scope::EveryObject: the first contact of every link with every object, in the order of
   /// isReportedBefore(); `links` has the earliest of each link. A link and an object that it does
-  /// not list never touch, but for a link that it lists as undecided: those hold until then.
+  /// not list never touch; if it lists the link as undecided, that holds until its freeUntil.
   std::vector<LinkContact> perObject;
   /// The contacts of own links: every asked pair that is not clear, in the order of
   /// isReportedBefore(), then by the other link.

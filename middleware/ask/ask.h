@@ -164,7 +164,7 @@ struct WorldAnswer {
 Result<Done> askWorld(const World& world, const WorldQuestion& question, Scratch& scratch,
                       WorldAnswer& answer);
 
-/// Many in one call: answers[i] is that of questions[i], to the bit, but for any hit, in whatever
+/// Many in one call: answers[i] is that of questions[i], to the bit, but for AskWhich::Any, in what
 /// order they come; those at the same instants follow each other. Errors: as of one, with its place
 /// as Error::index; then no answer counts.
 Result<Done> askWorld(const World& world, const std::vector<WorldQuestion>& questions,

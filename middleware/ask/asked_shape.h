@@ -21,7 +21,7 @@ struct AskedShape {
   double reach = 0.0;                             ///< How far it moves; at rest, how far is near.
   double moved = 0.0;                             ///< How far it had moved before it was here.
   double rounding = 0.0;  ///< No point of it or of a piece is farther from where it is given.
-  double ofWay = 0.0;     ///< How far the true unit way is from `way`, beside its own rounding.
+  double ofWay = 0.0;     ///< Nor is the true unit way farther from `way`, beside its own rounding.
 
   [[nodiscard]] bool moves() const { return !way.isZero(0.0); }
   [[nodiscard]] bool isRay() const {

@@ -143,7 +143,7 @@ class PairBracketQuery {
 
   /// The asked parts of both steps begin and end at the same instants: t is 0 at their begin and 1
   /// at their end. Fills `brackets.pairs`. Errors: those of BracketQuery::answer() (the file is
-  /// "one" or "other"); a part that is none. Allocates nothing once scratch and answer have grown.
+  /// "one" or "other"); a part out of range. Allocates nothing once scratch and answer have grown.
   Result<Done> answer(const PersonStep& one, const PersonStep& other, Scratch& scratch,
                       StepBrackets& brackets) const;
 

@@ -68,7 +68,7 @@ class StepSweep {
   /// False: there is nothing.
   bool collectNear(LinkId link);
   [[nodiscard]] bool mayMeet(const Asked& asked) const;
-  /// Whether, of so many leaves, another walk finds its pieces' sooner than a look at all of them.
+  /// Whether there are so many leaves that another walk is faster than a look at all of them.
   [[nodiscard]] bool isCrowded(LinkId link) const;
   void walkPieces(LinkId link);
   /// The leaves in a piece of the base level; null: there are too many for a list.

@@ -86,10 +86,10 @@ class LinkDepths {
   LinkDepths(LinkDepths&&) noexcept;
   LinkDepths& operator=(LinkDepths&&) noexcept;
 
-  /// Two links with a surface, at `t` in [0,1] of a motion of the avatar. For two convex ones the
-  /// bounds are within 1e-6 m, or the share of their size by which they are not convex; others are
-  /// bounded from below by the balls that both have room for: such a place is found sooner with a
-  /// point where they meet, as contacts have it, in W; null: none is known.
+  /// The depth of two links with a surface, at `t` in [0,1] of a motion of the avatar. For two
+  /// convex ones the bounds are within 1e-6 m, or the share of their size by which they are not
+  /// convex; others are bounded from below by the balls that both have room for: such a place is
+  /// found sooner with a point where they meet, as contacts have it, in W; null: none is known.
   [[nodiscard]] LinkDepth at(const ChainMotion& motion, double t, LinkId a, LinkId b,
                              const Eigen::Vector3d* met_W = nullptr) const;
   /// Whether some closed surface is part of the link, or an LSS that is its own surface.

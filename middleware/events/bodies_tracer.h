@@ -21,7 +21,7 @@ struct TraceWindow {
   bool isFirst = false;            ///< Nothing is known of what was before.
   std::vector<ListedPair> listed;  ///< By bodies, then by links.
   std::vector<BodyId> returned;    ///< Bodies that were unknown before: by number.
-  /// Pairs no longer given up as before: in order. kStillScene stands for own links, too.
+  /// Pairs given up before, and no longer now: in order. kStillScene stands for own links, too.
   std::vector<BodyPair> returnedPairs;
 };
 

@@ -73,7 +73,7 @@ class IntervalTracer {
   [[nodiscard]] bool isWithin(double t, double within);
   [[nodiscard]] Hold holdAt(double t, double within);
   [[nodiscard]] bool tryHold(const SidesPair& pair, double t, double within, Hold& best);
-  /// Goes from an instant of contact to where it ends; false: that cannot be resolved.
+  /// Goes from an instant of contact to where it ends; false: from there on that is not resolved.
   [[nodiscard]] bool followContact(double& t, EventCounters& counters);
   [[nodiscard]] Search searchContact(double from, double to, double firstSpan,
                                      EventCounters& counters);

@@ -246,7 +246,7 @@ struct WorldFollower::Impl {
     }
   }
 
-  /// The key of the whole two; a body's line about the scene is also about its own links.
+  /// The key of the two as a whole; a body's line about the scene is also about its own links.
   [[nodiscard]] static PairKey wholeKeyOf(const TracedBodies& task) {
     const internal::BodyPair& both = task.followed->bodies;
     const BodyId with = both.b == both.a ? kStillScene : both.b;

@@ -271,7 +271,7 @@ HWY_INLINE hn::Vec<D> limitsOf(D d, const NearBins& bins, const LanePlaces<D>& p
   return hn::GatherIndex(d, bins.limit, index);
 }
 
-/// The asked places that stand on vertices where a corner goes on straight: across it.
+/// Those asked places on vertices where a corner goes on straight that stand: across it.
 template <class D>
 HWY_INLINE hn::Mask<D> standsAtStraight(D d, const PlacedLss& lss, const PlacePairs<D>& pairs,
                                         const LanePlaces<D>& place, hn::Mask<D> asked) {

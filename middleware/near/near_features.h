@@ -54,7 +54,7 @@ struct NearRange {
   std::size_t first = 0, count = 0;
   bool hadMore = false;  ///< More than kMostNearPerLink were left: these are the nearest.
 };
-/// The most reduced features of one link.
+/// The most features of one link that Reduced leaves.
 inline constexpr std::size_t kMostNearPerLink = 256;
 
 struct NearFeatures {

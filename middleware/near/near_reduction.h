@@ -25,7 +25,7 @@ class NearReduction final : public NearFilter {
  public:
   NearReduction();
 
-  /// Forgets the last LSS. `R_WL`: the LSS's link's; directions are told apart in its frame, so
+  /// Forgets the last LSS. `R_WL`: its link's; directions are told apart in its frame, so
   /// that a motion of all does not change the answer.
   void begin(const Scene& scene, const StandingLss& lss, const Eigen::Matrix3d& R_WL);
   void offer(const NearPlace& place);

@@ -15,7 +15,7 @@ constexpr int kProposingNodes[] = {3, 0, 7};
 /// Past the rounding of a sum, and of the kernel's product with it.
 constexpr float kBendInflation = 1.0F + 0x1p-21F;
 
-/// Per h^2/8 of a piece, rounded up past h's own rounding.
+/// The h^2/8 of a piece, rounded up past h's own rounding.
 float sagittaOf(double begin, double end) {
   const double h = end - begin;
   return floatPaddedAbove(h * h / 8.0 * kInflation);

@@ -67,7 +67,7 @@ class PartLanes {
     return begin_ + (static_cast<double>(u) + 1.0) * halfSpan_;
   }
 
-  /// Fills a lane. `floor` (m): the part's own surface's, its radius counted.
+  /// Fills a lane. `floor` (m): that of the part's own surface, its radius counted.
   void put(std::size_t lane, std::int32_t triangle, const LanePart& part, float u, float floor);
   /// The same for a triangle or a part of a skin, whose curve is relative to the link's frame.
   void putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve, const BlendHull& hull,

@@ -58,7 +58,7 @@ void keepFirst(const internal::QueryPlan& plan, StepContacts& step) {
   }
 }
 
-/// The least of all links, also of those that began nearer than theirs and left.
+/// The least tolerance of all links, also of those that began nearer than theirs and left.
 double leastTolerance(const internal::QueryPlan& plan, const internal::QueryMemory& scratch) {
   double least = plan.tolerances.least;
   if (!plan.inLanes) return least;

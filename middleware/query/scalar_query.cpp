@@ -97,7 +97,7 @@ class StepQuery final : private Neighbours {
     return backtrack(query, scratch_.candidates, counters);
   }
 
-  /// The pairs that the search began with whose boxes, grown by the tolerance, meet then.
+  /// Those pairs that the search began with whose boxes, grown by the tolerance, meet then.
   void collect(double t, const PosedLink& /*posed*/, double /*reach*/,
                std::vector<Candidate>& candidates, QueryCounters& /*counters*/) override {
     const int piece = pieces_.at(t);

@@ -57,7 +57,7 @@ struct TreeLeaf : TreeNode {
   unsigned primitives[kBvhWidth];  ///< Places in the ids that the tree was built of.
 };
 
-/// Owns its nodes. Where memory ended, a builder may have left out a part: what reads it checks.
+/// Owns its nodes. Where memory ended, a builder may have left out a part: its readers check.
 class BvhTree {
  public:
   virtual ~BvhTree() = default;

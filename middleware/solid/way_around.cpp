@@ -9,8 +9,8 @@
 namespace foretouch::internal {
 namespace {
 
-/// A target that has moved farther than this (m) is another one; one that goes on, than this share
-/// of its distance; and so is a begin that has moved farther than this (m).
+/// A target that has moved farther than this (m) is another one; one that goes on, farther than
+/// this share of its distance; and so is a begin that has moved farther than this (m).
 constexpr double kSameTarget = 0.05, kSameShare = 0.25, kSameStart = 0.01;
 /// Poses of the trail are so far apart at first (m), and twice as far where they become too many.
 constexpr double kSpacing = 1e-3;

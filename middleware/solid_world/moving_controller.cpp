@@ -133,7 +133,7 @@ void MovingController::setBounds(bool mayPushBack) {
   }
 }
 
-/// A body that has to get out of the way bends as it must, and puts a thigh into the other.
+/// An avatar that has to get out of the way bends as it must, and puts a thigh into the other.
 void MovingController::letGoOfWishes() {
   const auto isWish = [](const ContactRow& row) { return row.isSoft; };
   const auto still = rows_.begin() + static_cast<std::ptrdiff_t>(numStill_);

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 /// on it.
 constexpr std::ptrdiff_t kTrianglesOfCluster = 64, kTrianglesOfPart = 8;
 
-/// The rounding of a merged point, relative to its coordinates; an LSS's ends are as far as those.
+/// A merged point's rounding, relative to its coordinates; an LSS's ends are as far as its points.
 constexpr double kMergeRounding = 64.0 * kUnitRoundoff;
 
 /// The rounding of sums of weights, and of their means over the vertices of a cluster, in double.

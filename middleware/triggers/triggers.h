@@ -34,7 +34,7 @@ class TriggerVolume {
   static Result<TriggerVolume> box(const Eigen::Vector3d& halfExtents);
   /// A sphere around the origin. Errors: as above.
   static Result<TriggerVolume> sphere(double radius);
-  /// Solid LSS, all of which are one volume. Errors: none, or as Avatar::build().
+  /// Solid LSS, all of which are one volume. Errors: no LSS, or as Avatar::build().
   static Result<TriggerVolume> lss(std::vector<Lss> lss);
   /// What is inside some object of the scene. The triangles may be turned any way, and in any
   /// order, but each object must be closed: every edge, by its exact coordinates, belongs to two of

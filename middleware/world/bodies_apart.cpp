@@ -21,7 +21,7 @@ NodeFrame worldFrame() {
 }
 const NodeFrame kWorldFrame = worldFrame();
 
-/// What is per h^2/8 of a piece between two nodes of a whole motion, rounded up.
+/// The h^2/8 of the pieces between two nodes of a whole motion, rounded up.
 struct Sagittas {
   float at[kNodes] = {};
   Sagittas() {

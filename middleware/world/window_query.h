@@ -18,7 +18,7 @@ void addCounters(const WorldCounters& more, WorldCounters& sum);
 Result<Done> checkedWindow(const World& world, std::int64_t fromUs, std::int64_t toUs);
 
 /// As World::contacts(). `pool`: null, or threads to share the work; the answer is the same.
-/// `followed`: null, or what need not be reported. Errors, too: on several threads, memory ran out
+/// `followed`: null, or what need not be reported. More errors: on several threads, memory ran out
 /// (DeviceFailed).
 Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs, WorkerPool* pool,
                        WorldMemory& scratch, WorldContacts& answer,

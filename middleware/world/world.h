@@ -48,7 +48,7 @@ class World {
   /// A rigid prop: the triangles touch, in its own frame. It meets avatars; two meshes are asked
   /// whether they meet, and a mesh and the static scene, where WorldOptions::askMeshes says so.
   /// O(n log n) for each new mesh of n triangles: 30 ms for 10,000.
-  /// Errors: as above, and own links, which it has none of, and a surface besides; a mesh that is
+  /// Errors: as above; own links, of which it has none, a surface, or a skin; a mesh that is
   /// so large that the LSS around it leaves kMaxCoordinate (OutOfRange).
   Result<BodyId> add(const Scene& mesh, const BodyOptions& options = {});
   [[nodiscard]] std::int32_t numBodies() const;
@@ -109,8 +109,8 @@ class World {
   [[nodiscard]] Result<WorldDepth> depth(const WorldTime& time, const DepthQuestion& question,
                                          Scratch& scratch) const;
 
-  /// Lets go of what no window from `utimeUs` on needs, nor a body that is put elsewhere there, to
-  /// say where it was. Poses at or before it are refused from now on, and so are windows that
+  /// Lets go of what no window from `utimeUs` on needs, but for where a body was that is put
+  /// elsewhere there. Poses at or before it are refused from now on, and so are windows that
   /// begin before it.
   void forgetBefore(std::int64_t utimeUs);
   /// The same by memory: lets go of the oldest poses of all until poseBytes() is at most `bytes`,
@@ -122,9 +122,9 @@ class World {
 
   /// Lets go of poses before `utimeUs` between others that say nearly the same: no point of any
   /// body, of what it carries included, is ever farther than `metres` from where all poses that
-  /// were pushed have it, however often this is called (world.md 7). What is answered about
-  /// instants from `utimeUs` on is the same, to the bit; about earlier ones, from now on, what is
-  /// true of the motion that is left. First and last poses are kept, and those at which a carrier
+  /// were pushed have it, however often this is called (world.md 7). Answers about instants from
+  /// `utimeUs` on stay the same, to the bit; those about earlier ones are, from now on, true of the
+  /// motion that is left. First and last poses are kept, and those at which a carrier
   /// changes. Bodies can no longer be attached before `utimeUs`. Errors: metres that are not
   /// finite, or below 0. O(joints) per pose that is new since the last call.
   Result<Done> thinBefore(std::int64_t utimeUs, double metres);
