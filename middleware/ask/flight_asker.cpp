@@ -21,7 +21,7 @@ constexpr int kMostFlightSteps = 512;
 /// When the free space is used up that shrinks by `pace` per us, which itself grows by
 /// `acceleration` per us; rounded down.
 double usUntil(double free, double pace, double acceleration) {
-  // Of free - pace h - acceleration h^2/2 = 0, in the form that cancels nothing.
+  // The root of free - pace h - acceleration h^2/2 = 0, in the form that cancels nothing.
   const double root = std::sqrt(pace * pace + 2.0 * acceleration * free);
   const double below = pace > 0.0 ? pace + root : 0.0;
   if (below > 0.0) return 2.0 * free / (kInflation * below);

@@ -18,7 +18,7 @@ namespace foretouch::internal {
 struct MovingPiece {
   Hull hull;
   double rounding = 0.0;                      ///< No point is farther from where it is given.
-  std::array<Eigen::Vector3d, 3> velocities;  ///< Of the hull's points, per us; zero: not known.
+  std::array<Eigen::Vector3d, 3> velocities;  ///< The hull's points', per us; zero: not known.
   /// The true velocities differ from these by no more; and change by no more per us.
   double ofVelocity = 0.0, acceleration = 0.0;
 };

@@ -43,7 +43,7 @@ class RoughBoxes {
  private:
   struct Kept {
     std::int64_t stretch = std::numeric_limits<std::int64_t>::min();
-    std::int64_t lastEpisodeUs = 0;  ///< Of the body: the world has not changed it since.
+    std::int64_t lastEpisodeUs = 0;  ///< The body's: the world has not changed it since.
     std::int64_t episodeUs = 0;
     std::int64_t fromUs = 0, untilUs = 0;  ///< The box holds from here to before there.
     PosesReach reach;

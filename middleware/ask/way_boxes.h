@@ -22,7 +22,7 @@ class WayBoxes {
   /// The shape touches nothing in the box before it has moved so far; at rest, nothing there is
   /// nearer. kBeyondReach: it touches nothing there at all.
   [[nodiscard]] double nearest(const Aabb& box) const;
-  /// The same of `count` boxes, coordinate by coordinate.
+  /// The same for `count` boxes, coordinate by coordinate.
   template <typename Real>
   void nearest(int count, const Real* const (&lower)[3], const Real* const (&upper)[3],
                double* bounds) const {

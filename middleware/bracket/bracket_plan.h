@@ -46,7 +46,7 @@ struct BodyBrackets {
   std::vector<std::uint8_t> isMoved;               ///< Per joint: an open link hangs on it.
 
   void begin(std::size_t numLinks);
-  /// From `isOpen`: finer levels move these joints alone.
+  /// Fills `isMoved` from `isOpen`: finer levels move only these joints.
   void moveOpen(const Skeleton& skeleton);
 };
 

@@ -66,8 +66,8 @@ class BracketRun : private StepSweep {
     if (bracket.verdict != BracketVerdict::Excluded) brackets_.pairs.push_back(bracket);
   }
 
-  /// By the base level first, which excludes most, and closes on what is touched throughout; what
-  /// it leaves open, by the level that is fine enough.
+  /// Asks the base level first, which excludes most, and closes on what is touched throughout; then
+  /// the level that is fine enough for what it leaves open.
   void bracketSides(const Asked& asked, LinkBracket& bracket) {
     if (memory_.sides.isSpent()) {
       bracket.verdict = BracketVerdict::Possible;

@@ -268,7 +268,7 @@ class MostRoom {
     return true;
   }
 
-  /// To a corner, a face or an edge of the cube around the best.
+  /// Moves to a corner, a face or an edge of the cube around the best.
   bool move(double step) { return around(Vector3d(at_), step); }
 
   bool around(const Vector3d& from, double step) {

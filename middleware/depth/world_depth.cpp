@@ -125,7 +125,7 @@ class Question {
     return answer;
   }
 
-  /// In the mesh's frame, and back.
+  /// The depth in the mesh's frame, turned back.
   Result<Depth> inMesh(BodyId mesh) {
     FORETOUCH_CHECK(placesOf(mesh));
     const LinkPlace frame = memory_.places.front();

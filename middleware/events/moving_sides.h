@@ -72,7 +72,7 @@ class MovingSides {
   /// A link of the motion that the evaluator has.
   void setLink(MotionEvaluator& evaluator, LinkId link, const LinkShape& shape);
   void setOther(MotionEvaluator& evaluator, LinkId link, const LinkShape& shape);
-  /// Whose shares of radii count, with the number of each link's first LSS.
+  /// Sets whose shares of radii count, with the number of each link's first LSS.
   void setShares(const PairsAsked& asked, std::int32_t first, std::int32_t firstOfOther);
   /// The triangles of the object, instead of another link; of all objects if it is kNoObject.
   void setScene(const Scene& scene, ObjectId object);

@@ -56,9 +56,9 @@ class WorldFollower {
   /// last call, or one that asks whether meshes meet (Mismatch). Then nothing has been followed.
   Result<Done> follow(const World& world, std::int64_t untilUs, WorldEvents& answer);
 
-  /// Until where it has followed.
+  /// The instant until which it has followed.
   [[nodiscard]] std::int64_t followedUntilUs() const;
-  /// By pair: a's body and link, b's, then the object.
+  /// What is open, by pair: a's body and link, b's, then the object.
   [[nodiscard]] const std::vector<OpenPart>& open() const;
 
  private:

@@ -109,7 +109,7 @@ HWY_INLINE hn::Mask<D> isAtLast(D d, hn::Vec<D> share) {
   return hn::Gt(share, hn::Set(d, 1.0 - kAtEnd));
 }
 
-/// At a share of edge k.
+/// Whether what is at a share of edge k is inside a flat surface.
 template <class D>
 HWY_INLINE hn::Mask<D> isFlatAt(D d, const PlacePairs<D>& pairs, int k, hn::Vec<D> share) {
   const auto isFirst = isAtFirst(d, share), isLast = isAtLast(d, share);

@@ -12,7 +12,7 @@
 
 namespace foretouch::internal {
 
-/// Between neighbouring nodes.
+/// Pieces between neighbouring nodes.
 inline constexpr int kNodePieces = kNodes - 1;
 inline constexpr std::uint8_t kEveryPiece = (1U << kNodePieces) - 1U;
 

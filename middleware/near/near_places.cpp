@@ -196,8 +196,8 @@ class PlaceMaker {
   }
 
  private:
-  /// From triangle to axis. Where the two are not apart, the normal of the features that meet, to
-  /// the side of the axis' longer part.
+  /// The way from triangle to axis. Where the two are not apart, the normal of the features that
+  /// meet, to the side of the axis' longer part.
   [[nodiscard]] Vector3d directionOf(const Spot& spot, double distance) const {
     const Vector3d difference = spot.onAxis - spot.onTriangle;
     if (distance > kNoisyDifference * pair_.extent()) return difference / distance;

@@ -85,7 +85,7 @@ class LaneBacktracker {
     return true;
   }
 
-  /// From the pair down to triangles, by the nearest part of each.
+  /// Looks from the pair down to triangles, by the nearest part of each.
   void lookDown(StillPair pair, double t) {
     while (!isTooFar(static_cast<double>(pair.nearest), t)) {
       if (pair.part.isTriangle()) return scratch_.stillSurfaces.push_back(pair);
@@ -99,7 +99,7 @@ class LaneBacktracker {
     }
   }
 
-  /// Keeps all that may be near but the nearest that is no triangle, whose lane it returns; -1:
+  /// Keeps all that may be near but the nearest that is not a triangle, whose lane it returns; -1:
   /// there is none.
   [[nodiscard]] std::int32_t keepNear(const WideNode& node, std::int32_t candidate, double t) {
     const PairFloats& gaps = scratch_.gaps.lower;

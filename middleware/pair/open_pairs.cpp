@@ -152,7 +152,7 @@ void PairQuery::addPlanePair(const LssIndexPair& pair) {
   pair_.pairs.push_back(open);
 }
 
-/// That of the LSS' ends in the frame; rounded up. Found when it is first needed.
+/// The acceleration of the LSS' ends in the frame; rounded up. Found when it is first needed.
 float PairQuery::accelerationOf(std::int32_t frame, Moving& side, std::int32_t lss) {
   float& known = side.accelerations[slotOf(frame) * countOf(side.table().size()) + slotOf(lss)];
   if (known < 0.0F) {

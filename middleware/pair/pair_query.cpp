@@ -184,7 +184,7 @@ void PairQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   if (contact.verdict != Verdict::Clear) keep(contact, frame, step);
 }
 
-/// That of the pair at hand; null if it has not left.
+/// The pair at hand, as one that has left; null if it has not.
 const LeftPair* PairQuery::leftPair() const {
   const auto found = std::find_if(
       pair_.left.begin(), pair_.left.end(),
@@ -192,7 +192,7 @@ const LeftPair* PairQuery::leftPair() const {
   return found != pair_.left.end() ? &*found : nullptr;
 }
 
-/// That of the pair at hand: the smaller one of both links, unless they began within it and left.
+/// The pair's tolerance: the smaller one of both links, unless they began within it and left.
 double PairQuery::tolerance() const {
   const LeftPair* const left = leftPair();
   return left != nullptr
@@ -213,7 +213,7 @@ bool PairQuery::mayLeave(LinkQuery& query, const PairContact& contact, QueryCoun
   return true;
 }
 
-/// That of the two links' LSS at t = 0: planes may have closed the piece that begins there.
+/// The separation of the links' LSS at t = 0: planes may have closed the piece that begins there.
 double PairQuery::startSeparation(const LinkQuery& query, QueryCounters& counters) {
   StateCache states(query, counters);
   double least = std::numeric_limits<double>::infinity();
@@ -228,7 +228,7 @@ double PairQuery::startSeparation(const LinkQuery& query, QueryCounters& counter
   return least;
 }
 
-/// In the query's frame.
+/// The contact in the query's frame.
 PairContact PairQuery::contactFrom(const LinkQuery& query, const PlanePair* pairs,
                                    std::size_t count, QueryCounters& counters) {
   scratch_.candidates.clear();
@@ -330,7 +330,7 @@ Candidate PairQuery::candidateOf(const LssIndexPair& pair, std::uint8_t pieces) 
   return candidate;
 }
 
-/// In W, with both links named.
+/// Keeps it in W, with both links named.
 void PairQuery::keep(PairContact contact, LinkId frame, StepContacts& step) {
   contact.link = one_.link;
   contact.other = other_.link;

@@ -14,7 +14,7 @@ constexpr double kSkinStartRounding = 1e-12;
 /// Clusters' pairs that go to lanes together. What they find saves later ones.
 constexpr std::size_t kPairsAtOnce = 32;
 
-/// That of a point that both sides share, as doubles compute it.
+/// The least x of a point that both sides share, as doubles compute it.
 double leastX(const Triangle& triangle) {
   const auto& v = triangle.vertices;
   const double least = std::min({v[0].x(), v[1].x(), v[2].x()});

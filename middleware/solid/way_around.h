@@ -27,9 +27,9 @@ class WayAround {
   void reset();
   /// To be called after a tick in which it was as tracked, and touched nothing.
   void rememberFree(const VisualBody& body, const Pose& shown, double dtS);
-  /// Where a tick begins that something holds; `isFree`: as tracked.
+  /// Remembers where a tick begins that something holds; `isFree`: as tracked.
   void rememberBegin(const VisualBody& body, const Pose& shown, bool isFree);
-  /// On its way in this tick.
+  /// Remembers a place on its way in this tick.
   void remember(const VisualBody& body, const Pose& shown);
   /// Drops what the last tick remembered after its begin: it was not shown.
   void takeBack() { trail_.shorten(std::min(trail_.size(), atTick_)); }

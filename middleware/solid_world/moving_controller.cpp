@@ -14,7 +14,7 @@
 namespace foretouch::internal {
 namespace {
 
-// Of this room (solid_world.md 5); what is not here is as in a still scene (near_rows.h).
+// For this room (solid_world.md 5); what is not here is as in a still scene (near_rows.h).
 constexpr int kCorrections = 3;
 /// A tick has so many windows that no body near the avatar moves farther than this in one (m).
 constexpr double kMostMove = 0.015;

@@ -33,7 +33,7 @@ class StandingJudge final : public PlaceJudge {
     clearance_ = passage.clearance;
     return passage.isClear;
   }
-  /// That of the last place.
+  /// The clearance of the last place.
   [[nodiscard]] double clearance() const { return clearance_; }
 
  private:

@@ -60,7 +60,7 @@ struct SpanPart {
 
 /// The sweep of one body.
 struct BodySweep {
-  BodyBox whole;         ///< Of all parts, relative to the window's origin.
+  BodyBox whole;         ///< Around all parts, relative to the window's origin.
   bool isRough = false;  ///< There is nothing else: the body is far from all that it may meet.
   std::vector<SpanPart> parts;
   /// The spans of the window and earlier ones: most windows begin where the last one ended, often

@@ -189,7 +189,7 @@ class PlanMaker {
     return Done{};
   }
 
-  /// From links of the system to those of the chain.
+  /// Goes from links of the system to those of the chain.
   void lookFromMesh() {
     const std::size_t count = countOf(plan_.seen->skeleton().numJoints());
     Volumes lss(count);
