@@ -13,7 +13,7 @@ namespace foretouch {
 using TriggerId = std::int32_t;
 
 /// A body is inside if a point of its volume is in the trigger's, as far as is known: see
-/// TriggerEvent.
+/// TriggerEvent::time.
 struct TriggerEvent {
   EventKind kind = EventKind::Enter;
   TriggerId trigger = 0;

@@ -30,7 +30,7 @@ struct VolumeParts;
 class TriggerVolume {
  public:
   /// A box around the origin of its frame, along its axes. Errors: an extent that is not above 0
-  /// and below kMaxCoordinate.
+  /// and at most kMaxCoordinate.
   static Result<TriggerVolume> box(const Eigen::Vector3d& halfExtents);
   /// A sphere around the origin. Errors: as above.
   static Result<TriggerVolume> sphere(double radius);

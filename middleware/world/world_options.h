@@ -37,8 +37,8 @@ struct WorldOptions {
   /// thousandth of it; a mesh of many kilometres that turns takes more than any budget.
   std::uint64_t workPerPair = kDefaultWorkPerPair;
   /// Work that all pairs of bodies of one window may cost together; without a bound unless set.
-  /// Each pair has a share: one part of it per body, and of a body that is near many others, one
-  /// part for all its pairs. So a heap of bodies leaves those beside it their answers. What some
+  /// Each pair has a share: one part of it per body; a body that is near many others has one part
+  /// for all its pairs. So a heap of bodies leaves those beside it their answers. What some
   /// leave over goes to those that need more. What follows the world (WorldFollower) may spend as
   /// much again. With thousands of pairs and a small budget, most are undecided without a look.
   std::uint64_t workPerWindow = std::numeric_limits<std::uint64_t>::max();
