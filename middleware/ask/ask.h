@@ -104,7 +104,7 @@ inline constexpr double kMostAskReach = 1e8;
 
 /// At the distance of a hit, the shape is at most so far (m) from what it hits, where doubles
 /// resolve it: near places of 1e6 m they do not. A shape that passes by nearer may get a hit.
-/// Doubled, answers are earlier by as much; halved, casts that graze take a step more.
+/// Doubled, answers are earlier by as much; halved, casts that graze take one more step.
 inline constexpr double kAskTolerance = 1e-9;
 
 /// An LSS or a triangle that was hit or is near; or, without either, an object that is solid and

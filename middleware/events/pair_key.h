@@ -26,7 +26,7 @@ struct PairKey {
   return x.tied() == y.tied();
 }
 
-/// About a body altogether, or about two of which nothing is known.
+/// Whether it is about a whole body, or about two of which nothing is known.
 [[nodiscard]] inline bool isOfEveryLink(const PairKey& key) {
   return key.linkOfA == kEveryLink || key.linkOfB == kEveryLink;
 }

@@ -69,7 +69,7 @@ PairKey keyOf(const WorldContact& contact) {
   return internal::keyOf(contact, internal::kNoObject);
 }
 
-/// Two bodies altogether of which nothing is known from an instant on.
+/// Two whole bodies of which nothing is known from an instant on.
 struct GivenUp {
   PairKey key;
   WorldTime time;

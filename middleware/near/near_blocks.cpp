@@ -9,7 +9,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// Classes of gaps: a thousand triangles come thirty a class, where order no longer matters.
+/// Classes of gaps: a thousand triangles come thirty per class, where order no longer matters.
 constexpr std::size_t kClasses = 32;
 /// So many triangles take less by themselves than in a block.
 constexpr std::size_t kFew = 2;

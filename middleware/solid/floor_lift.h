@@ -20,7 +20,7 @@ class FloorLift {
 
   /// The avatar appears somewhere, lifted by so much.
   void reset(double lift = 0.0);
-  /// The floors that are remembered may be there no more. The lift goes on from what it is.
+  /// Forgets remembered floors, which may no longer be there. The lift goes on from what it is.
   void forgetFloors();
   [[nodiscard]] double lift() const { return lift_; }
   /// Whether anything is lifted, or a floor is remembered: else there is nothing to ask.

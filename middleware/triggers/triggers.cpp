@@ -123,7 +123,7 @@ bool isWatched(const Record& record, BodyId body, LinkId link) {
 
 }  // namespace
 
-/// A body that is silent altogether is so for every trigger; a trigger, for every body.
+/// A whole body that is silent is so for every trigger; a trigger, for every body.
 void Triggers::Parts::sortParts(const WorldParts& of, const std::vector<WorldPart>& given) {
   parts.clear();
   for (const WorldPart& part : given) {

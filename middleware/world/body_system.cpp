@@ -18,7 +18,7 @@ double armsOf(const TrackPiece& piece) {
   return sum;
 }
 
-/// As numbers: many times as fast as one by one.
+/// Appends them as numbers: many times as fast as one by one.
 void append(const Pose& part, Pose& all) {
   const std::size_t first = all.rotations.size(), count = part.rotations.size();
   if (count == 0) return;
@@ -102,7 +102,7 @@ bool SystemSpans::widenToPieces(std::int64_t mostUs) {
   return widenTo(begin, end, mostUs);
 }
 
-/// Parts of that length, from `begin` on; the last one may be shorter.
+/// Widens to a part of that length, from `begin` on; the last one may be shorter.
 bool SystemSpans::widenTo(std::int64_t begin, std::int64_t end, std::int64_t partUs) {
   FORETOUCH_ASSERT(begin <= beginUs_ && end >= endUs_);
   const std::int64_t from = begin + (beginUs_ - begin) / partUs * partUs;
@@ -166,7 +166,7 @@ std::int32_t SystemSpans::placeOf(BodyId body) const {
   return -1;
 }
 
-/// No point of those that are carried is farther from the links that they hang on.
+/// How far, at most, points of those that are carried are from the links that they hang on.
 double SystemSpans::reachOfCarried() const {
   double reach = 0.0;
   for (const SystemMember& member : members_) {

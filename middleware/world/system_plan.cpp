@@ -223,8 +223,8 @@ class PlanMaker {
     return std::optional<PairRules>(std::move(rules));
   }
 
-  /// The links of a carried body that are not asked about the link that carries it: all, if it is
-  /// held fast; its roots, if it moves there by itself.
+  /// Whether a carried body's link is not asked about the link that carries it: each, if the body
+  /// is held fast; its roots, if it moves there by itself.
   [[nodiscard]] bool isJoined(std::int32_t place, LinkId link) const {
     return member(place).episode->isHeldFast() || kind(place).skeleton.parent(link) == kNoParent;
   }
