@@ -28,13 +28,13 @@ struct QueryCounters {
   std::uint64_t laneSteps = 0;     ///< Evaluations in lanes of an LSS and a triangle.
   std::uint64_t partSteps = 0;  ///< At exact and skinned fidelity: evaluations of parts in lanes.
   std::uint64_t advancements = 0;    ///< Scalar distance evaluations, all kinds together.
-  std::uint64_t hierarchyTests = 0;  ///< At exact fidelity: of an LSS or a node below it.
-  std::uint64_t planeTests = 0;      ///< At exact fidelity: of a part against its parent's plane.
+  std::uint64_t hierarchyTests = 0;  ///< At exact fidelity: tests of an LSS or a node below it.
+  std::uint64_t planeTests = 0;      ///< At exact fidelity: parts against their parent's plane.
   std::uint64_t cubicTests = 0;      ///< By the reference room's cubics: pieces of pairs.
-  std::uint64_t leafTests = 0;       ///< At exact fidelity: of two triangles.
+  std::uint64_t leafTests = 0;       ///< At exact fidelity: tests of two triangles.
   std::uint64_t states = 0;          ///< Link states evaluated (forward kinematics).
-  std::uint64_t rungTests = 0;     ///< By the reference room: of volumes that cover several links.
-  std::uint64_t settledAbove = 0;  ///< Links that the reference room's reach settled.
+  std::uint64_t rungTests = 0;       ///< By the reference room: tests of volumes of several links.
+  std::uint64_t settledAbove = 0;    ///< Links that the reference room's reach settled.
 };
 
 /// Add a counter here and every benchmark reports it.
@@ -121,8 +121,8 @@ struct LinkContact {
 struct PairContact : LinkContact {
   LinkId other = -1;           ///< Above `link`; -1: the scene.
   std::int32_t otherLss = -1;  ///< Index among the other link's LSS.
-  /// Not below the depth (m), of which `penetration` is a lower bound then. A query does not say it
-  /// of meshes: LinkDepths (middleware/depth/depth.h) does.
+  /// Not below the depth (m), of which `penetration` is a lower bound then. A query does not give
+  /// it for meshes: LinkDepths (middleware/depth/depth.h) does.
   double penetrationAtMost = std::numeric_limits<double>::infinity();
 };
 
@@ -130,16 +130,16 @@ struct StepContacts {
   std::vector<LinkContact> links;  ///< One per link of the avatar, in order.
   /// With Scope::EveryObject: the first contact of every link with every object, in the order of
   /// isReportedBefore(); `links` has the earliest of each link. A link and an object that it does
-  /// not list never touch, but for a link that it lists as undecided: those hold until then.
+  /// not list never touch; if it lists the link as undecided, that holds until its freeUntil.
   std::vector<LinkContact> perObject;
-  /// Of own links: every asked pair that is not clear, in the order of isReportedBefore(), then of
-  /// the other link.
+  /// The contacts of own links: every asked pair that is not clear, in the order of
+  /// isReportedBefore(), then by the other link.
   std::vector<PairContact> pairs;
   /// True: own links were asked, and every asked pair that `pairs` does not list is proven clear.
   /// False: `pairs` is empty and claims nothing.
   bool arePairsAnswered = false;
-  /// As long as a link, or a pair, is free, it stays at least so far from what it is asked about
-  /// (m). Less than a share of the tolerance only where a link begins nearer and leaves.
+  /// As long as a link, or a pair, is free, it stays at least this far (m) from what it is asked
+  /// about. Less than a share of the tolerance only where a link begins nearer and leaves.
   double provenClearance = 0.0;
   QueryCounters counters;
 };

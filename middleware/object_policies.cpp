@@ -138,7 +138,7 @@ class Resolver {
   const std::vector<ObjectPolicy>& policies_;
   const QueryOptions& base_;
   std::vector<std::vector<std::uint8_t>> isOfLink_;  // per policy
-  // Of the current link.
+  // For the current link.
   std::vector<double> tolerances_;       // by object
   std::vector<std::uint8_t> isIgnored_;  // by object
   Fidelity fidelity_ = Fidelity::Link;

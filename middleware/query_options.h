@@ -32,8 +32,8 @@ enum class Fidelity : std::uint8_t {
 /// "link", "exact", "skinned".
 [[nodiscard]] const char* toString(Fidelity fidelity);
 
-/// Of "limb", "avatar" and "ellipsoid", volumes around several links that older versions had: that
-/// they are gone, why, and what to use instead. Empty for any other name.
+/// Says that "limb", "avatar" and "ellipsoid", volumes around several links that older versions
+/// had, are gone, why, and what to use instead. Empty for any other name.
 [[nodiscard]] std::string whyFidelityIsGone(const std::string& name);
 
 /// Which contacts of a step the query reports.
@@ -91,7 +91,7 @@ struct QueryOptions {
   /// or Exact. Empty: all links alike. If all policies are equal, the answer is that without
   /// policies, bit for bit.
   std::vector<LinkPolicy> linkPolicies;
-  /// Asks whether own links touch each other, too: StepContacts::pairs. Of the same avatar; at link
+  /// Asks, too, whether own links touch each other: StepContacts::pairs. The same avatar's; at link
   /// and exact fidelity, not with Scope::FirstOfAvatar. Two links with policies meet by the smaller
   /// tolerance, each by the surface of its own fidelity.
   std::optional<PairRules> self;

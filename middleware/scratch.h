@@ -38,18 +38,18 @@ struct ScratchPart {
 }  // namespace internal
 
 /// Scratch memory of questions of any sort: about steps, near features, edges, depths and worlds.
-/// One per thread; a question about a world finds most of what it can keep in the scratch that
-/// asked the window before.
+/// One per thread; a question about a world can reuse most in the scratch that asked the window
+/// before.
 class Scratch {
  public:
-  /// For the questions' own sources: made when it is first asked for.
+  /// The part of this kind, for the questions' own sources; made when it is first asked for.
   template <typename Part>
   [[nodiscard]] Part& of() {
     auto& part = parts_[static_cast<std::size_t>(Part::kKind)];
     if (!part) part = std::make_unique<Part>();
     return static_cast<Part&>(*part);
   }
-  /// What a question that was broken off may have left half written.
+  /// Drops what a question that was broken off may have left half written.
   void forget(internal::ScratchKind kind) { parts_[static_cast<std::size_t>(kind)].reset(); }
 
  private:

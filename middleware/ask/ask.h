@@ -50,7 +50,7 @@ struct AskInstant {
   WorldTime time;
 };
 
-/// Whom a question is about: everybody, unless it says less.
+/// What a question is about: everything, unless it says less.
 struct AskWhom {
   std::uint32_t groups = ~std::uint32_t{0};  ///< Bit g: bodies of group g are asked about.
   bool asksStill = true;                     ///< So is the static scene, if there is one.
@@ -72,11 +72,11 @@ struct WorldQuestion : AskWhom {
   /// object that is not closed is unknown where its box holds the shape's place. Else surfaces
   /// count.
   bool solids = false;
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< Of a cast: of any length but zero.
-  /// Of a cast: how far it moves. Of Nearest: nothing farther is told. Up to kMostAskReach.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< For a cast: any length but zero.
+  /// How far a cast moves. For Nearest: nothing farther is reported. Up to kMostAskReach.
   double reach = 0.0;
   WorldTime time;
-  /// These bodies at these instants, all others at `time`: what a player saw, who sees others late.
+  /// These bodies at these instants, all others at `time`: what a player saw who sees others late.
   std::vector<AskInstant> instants;
 
   [[nodiscard]] static WorldQuestion ray(const Eigen::Vector3d& from,
@@ -91,33 +91,33 @@ struct WorldQuestion : AskWhom {
   [[nodiscard]] static WorldQuestion inside(const Eigen::Vector3d& point, const WorldTime& time);
 };
 
-/// Of a box around a shape's place, for `WorldQuestion::hull`; `axes`: its own, in W.
+/// The corners of a box around a shape's place, for `WorldQuestion::hull`; `axes`: its own, in W.
 [[nodiscard]] std::vector<Eigen::Vector3d> boxCorners(
     const Eigen::Vector3d& halfExtents,
     const Eigen::Quaterniond& axes = Eigen::Quaterniond::Identity());
 
-/// Of a hull. A search looks at each a few times per piece that it comes near.
+/// The most corners of a hull. A search looks at each a few times per piece that it comes near.
 inline constexpr std::size_t kMostCorners = 1024;
 
 /// A reach is at most this (m): from one end of all places that a world may have to the other.
 inline constexpr double kMostAskReach = 1e8;
 
 /// At the distance of a hit, the shape is at most so far (m) from what it hits, where doubles
-/// resolve it: near places of 1e6 m they do not. A shape that passes by at less may be told to hit.
-/// Doubled, answers are earlier by as much; halved, casts that graze take a step more.
+/// resolve it: near places of 1e6 m they do not. A shape that passes by nearer may get a hit.
+/// Doubled, answers are earlier by as much; halved, casts that graze take one more step.
 inline constexpr double kAskTolerance = 1e-9;
 
 /// An LSS or a triangle that was hit or is near; or, without either, an object that is solid and
 /// holds the shape's place.
 struct WorldHit {
-  /// Whom; `p_W` is the point of its surface, of an LSS that holds the whole shape the shape's own.
+  /// What is hit; `p_W` is the point of its surface, or the shape's own if an LSS holds it whole.
   ContactSide what;
-  ObjectId object = kEveryObject;  ///< Of a mesh or of the scene.
-  /// Of a cast: along the way; the shape is free of this LSS or triangle before. Else how far the
+  ObjectId object = kEveryObject;  ///< The object of a mesh or of the scene.
+  /// For a cast: along the way; the shape is free of this LSS or triangle before. Else how far the
   /// two are apart. Rounded down; 0 if they touch where the shape begins.
   double distance = 0.0;
-  Eigen::Vector3d nhat_W = Eigen::Vector3d::Zero();  ///< Unit, to the shape; zero if none is told.
-  /// Of a triangle: p_W as a sum of its corners, in the order of Scene::triangle(), or of
+  Eigen::Vector3d nhat_W = Eigen::Vector3d::Zero();  ///< Unit, to the shape; zero if unknown.
+  /// For a triangle: p_W as a sum of its corners, in the order of Scene::triangle(), or of
   /// AvatarSurface::triangles().
   std::array<double, 3> weights{};
   bool isAssumed = false;  ///< As WorldContact::isAssumed.
@@ -128,20 +128,20 @@ enum class AskUnknown : std::uint8_t {
   Assumed,     ///< Silent, and taken to hold still: hits of it are assumed.
   Silent,      ///< Nothing is known after its last pose; it was left out.
   NotThere,    ///< Before its first pose; it was left out.
-  Unresolved,  ///< Of a flight: more triangles, or steps, than are followed in motion.
+  Unresolved,  ///< In a flight: more triangles, or steps, than are followed in motion.
   Open,        ///< An object of it, or of the static scene, has no inside: it is not closed.
 };
 
 struct UnknownBody {
   BodyId body = 0;  ///< Or kStillScene.
   AskUnknown why = AskUnknown::Silent;
-  ObjectId object = kEveryObject;  ///< Of an Open one, unless it is a link's surface.
+  ObjectId object = kEveryObject;  ///< The open object, unless it is a link's surface.
 };
 
 enum class AskVerdict : std::uint8_t {
   Clear,    ///< Nothing is hit or near, proven.
   Hit,      ///< Something is. What is left out may be nearer.
-  Unknown,  ///< Nothing that is known is; of `unknown` nothing is claimed.
+  Unknown,  ///< Nothing that is known is; nothing is claimed of `unknown`.
 };
 
 struct WorldAnswer {
@@ -157,14 +157,14 @@ struct WorldAnswer {
 /// Replaces `answer`. Never missed, never late: what the shape hits, where everything truly is at
 /// the instant, has a hit, no farther than it is; tight to kAskTolerance (ask.md). The same for the
 /// same world and question. Surfaces count: a shape inside a mesh that touches no triangle of it
-/// does not overlap it. Questions at the instant of the last one, while nobody changes the world,
+/// does not overlap it. Questions at the instant of the last one, in a world that did not change,
 /// are cheapest. Allocates nothing once scratch and answer have grown. Errors, which name what is
 /// wrong: a shape, direction or reach that is not finite, out of range, or without length; unknown
 /// bodies or links; an instant that was forgotten.
 Result<Done> askWorld(const World& world, const WorldQuestion& question, Scratch& scratch,
                       WorldAnswer& answer);
 
-/// Many in one call: answers[i] is that of questions[i], to the bit, but for any hit, in whatever
+/// Many in one call: answers[i] is that of questions[i], to the bit, but for AskWhich::Any, in what
 /// order they come; those at the same instants follow each other. Errors: as of one, with its place
 /// as Error::index; then no answer counts.
 Result<Done> askWorld(const World& world, const std::vector<WorldQuestion>& questions,
@@ -179,7 +179,7 @@ struct FlightQuestion : AskWhom {
   std::int64_t fromUs = 0, toUs = 0;
 };
 
-/// Of the first of all.
+/// The first hit of all.
 struct FlightHit {
   WorldHit hit;    ///< `distance`: along the way; places at that time.
   WorldTime time;  ///< Rounded down: nothing is hit before.

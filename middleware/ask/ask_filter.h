@@ -1,4 +1,4 @@
-// middleware/ask/ask_filter.h: whom a question leaves out. Not installed.
+// middleware/ask/ask_filter.h: what a question leaves out. Not installed.
 #pragma once
 
 #include "articulated/result.h"

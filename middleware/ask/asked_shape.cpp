@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Steps of a cast. Each halves what is left at least, and mostly squares it; a cast that took so
-/// many is told to hit where it is, which is early.
+/// many is reported as a hit where it is, which is early.
 constexpr int kMostSteps = 128;
 
 /// How far a point of the axis may be from its true place after it moved: a product, a sum, and the
@@ -65,7 +65,7 @@ bool touches(const AskedShape& shape, const Hull& piece, double sum, Meeting& me
     const double more = sum + roundingOfWay(shape, along);
     const double free = meeting.apart.lower() - more;
     if (free <= 0.0 || meeting.apart.upper <= more + kAskTolerance) return true;
-    // At most so fast does the free space shrink, per metre of way.
+    // How fast, at most, the free space shrinks, per metre of way.
     const double pace = kSeparationRounding + shape.ofWay - meeting.apart.nhat.dot(shape.way);
     if (pace <= 0.0) return false;
     // Steps do not depend on the reach, which what was found before may have shortened.

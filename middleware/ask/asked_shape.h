@@ -13,42 +13,42 @@
 
 namespace foretouch::internal {
 
-/// In a frame in which the pieces rest.
+/// A shape on its way, or at rest, in a frame in which the pieces rest.
 struct AskedShape {
   Lss lss;                                        ///< Where it begins.
-  const ConvexShape* hull = nullptr;              ///< Else null; of corners from lss.a.
+  const ConvexShape* hull = nullptr;              ///< Or null; corners from lss.a.
   Eigen::Vector3d way = Eigen::Vector3d::Zero();  ///< Unit; zero: it rests.
   double reach = 0.0;                             ///< How far it moves; at rest, how far is near.
   double moved = 0.0;                             ///< How far it had moved before it was here.
   double rounding = 0.0;  ///< No point of it or of a piece is farther from where it is given.
-  double ofWay = 0.0;     ///< Nor is the true unit way from `way`, beside its own rounding.
+  double ofWay = 0.0;     ///< Nor is the true unit way farther from `way`, beside its own rounding.
 
   [[nodiscard]] bool moves() const { return !way.isZero(0.0); }
   [[nodiscard]] bool isRay() const {
     return moves() && hull == nullptr && lss.a == lss.b && lss.radius == 0.0;
   }
-  /// Instead of the axis, if there are corners, from its place; `memory` is what it refers to.
+  /// Takes corners, if there are any, instead of the axis, from its place; refers to `memory`.
   void takeHull(const std::vector<Eigen::Vector3d>& corners, ConvexShape& memory);
-  /// Around where it begins, without its radius.
+  /// The box around where it begins, without its radius.
   [[nodiscard]] Aabb box() const;
   /// The same after it has moved so far; it may go no farther than `until` then.
   [[nodiscard]] AskedShape movedBy(double along, double until) const;
-  /// As somebody sees it who rests in the frame; rounding grows by what that adds. `memory`: of
-  /// a hull, to which it refers.
+  /// The same as seen from the frame; rounding grows by what that adds. `memory`: of a hull, to
+  /// which it refers.
   [[nodiscard]] AskedShape seenFrom(const LinkPlace& frame, ConvexShape& memory) const;
 };
 
 /// How a shape meets a piece.
 struct Meeting {
-  double distance = 0.0;  ///< Along the way, from here; or of the two.
-  Separation apart;       ///< There: of the shape's axis and the piece.
+  double distance = 0.0;  ///< Along the way, from here; or between the two.
+  Separation apart;       ///< That of the shape's axis and the piece there.
 };
 
 /// As separation() of the shape after it has moved so far and the piece, without their radii, with
 /// more planes tried where rounding tilts the one between.
 [[nodiscard]] Separation apartAfter(const AskedShape& shape, double along, const Hull& piece);
 
-/// False: proven to miss it, or to be farther than the reach. `radius`: of the piece.
+/// False: proven to miss it, or to be farther than the reach. `radius`: the piece's.
 [[nodiscard]] bool meets(const AskedShape& shape, const Hull& piece, double radius,
                          Meeting& meeting);
 

@@ -80,7 +80,7 @@ void BodyAsker::askSkin(BodyId body, const PieceBoxes* pieces, const AskedShape&
   ContactSide side;
   side.body = body;
   if (!asker.findLinks(body, pieces)) return;
-  // A skin has no inside that would be told.
+  // A skin has no inside to report.
   Aabb place;
   place.add(shape.lss.a);
   place.grow(shape.rounding);

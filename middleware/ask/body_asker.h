@@ -32,7 +32,7 @@ struct AskMemory : ScratchPart {
   std::vector<NearBody> near;
   ObjectsAround around;
   SkinMemory skin;
-  // Of flights.
+  // For flights.
   struct LaterPart {
     double us;           // from when on it is to be looked at
     std::int32_t child;  // a node of a hierarchy, or ~ a triangle
@@ -42,7 +42,7 @@ struct AskMemory : ScratchPart {
   std::vector<LaterPart> parts;
 };
 
-/// Of one question. Refers to all that it is given.
+/// Asks one question. Refers to all that it is given.
 class BodyAsker {
  public:
   /// `open`: if solids are asked about, objects without an inside are added to it.
@@ -51,7 +51,7 @@ class BodyAsker {
       : world_(world), filter_(filter), shape_(shape), memory_(memory), hits_(hits), open_(open) {}
 
   void askStill(const Scene& scene);
-  /// At the instants to which they were brought.
+  /// Asks the bodies at the instants to which they were brought.
   void askBodies();
 
  private:
@@ -60,10 +60,10 @@ class BodyAsker {
   void askLinks(BodyId body, const PieceBoxes* pieces, const AskedShape& shape);
   void askSkin(BodyId body, const PieceBoxes* pieces, const AskedShape& shape);
   void askLink(const ContactSide& side, const LinkPlace& place, const AskedShape& shape);
-  /// Solid objects around the shape's place, of a scene or mesh, and of a link with triangles.
+  /// Asks solid objects around the shape's place, of a scene or mesh, or of a link with triangles.
   /// `shape`: as seen from their frame.
   void askSolids(const SceneParts& scene, BodyId body, const AskedShape& shape);
-  /// Of a link's own surface, if it has one.
+  /// The same for a link's own surface, if it has one.
   void askSolidsOf(const ContactSide& side, const AskedShape& shape);
   void askSolids(const LinkSurface& surface, const ContactSide& side, const AskedShape& shape);
   void addSolid(const ContactSide& side, ObjectId object);

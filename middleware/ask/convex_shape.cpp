@@ -90,7 +90,7 @@ class ConvexSearch {
     nhat_ = nhat;
   }
 
-  /// To the face, with the corner that is nearest along the plane, that is nearest to the piece.
+  /// Goes to the face, with the corner nearest along the plane, that is nearest to the piece.
   /// False: no face is nearer, or the piece is within the four corners.
   bool descend() {
     const std::size_t corner = lowestAlong(shape_, apart_.difference);

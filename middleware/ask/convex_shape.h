@@ -19,16 +19,16 @@ struct ConvexShape {
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();  ///< Its box.
   double extent = 0.0;  ///< No corner's 1-norm is larger.
 
-  /// Replaces all: of `given` from `place`, which becomes their middle. What both are rounded by.
+  /// Replaces all by `given` from `place`, which becomes their middle. Returns what both round by.
   double assign(const std::vector<Eigen::Vector3d>& given, Eigen::Vector3d& place);
-  /// The same as somebody sees it who rests in the frame; `seen` is replaced. What that rounds.
+  /// Replaces `seen` by the same as seen from the frame. Returns the rounding that this adds.
   double seenFrom(const LinkPlace& frame, ConvexShape& seen) const;
 
  private:
   void measure();
 };
 
-/// Of the hull and a piece, as separation() of two hulls: bounds that are proven with all corners,
+/// For the hull and a piece, as separation() of two hulls: bounds that all corners prove,
 /// which a search for the closest three proposes (ask.md 7).
 [[nodiscard]] Separation separation(const ConvexShape& shape, const Eigen::Vector3d& place,
                                     const Hull& piece);

@@ -14,14 +14,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Steps of one piece in one span. What needs more is not resolved: told as unknown, never as
+/// Steps of one piece in one span. What needs more is not resolved: reported as unknown, never as
 /// free.
 constexpr int kMostFlightSteps = 512;
 
 /// When the free space is used up that shrinks by `pace` per us, which itself grows by
 /// `acceleration` per us; rounded down.
 double usUntil(double free, double pace, double acceleration) {
-  // Of free - pace h - acceleration h^2/2 = 0, in the form that cancels nothing.
+  // The root of free - pace h - acceleration h^2/2 = 0, in the form that cancels nothing.
   const double root = std::sqrt(pace * pace + 2.0 * acceleration * free);
   const double below = pace > 0.0 ? pace + root : 0.0;
   if (below > 0.0) return 2.0 * free / (kInflation * below);
@@ -29,7 +29,7 @@ double usUntil(double free, double pace, double acceleration) {
   return (root - pace) / (kInflation * acceleration);
 }
 
-/// At most so fast do a shape of this velocity and the piece come closer along the normal.
+/// How fast, at most, a shape of this velocity and the piece come closer along the normal.
 double paceOf(const MovingPiece& piece, const Vector3d& nhat, const Vector3d& velocity) {
   double pace = nhat.dot(piece.velocities[0] - velocity);
   double most = velocity.lpNorm<1>() + piece.velocities[0].lpNorm<1>();
@@ -40,7 +40,7 @@ double paceOf(const MovingPiece& piece, const Vector3d& nhat, const Vector3d& ve
   return pace + kSeparationRounding * most + kInflation * piece.ofVelocity;
 }
 
-/// That an LSS stays in.
+/// The box that an LSS stays in.
 Aabb boxOf(const PieceBoxes& boxes, std::size_t lss) {
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
@@ -53,7 +53,7 @@ Aabb boxOf(const PieceBoxes& boxes, std::size_t lss) {
 
 }  // namespace
 
-/// Of a shape on its flight and a piece.
+/// A shape on its flight and a piece that it meets.
 struct FlightMeeting {
   MovingPiece piece;
   AskedShape shape;
@@ -91,7 +91,7 @@ AskedShape FlightAsker::shapeAt(double us) const {
   return shape;
 }
 
-/// After the span's begin.
+/// Counted from the span's begin.
 double FlightAsker::limitUs() const {
   return std::min(spanUs_, bestUs_ - spanFromUs_);
 }
@@ -162,7 +162,7 @@ bool FlightAsker::askSpan(BodyId body) {
   return isResolved;
 }
 
-/// Whether the shape's way through the span meets the box that somebody stays in.
+/// Whether the shape's way through the span meets the box that a body or piece stays in.
 bool FlightAsker::mayReach(const Aabb& box) const {
   const double until = limitUs();
   if (until < 0.0) return false;

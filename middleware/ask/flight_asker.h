@@ -26,11 +26,11 @@ class FlightAsker {
 
  private:
   enum class Outcome : std::uint8_t { Free, Touch, Unresolved };
-  /// Of the span that `moving_` is at; false: not all of it could be resolved.
+  /// Asks about the span that `moving_` is at; false: not all of it could be resolved.
   [[nodiscard]] bool askSpan(BodyId body);
   [[nodiscard]] bool askTriangles(const ContactSide& side, const LinkSurface& surface);
   [[nodiscard]] bool askPiece(const ContactSide& side, const Hull& hull_L, double radius);
-  /// From `us` after the span's begin on, which becomes when they touch.
+  /// Looks from `us` after the span's begin on; `us` becomes when they touch.
   [[nodiscard]] Outcome touches(LinkId link, const Hull& hull_L, double radius, double& us,
                                 FlightMeeting& meeting);
   [[nodiscard]] AskedShape shapeAt(double us) const;

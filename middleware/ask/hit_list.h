@@ -1,4 +1,4 @@
-// middleware/ask/hit_list.h: what was found of one question so far: the nearest, any, or all. Not
+// middleware/ask/hit_list.h: what one question has found so far: the nearest, any, or all. Not
 // installed.
 #pragma once
 
@@ -15,7 +15,7 @@ class HitList {
   HitList(double reach, AskWhich which, WorldAnswer& answer)
       : answer_(answer), which_(which), limit_(reach) {}
 
-  /// What is farther is for nothing; below zero if nothing more is asked for.
+  /// Hits farther than this change nothing; below zero if nothing more is asked for.
   [[nodiscard]] double limit() const { return limit_; }
   /// A hit within the limit that no filter leaves out.
   void add(const WorldHit& hit);

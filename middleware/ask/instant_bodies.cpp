@@ -67,7 +67,7 @@ void InstantBodies::bringBody(BodyId body) {
   if (state_[slotOf(body)].known != PlaceKnown::Known) others_.push_back(body);
 }
 
-/// Says, too, what is known of it.
+/// Sets what is known of it, too.
 Aabb InstantBodies::roughBox(BodyId body) {
   State& state = state_[slotOf(body)];
   const WorldBody& asked = world_->body(body);
@@ -150,7 +150,7 @@ void InstantBodies::fill(BodyId body, const BodyPiece& known, PieceBoxes& piece)
   piece.isHeld = known.piece.isHeld;
 }
 
-/// Of a body that somebody carries: by its places, as poses of two tell where it is.
+/// For a body that is carried: by its places, as the poses of both decide where it is.
 Aabb InstantBodies::boxOfPlaces(BodyId body) {
   State& state = state_[slotOf(body)];
   std::vector<LinkPlace>& places = kept_[slotOf(body)].places;

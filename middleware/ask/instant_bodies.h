@@ -47,17 +47,17 @@ class InstantBodies {
   [[nodiscard]] const double* lower(int axis) const { return lower_[slotOf(axis)].data(); }
   [[nodiscard]] const double* upper(int axis) const { return upper_[slotOf(axis)].data(); }
   [[nodiscard]] Aabb box(BodyId body) const;
-  /// None of their coordinates is above it.
+  /// A bound on the size of their coordinates.
   [[nodiscard]] double extent() const { return extent_; }
 
   [[nodiscard]] PlaceKnown known(BodyId body) const { return state_[slotOf(body)].known; }
-  /// The boxes of its LSS, which from now on are its box here as well; null for a body that
-  /// somebody carries. Precondition: it is known. O(joints) for a piece of its motion that is new.
+  /// The boxes of its LSS, from which its box here is made from now on; null for a body that is
+  /// carried. Precondition: it is known. O(joints) for a piece of its motion that is new.
   [[nodiscard]] const PieceBoxes* pieces(BodyId body);
-  /// The same of any piece of a body's motion, which nobody carries. Valid until the next call. The
-  /// world is in use.
+  /// The same for any piece of the motion of a body that is not carried. Valid until the next call.
+  /// The world is in use.
   [[nodiscard]] const PieceBoxes& piecesOf(BodyId body, const BodyPiece& known);
-  /// Of its links, which are posed when they are first asked for.
+  /// The places of its links, which are posed when they are first asked for.
   [[nodiscard]] const std::vector<LinkPlace>& places(BodyId body);
   /// Those that are not Known, by number.
   [[nodiscard]] const std::vector<BodyId>& others() const { return others_; }

@@ -46,7 +46,7 @@ PlaceKnown MovingBody::begin(const WorldParts& world, BodyId body, std::int64_t 
   return how;
 }
 
-/// From the one whom nobody carries on.
+/// Begins with the body that is not carried.
 void MovingBody::findSpeeds() {
   Speed carrier;
   for (std::size_t i = chain_.size(); i-- > 0;) {

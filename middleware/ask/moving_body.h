@@ -18,25 +18,25 @@ namespace foretouch::internal {
 struct MovingPiece {
   Hull hull;
   double rounding = 0.0;                      ///< No point is farther from where it is given.
-  std::array<Eigen::Vector3d, 3> velocities;  ///< Of the hull's points, per us; zero: not known.
-  /// The true velocities differ from these by no more; and change by no more, per us.
+  std::array<Eigen::Vector3d, 3> velocities;  ///< The hull's points', per us; zero: not known.
+  /// The true velocities differ from these by no more; and change by no more per us.
   double ofVelocity = 0.0, acceleration = 0.0;
 };
 
 /// For one thread; keeps its memory.
 class MovingBody {
  public:
-  /// From an instant on, up to toUs at most. Unless it is Known or Assumed, nothing else may be
-  /// asked.
+  /// Begins the span at an instant, up to toUs at most. Unless it returns Known or Assumed, nothing
+  /// else may be asked.
   [[nodiscard]] PlaceKnown begin(const WorldParts& world, BodyId body, std::int64_t utimeUs,
                                  std::int64_t toUs);
-  /// The end of the span; where the body is not known, of what is not known.
+  /// The end of the span; where the body is not known, the end of what is not known.
   [[nodiscard]] std::int64_t endUs() const { return endUs_; }
   [[nodiscard]] bool isCarried() const { return chain_.size() > 1; }
-  /// Of a body that nobody carries.
+  /// The piece of the motion of a body that is not carried.
   [[nodiscard]] const BodyPiece& piece() const { return piece_; }
 
-  /// `us` after the span's begin. O(depth of the link); of a body that is carried, O(joints).
+  /// The piece `us` after the span's begin. O(depth of the link); of a carried body, O(joints).
   [[nodiscard]] MovingPiece at(LinkId link, const Hull& hull_L, double us);
 
  private:
@@ -52,7 +52,7 @@ class MovingBody {
   std::int64_t beginUs_ = 0, endUs_ = 0;
   std::vector<BodyId> chain_;
   BodyPiece piece_;
-  ChainMotion above_;          // memory: of who carries it
+  ChainMotion above_;          // memory: that of its carriers
   ChainMotion motion_;         // of the body itself
   double durationUs_ = 1.0;    // of its piece
   std::vector<Speed> speeds_;  // per link, of a body that is carried

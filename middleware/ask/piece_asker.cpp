@@ -21,7 +21,7 @@ Vector3d faceOf(const Hull& piece) {
   return (v[1] - v[0]).cross(v[2] - v[0]);
 }
 
-/// From the piece to the shape.
+/// The normal from the piece to the shape.
 Vector3d normalOf(const AskedShape& shape, const Hull& piece, const Separation& apart) {
   if (apart.distance > kAskTolerance) return unitOf(apart.difference);
   // Their difference is noise: what faces the shape on its way says more.
@@ -32,7 +32,7 @@ Vector3d normalOf(const AskedShape& shape, const Hull& piece, const Separation& 
 }
 
 /// Shares of p in the corners: not below 0, together 1. By its places along the longest edge and
-/// across it, so that of a sliver, too, the sum is at p.
+/// across it, so that the sum is at p for a sliver, too.
 std::array<double, 3> weightsOf(const Hull& triangle, const Vector3d& p) {
   const auto& v = triangle.points;
   const auto squareOf = [&](std::size_t k) { return (v[(k + 1) % 3] - v[k]).squaredNorm(); };
@@ -50,7 +50,7 @@ std::array<double, 3> weightsOf(const Hull& triangle, const Vector3d& p) {
   const double xOfTop = std::clamp(side.dot(edge) / square, 0.0, 1.0);
   const Vector3d height = side - xOfTop * edge;
   const double high = height.squaredNorm();
-  // Of a sliver the share of the top is noise: no more than leaves the two others theirs.
+  // The share of a sliver's top is noise: no more than leaves the two others theirs.
   const double most = std::min(
       {1.0, xOfTop > 0.0 ? x / xOfTop : 1.0, xOfTop < 1.0 ? (1.0 - x) / (1.0 - xOfTop) : 1.0});
   const double share = high > 0.0 ? std::clamp(way.dot(height) / high, 0.0, most) : 0.0;

@@ -16,8 +16,8 @@ namespace foretouch::internal {
 [[nodiscard]] WorldHit hitOf(const AskedShape& shape, const Hull& piece, double radius,
                              const Meeting& meeting);
 
-/// Whose it is; its place stays. Number by number: where a place is written after a copy of all,
-/// the compiler of WebAssembly loses two of its coordinates.
+/// Sets whose it is; its place stays. Number by number: where a place is written after a copy of
+/// all, the compiler of WebAssembly loses two of its coordinates.
 void takeOwner(const ContactSide& side, WorldHit& hit);
 
 /// Refers to all that it is given.

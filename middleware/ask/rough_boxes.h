@@ -16,7 +16,7 @@ namespace foretouch::internal {
 
 /// Stretches of world time: 2^18 us each, a quarter of a second.
 inline constexpr int kStretchShift = 18;
-/// Of each body the boxes of so many stretches are kept, the last two seconds.
+/// The boxes of so many stretches are kept per body: the last two seconds.
 inline constexpr std::size_t kStretchesKept = 8;
 
 /// How far a body reaches in any of some poses, and in between.
@@ -32,18 +32,18 @@ class PosesReach {
   Aabb roots_;
 };
 
-/// Of one body.
+/// The boxes of one body.
 class RoughBoxes {
  public:
   /// A box that holds the body at the instant, and in most of the stretch around it; null if
-  /// somebody carries it then, or unless it has a later pose. O(1) where it is kept; else O(joints)
+  /// it is carried then, or has no later pose. O(1) where it is kept; else O(joints)
   /// for each pose of the stretch that came since.
   [[nodiscard]] const Aabb* at(const WorldBody& body, const BodyKind& kind, std::int64_t utimeUs);
 
  private:
   struct Kept {
     std::int64_t stretch = std::numeric_limits<std::int64_t>::min();
-    std::int64_t lastEpisodeUs = 0;  ///< Of the body: the world has not changed it since.
+    std::int64_t lastEpisodeUs = 0;  ///< The body's: the world has not changed it since.
     std::int64_t episodeUs = 0;
     std::int64_t fromUs = 0, untilUs = 0;  ///< The box holds from here to before there.
     PosesReach reach;

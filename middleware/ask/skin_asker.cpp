@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a place that is blended, per share of it, beside the roundings of the links' places: of the
-/// largest of these (ask.md 9).
+/// The rounding of a blended place, per share of it, beside the roundings of the links' places;
+/// relative to the largest of these (ask.md 9).
 constexpr double kBlendRounding = 4.0 * kUnitRoundoff;
 
 bool isNearer(const SkinMemory::Near& x, const SkinMemory::Near& y) {
@@ -100,7 +100,7 @@ bool SkinAsker::findLinks(BodyId body, const PieceBoxes* pieces) {
   return !memory_.links.empty() || !memory_.bare.empty();
 }
 
-/// Of all places that are blended from these.
+/// Takes the rounding of all places that are blended from these.
 void SkinAsker::takeRounding(const std::vector<LinkPlace>& places) {
   double rounding = 0.0, most = 0.0;
   for (const LinkPlace& place : places) {
@@ -112,7 +112,7 @@ void SkinAsker::takeRounding(const std::vector<LinkPlace>& places) {
       (rounding + shares * kBlendRounding * most) * (1.0 + blends_.sumError()) * kInflation;
 }
 
-/// Around a cluster or a part, by BlendedLss.
+/// Adds the ball around a cluster or a part, by BlendedLss.
 void SkinAsker::addBall(const BlendedLss& blend, const std::vector<LinkPlace>& places) {
   const BlendShare* const shares = blends_.shares(blend);
   Vector3d middle = Vector3d::Zero(), first = Vector3d::Zero();

@@ -1,4 +1,4 @@
-// middleware/ask/skin_asker.h: a skin at one instant: whose triangles a shape comes to. By boxes
+// middleware/ask/skin_asker.h: a skin at one instant: which triangles a shape comes to. By boxes
 // around what the links have of it, then by balls around clusters of triangles and around their
 // parts; only triangles of parts that it comes to are posed. Proof: ask.md 9. Not installed.
 #pragma once
@@ -31,7 +31,7 @@ struct SkinMemory {
   std::vector<Near> clusters, parts;
 };
 
-/// Of one body and question. Refers to all that it is given.
+/// Asks one question about one body. Refers to all that it is given.
 class SkinAsker {
  public:
   /// `kind` has a skin; `shape`: in W.
@@ -40,10 +40,10 @@ class SkinAsker {
 
   /// Some of its triangles are asked about, wherever they are.
   [[nodiscard]] bool takesTriangles(BodyId body) const;
-  /// Whose surface the shape may come to, by the boxes of `pieces`; every link if that is null.
-  /// False: none's.
+  /// Finds the links whose surface the shape may come to, by the boxes of `pieces`; every link if
+  /// that is null. False: none.
   [[nodiscard]] bool findLinks(BodyId body, const PieceBoxes* pieces);
-  /// Of these links; `side`: of the body.
+  /// Asks the triangles of these links; `side`: the body's.
   void askTriangles(ContactSide side, const std::vector<LinkPlace>& places);
   /// Those of these links that have no triangles of the skin.
   [[nodiscard]] const std::vector<LinkId>& bareLinks() const { return memory_.bare; }

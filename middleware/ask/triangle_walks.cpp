@@ -12,7 +12,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of all places in the tree, from its origin.
+/// A bound on all places in the tree, from its origin.
 double extentOf(const SceneParts& scene) {
   return (scene.audit.boxMax - scene.origin).cwiseAbs().maxCoeff() +
          (scene.audit.boxMin - scene.origin).cwiseAbs().maxCoeff();

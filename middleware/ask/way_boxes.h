@@ -22,7 +22,7 @@ class WayBoxes {
   /// The shape touches nothing in the box before it has moved so far; at rest, nothing there is
   /// nearer. kBeyondReach: it touches nothing there at all.
   [[nodiscard]] double nearest(const Aabb& box) const;
-  /// The same of `count` boxes, coordinate by coordinate.
+  /// The same for `count` boxes, coordinate by coordinate.
   template <typename Real>
   void nearest(int count, const Real* const (&lower)[3], const Real* const (&upper)[3],
                double* bounds) const {
@@ -79,7 +79,7 @@ class WayBoxes {
   [[nodiscard]] double lengthOf(double square) const;
 
   bool moves_;
-  double low_[3], high_[3];  ///< Of the shape's box, grown; a sphere's radius apart, at rest.
+  double low_[3], high_[3];  ///< The shape's box, grown; a sphere's radius apart, at rest.
   double inverse_[3];
   double reach_, squareReach_, radius_;
 };

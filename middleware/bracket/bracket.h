@@ -23,17 +23,17 @@
 
 namespace foretouch {
 
-/// How far every point of a link's axes may be from where the model has it. A claim of whoever
-/// gives it: the answers rest on it. What is infinite is not claimed.
+/// How far every point of a link's axes may be from where the model has it. A claim of the caller:
+/// the answers rest on it. What is infinite is not claimed.
 struct LinkBound {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
 
-  double error = 0.0;           ///< Of a pose (m): the tracker's own.
-  double acceleration = kNone;  ///< Of person minus model, in a step (m/s^2).
+  double error = 0.0;           ///< In a pose (m): the tracker's own.
+  double acceleration = kNone;  ///< That of person minus model, in a step (m/s^2).
   /// Instead, if less: a length (m) and a share of how much the poses around the step bend there.
   double followFloor = kNone, followShare = 0.0;
-  double speed = kNone;  ///< Of the person, where poses were lost (m/s).
-  /// After the last pose: of person minus model, the speed there (m/s) and the acceleration
+  double speed = kNone;  ///< The person's, where poses were lost (m/s).
+  /// After the last pose, for person minus model: the speed there (m/s) and the acceleration
   /// (m/s^2).
   double aheadSpeed = 0.0, aheadAcceleration = kNone;
 };
@@ -56,8 +56,8 @@ struct PersonStep {
   double begin = 0.0, end = 1.0;                   ///< t of the step; begin < end.
 };
 
-/// Of one link in one step. The link touched nothing on [0, possibleFrom) and (possibleUntil, 1];
-/// a Certain one touched something at certainFrom and at certainUntil, or passed it in between.
+/// A link in a step. It touched nothing on [0, possibleFrom) and (possibleUntil, 1]; a Certain one
+/// touched something at certainFrom and at certainUntil, or passed it in between.
 struct LinkBracket {
   LinkId link = 0;
   /// An own link above `link`, or a link of the other body; kNoParent: the scene.
@@ -65,15 +65,15 @@ struct LinkBracket {
   BracketVerdict verdict = BracketVerdict::Unclaimed;
   double possibleFrom = 0.0, possibleUntil = 1.0;
   double certainFrom = 1.0, certainUntil = 0.0;  ///< In between, where certainUntil comes first.
-  TriangleId triangle = -1;  ///< Of the scene, what is, or may be, touched first; else -1.
+  TriangleId triangle = -1;  ///< What of the scene is, or may be, touched first; else -1.
   double growth = 0.0;       ///< The largest distance between person and model, of both sides (m).
 };
 
 struct StepBrackets {
   std::vector<LinkBracket> links;  ///< One per link, in order; none without a scene.
-  /// Of own links, or of two bodies: every asked pair that is not excluded.
+  /// For own links, or for two bodies: every asked pair that is not excluded.
   std::vector<LinkBracket> pairs;
-  std::int32_t pieces = 0;  ///< Of constant rate, that stand for the model.
+  std::int32_t pieces = 0;  ///< Pieces of constant rate that stand for the model.
   std::uint64_t looks = 0;  ///< Distances of two parts.
   std::uint64_t work = 0;   ///< As BracketOptions::workBudget counts it.
   bool isSpent = false;  ///< The budget was: what is possible might have been excluded, or certain.
@@ -87,7 +87,7 @@ struct BracketOptions {
   std::vector<IgnoredPair> ignored;
   /// Instants are as near to the true ones as this distance (m), 1e-9 to 1.
   double resolution = 1e-5;
-  /// Of one answer, counted as QueryOptions::workBudget is: the same on every machine. Once it is
+  /// For one answer, counted as QueryOptions::workBudget is: the same on every machine. Once it is
   /// spent, what is still open is possible; finding what is open is not counted.
   std::uint64_t workBudget = std::numeric_limits<std::uint64_t>::max();
 };
@@ -128,7 +128,7 @@ class BracketQuery {
   std::shared_ptr<const internal::BracketPlan> plan_;
 };
 
-/// The same of two bodies that both move: of every link of one and every link of the other. An
+/// The same for two bodies that both move: for every link of one and every link of the other. An
 /// object that moves is a body of one link; where its motion is known, its bound is 0.
 class PairBracketQuery {
  public:
@@ -143,7 +143,7 @@ class PairBracketQuery {
 
   /// The asked parts of both steps begin and end at the same instants: t is 0 at their begin and 1
   /// at their end. Fills `brackets.pairs`. Errors: those of BracketQuery::answer() (the file is
-  /// "one" or "other"); a part that is none. Allocates nothing once scratch and answer have grown.
+  /// "one" or "other"); a part out of range. Allocates nothing once scratch and answer have grown.
   Result<Done> answer(const PersonStep& one, const PersonStep& other, Scratch& scratch,
                       StepBrackets& brackets) const;
 

@@ -27,7 +27,7 @@
 
 namespace foretouch::internal {
 
-/// Of a level in the step at hand: not cut; nothing is said of some link; something of all.
+/// A level in the step at hand: not cut; nothing is said of some link; something of all.
 enum class LevelCut : std::uint8_t { None, Unknown, Known };
 
 /// What questions about brackets keep of one body.
@@ -40,31 +40,31 @@ struct BodyBrackets {
   std::array<LevelCut, kLevels> cuts{};
   KnownPlaces places;
   std::vector<std::optional<StepGrowth>> growths;  ///< Per link, of the step.
-  std::vector<double> most;                        ///< Per link: the largest, as told.
+  std::vector<double> most;                        ///< Per link: the largest, as reported.
   std::vector<Aabb> boxes;                         ///< Per link: what it may sweep in the step.
   std::vector<std::uint8_t> isOpen;                ///< Per link: it may touch what is asked.
   std::vector<std::uint8_t> isMoved;               ///< Per joint: an open link hangs on it.
 
   void begin(std::size_t numLinks);
-  /// From `isOpen`: finer levels move these joints alone.
+  /// Fills `isMoved` from `isOpen`: finer levels move only these joints.
   void moveOpen(const Skeleton& skeleton);
 };
 
-/// The same, of one body or two.
+/// The same, for one body or two.
 struct BracketMemory : ScratchPart {
   static constexpr ScratchKind kKind = ScratchKind::Bracket;
 
   std::array<BodyBrackets, 2> bodies;
   int base = 0;                    ///< The coarsest level that says something of every open link.
-  LinkLeaves triangles, ofPieces;  ///< Of all links in the step; of one in its pieces.
+  LinkLeaves triangles, ofPieces;  ///< For all links in the step; for one in its pieces.
   std::vector<Aabb> pieceBoxes;
-  std::vector<std::uint8_t> isNear;  ///< Per link of who is asked: something of the scene is near.
-  std::vector<NearLeaves> ofStep;    ///< Per link of who is asked: what may be near in the step.
-  /// Of who is asked, in each piece of the base level: the leaves and the pairs that may be near.
+  std::vector<std::uint8_t> isNear;  ///< Per link that is asked: something of the scene is near.
+  std::vector<NearLeaves> ofStep;    ///< Per link that is asked: what may be near in the step.
+  /// For the link at hand, in each piece of the base level: the leaves and pairs that may be near.
   /// Nothing else can touch the person, whatever finer pieces do (bracket.md 3).
   std::vector<NearLeaves> leaves;
   std::vector<NearPairs> near;
-  NearPairs ofWhole;             ///< Of a link in the whole step, or at an instant.
+  NearPairs ofWhole;             ///< For a link in the whole step, or at an instant.
   bool arePiecesWalked = false;  ///< `ofPieces` is of the link at hand.
   std::vector<std::uint8_t> areLeavesKnown, arePairsKnown;  ///< Per piece.
   LeafSearch search;
@@ -95,11 +95,11 @@ struct BodyPlan {
 /// A question, checked and resolved: about one body, the scene and itself; or about two.
 struct BracketPlan {
   std::vector<BodyPlan> bodies;
-  std::optional<Scene> scene;  // of one body
+  std::optional<Scene> scene;  // for one body
   double resolution = 0.0;
   std::vector<IgnoredPair> ignored;
   PairsAsked asked;
-  std::vector<foretouch::LinkPair> pairs;  // of own links, that are asked
+  std::vector<foretouch::LinkPair> pairs;  // own links that are asked
   std::uint64_t workBudget = std::numeric_limits<std::uint64_t>::max();
 };
 

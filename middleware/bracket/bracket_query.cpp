@@ -135,7 +135,7 @@ void beginAnswer(const BracketPlan& plan, BracketMemory& memory, StepBrackets& b
   beginBodies(plan, memory);
 }
 
-/// Of a step between two poses.
+/// The growths of a step between two poses.
 class GrowthsOfStep final : public internal::PieceGrowths {
  public:
   GrowthsOfStep(const BracketPlan& plan, const BracketMemory& memory)
@@ -151,7 +151,7 @@ class GrowthsOfStep final : public internal::PieceGrowths {
   const BracketMemory& memory_;
 };
 
-/// Of a gap of `seconds`, each half of which stands still (bracket.md 5).
+/// The growths of a gap of `seconds`, each half of which stands still (bracket.md 5).
 class GrowthsOfGap final : public internal::PieceGrowths {
  public:
   GrowthsOfGap(const std::vector<LinkBound>& bounds, double seconds)
@@ -168,7 +168,7 @@ class GrowthsOfGap final : public internal::PieceGrowths {
   double seconds_;
 };
 
-/// Of what comes, up to a horizon (s).
+/// The growths of what comes, up to a horizon (s).
 class GrowthsAhead final : public internal::PieceGrowths {
  public:
   GrowthsAhead(const std::vector<LinkBound>& bounds, double horizon)
@@ -187,7 +187,7 @@ class GrowthsAhead final : public internal::PieceGrowths {
   double horizon_;
 };
 
-/// The model and what follows from the bounds.
+/// Readies the model and what follows from the bounds.
 void prepare(const BodyPlan& plan, const PersonStep& person, BodyBrackets& memory) {
   memory.part = {person.step, person.begin, person.end};
   const std::vector<LinkBound>& bounds = *person.bounds;
@@ -205,7 +205,7 @@ void prepare(const BodyPlan& plan, const PersonStep& person, BodyBrackets& memor
   }
 }
 
-/// Once every body is prepared.
+/// Answers once every body is prepared.
 void answerStep(const BracketPlan& plan, BracketMemory& memory, StepBrackets& brackets) {
   const GrowthsOfStep growths(plan, memory);
   bool isRefined = false;

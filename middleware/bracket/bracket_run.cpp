@@ -66,8 +66,8 @@ class BracketRun : private StepSweep {
     if (bracket.verdict != BracketVerdict::Excluded) brackets_.pairs.push_back(bracket);
   }
 
-  /// By the base level first, which excludes most, and closes on what is touched throughout; what
-  /// it leaves open, by the level that is fine enough.
+  /// Asks the base level first, which excludes most, and closes on what is touched throughout; then
+  /// the level that is fine enough for what it leaves open.
   void bracketSides(const Asked& asked, LinkBracket& bracket) {
     if (memory_.sides.isSpent()) {
       bracket.verdict = BracketVerdict::Possible;
@@ -91,7 +91,7 @@ class BracketRun : private StepSweep {
     if (asked.other == kNoParent) findPassage(isClosed ? memory_.base : level, bracket);
   }
 
-  /// Its triangles are listed by leaves, piece by piece.
+  /// Whether its triangles are listed by leaves, piece by piece.
   [[nodiscard]] bool isListed(const Asked& asked) const {
     return asked.other == kNoParent && areLssSurface();
   }
@@ -186,7 +186,7 @@ class BracketRun : private StepSweep {
     bracket.certainUntil = std::max(bracket.certainUntil, until.value_or(0.0));
   }
 
-  /// Of ends of axes that are thinner than their growth: the shrunk body says nothing of those.
+  /// For ends of axes that are thinner than their growth: the shrunk body says nothing of those.
   void findPassage(int level, LinkBracket& bracket) {
     const bool isOpen =
         bracket.verdict == BracketVerdict::Possible && bracket.possibleFrom < bracket.possibleUntil;
@@ -206,7 +206,7 @@ class BracketRun : private StepSweep {
     }
   }
 
-  /// Of a point of the link, while it may touch something.
+  /// Sets the way of a point of the link, while it may touch something.
   void setWay(int level, const LinkBracket& bracket, const Vector3d& p_L) {
     std::vector<PassagePart>& way = memory_.way;
     way.clear();
@@ -276,7 +276,7 @@ class BracketRun : private StepSweep {
     return k * base(0).count() / piecesOf(0, level).count();
   }
 
-  /// From `from` of a piece to its end.
+  /// The same from `from` of a piece to its end.
   [[nodiscard]] std::optional<double> findIn(int level, int k, const Asked& asked,
                                              const BracketSearch& search, double from,
                                              SidesPair& witness) {
@@ -298,7 +298,7 @@ class BracketRun : private StepSweep {
                             growth,
                             plan_.resolution,
                             memory_.sides};
-    // Of a link among many triangles none is listed before it is known that it takes lists.
+    // For a link among many triangles, none is listed before it is known that it takes lists.
     if (isCrowded(asked.link) && isFoundAt(piece, search, from, nullptr, witness)) return from;
     const int basePiece = basePieceOf(level, k);
     const NearPairs* const pairs = pairsIn(basePiece, asked.link);

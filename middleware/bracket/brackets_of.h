@@ -1,4 +1,4 @@
-// middleware/bracket/brackets_of.h: of an answer, what is about some of the links. Not installed.
+// middleware/bracket/brackets_of.h: what of an answer is about some of the links. Not installed.
 #pragma once
 
 #include <algorithm>

@@ -19,7 +19,7 @@ constexpr std::size_t kMostPairs = 256;
 
 }  // namespace
 
-/// Of the grown body; of the shrunk one as it is at its thickest.
+/// Sets those of the grown body; of the shrunk one as it is at its thickest.
 void LeafSearch::setTubes(double from, double to) {
   const double begin = std::min(from, to), end = std::max(from, to);
   const Growth& growth = piece_->growth;

@@ -38,7 +38,7 @@ using LinkTubes = std::vector<SweptTube>;
 /// For one thread; keeps its memory.
 class LinkLeaves {
  public:
-  /// Of each box (of a link, or of a link in a piece), which leaves it meets.
+  /// Finds which leaves each box (of a link, or of a link in a piece) meets.
   void walk(const Scene& scene, const std::vector<Aabb>& boxes);
   /// How many.
   [[nodiscard]] std::size_t count(std::size_t box) const {

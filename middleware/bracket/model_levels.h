@@ -8,14 +8,14 @@
 
 namespace foretouch::internal {
 
-/// The whole step as one piece of every body. False: of some link that says nothing.
+/// Cuts the whole step as one piece of every body. False: that says nothing of some link.
 [[nodiscard]] bool cutWhole(const BracketPlan& plan, BracketMemory& memory);
-/// Every body's pieces at the same level, `memory.base`: the coarsest that says something of all
+/// Cuts every body at the same level, `memory.base`: the coarsest that says something of all
 /// links that are open. False: none does.
 [[nodiscard]] bool cutBase(const BracketPlan& plan, BracketMemory& memory);
-/// Unless it is cut.
+/// Cuts the level, unless it is cut.
 void cutLevel(const BracketPlan& plan, std::size_t body, int level, BracketMemory& memory);
-/// From the base level on, the one of which the link strays little.
+/// The first level from the base one on from whose pieces the link strays little.
 [[nodiscard]] int levelFor(const BracketPlan& plan, std::size_t body, LinkId link,
                            BracketMemory& memory);
 

@@ -22,10 +22,10 @@ struct LinkStray {
 };
 
 struct ModelPiece {
-  double begin = 0.0, end = 1.0;          ///< Of the part of the step that is asked.
-  double stepBegin = 0.0, stepEnd = 1.0;  ///< Of the step.
+  double begin = 0.0, end = 1.0;          ///< In the part of the step that is asked.
+  double stepBegin = 0.0, stepEnd = 1.0;  ///< In the step.
   ChainMotion motion;
-  MotionEvaluator evaluator;      ///< Of `motion`.
+  MotionEvaluator evaluator;      ///< For `motion`.
   std::vector<LinkStray> strays;  ///< Per link; infinite: the piece is too long to say.
 };
 
@@ -40,7 +40,7 @@ struct AskedPart {
 /// link that hangs on them is asked.
 struct PieceCut {
   int count;
-  const std::vector<std::uint8_t>& isMoved;  ///< Per joint; of a moved one its parent is, too.
+  const std::vector<std::uint8_t>& isMoved;  ///< Per joint; a moved one's parent is, too.
   KnownPlaces& places;                       ///< Both outlive the pieces.
 };
 
@@ -53,13 +53,13 @@ class ModelPieces {
   ModelPieces(const ModelPieces&) = delete;  // evaluators refer to their pieces' motions
   ModelPieces& operator=(const ModelPieces&) = delete;
 
-  /// Of a part of the model's step. False: a link may stray by any amount in a piece.
+  /// Cuts a part of the model's step. False: a link may stray by any amount in a piece.
   bool cut(const Avatar& avatar, const AskedPart& part, const ModelMotion& model,
            const PieceCut& cut);
   /// The first half of the step stands as at its begin, the second half as at its end.
   void stand(const Skeleton& skeleton, const PosedStep& step);
   /// Goes on as it went in the step, in pieces that grow: what may be touched soon is found before
-  /// anybody looks at all that may be touched later. False: that cannot be said.
+  /// all that may be touched later is looked at. False: that cannot be said.
   [[nodiscard]] bool goOn(const Skeleton& skeleton, const PosedStep& step, double horizon);
 
   [[nodiscard]] int count() const { return count_; }
@@ -83,7 +83,7 @@ class ModelPieces {
   std::vector<ModelPiece> pieces_;
   int count_ = 0;
   bool isContinuous_ = true;  // each piece begins where the one before it ends
-  ChainMotion whole_;         // of a constant rate of which a part is asked
+  ChainMotion whole_;         // one of constant rate of which a part is asked
   struct Placed {
     Pose pose;
     std::vector<LinkState> places;

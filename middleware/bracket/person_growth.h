@@ -9,8 +9,8 @@
 
 namespace foretouch::internal {
 
-/// Whoever may be farther (m) from the model may be anywhere: nothing is claimed of them, and the
-/// triangles around so large a body are not looked at.
+/// A person who may be farther (m) from the model may be anywhere: nothing is claimed of them, and
+/// the triangles around so large a body are not looked at.
 [[nodiscard]] bool isSaid(double growth);
 
 /// error + 4 most u (1 - u) with u in [0,1] of the step: nothing if no bound is claimed. `bend`: of
@@ -20,8 +20,8 @@ struct StepGrowth {
 
   [[nodiscard]] static std::optional<StepGrowth> of(const LinkBound& bound, double seconds,
                                                     double bend);
-  /// Of the piece [begin, end] of the step, in the piece's own t; `stray`: how far the piece is
-  /// from the model between its ends (m).
+  /// The growth in the piece [begin, end] of the step, in the piece's own t; `stray`: how far the
+  /// piece is from the model between its ends (m).
   [[nodiscard]] Growth in(double begin, double end, double stray) const;
   [[nodiscard]] double largest() const { return error + most; }
 };

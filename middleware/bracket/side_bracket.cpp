@@ -24,7 +24,7 @@ bool isWithin(MovingSides& sides, const SidesPair& pair, double t, double enter)
   return sides.at(pair, t).gapUpper <= enter;
 }
 
-/// Of pairs that are listed the first is the nearest, or nearly so.
+/// The first of the pairs that are listed is the nearest, or nearly so.
 bool isSoonFound(MovingSides& sides, double t, double enter, SidesPair& witness) {
   if (!witness.isNone() && isWithin(sides, witness, t, enter)) return true;
   if (sides.limit() == nullptr || sides.limit()->empty()) return false;

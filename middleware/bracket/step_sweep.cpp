@@ -12,7 +12,7 @@ namespace {
 
 /// Leaves near a link in a step.
 constexpr std::size_t kCrowd = 64;
-/// Of a piece; more are walked where a part of it is looked at.
+/// Leaves of a piece; more are walked where a part of it is looked at.
 constexpr std::size_t kMostListed = 512;
 
 }  // namespace

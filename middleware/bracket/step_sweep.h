@@ -1,4 +1,4 @@
-// middleware/bracket/step_sweep.h: what the links that are asked sweep in a step, who may meet whom
+// middleware/bracket/step_sweep.h: what the links that are asked sweep in a step, what may meet
 // there, and which leaves and triangles of the scene are near in which piece. Proof: bracket.md 3.
 // Not installed.
 #pragma once
@@ -10,13 +10,13 @@
 
 namespace foretouch::internal {
 
-/// Who is asked: a link of the first body and the scene, or a link of either body.
+/// What is asked: a link of the first body and the scene, or a link of either body.
 struct Asked {
   LinkId link, other = kNoParent;
   std::size_t otherBody = 0;
 };
 
-/// Of one question. All references outlive it.
+/// The sweep of one question. All references outlive it.
 class StepSweep {
  protected:
   StepSweep(const BracketPlan& plan, const BracketAsk& ask, BracketMemory& memory)
@@ -36,7 +36,7 @@ class StepSweep {
   [[nodiscard]] bool isClaimed(std::size_t body, LinkId link) const {
     return memory_.bodies[body].growths[slotOf(link)].has_value();
   }
-  /// Its LSS are what touches the scene.
+  /// Whether the LSS are what touches the scene.
   [[nodiscard]] bool areLssSurface() const { return !plan_.bodies[0].surface; }
 
   template <typename Visit>
@@ -50,13 +50,13 @@ class StepSweep {
 
   /// Cuts the models, and leaves open what may touch anything.
   void begin();
-  /// The box of what each open link may sweep, of all bodies. False: of some link there is none
-  /// that bounds anything; by the last level nothing is claimed of it then.
+  /// Finds the box of what each open link of all bodies may sweep. False: some link has none that
+  /// bounds anything; by the last level nothing is claimed of it then.
   bool sweep(bool isLast);
   bool sweepLink(std::size_t body, LinkId link);
   [[nodiscard]] double marginIn(const ModelPiece& piece, std::size_t body, LinkId link) const;
   void clearTubes();
-  /// In a piece of the base level.
+  /// Sets those in a piece of the base level.
   void setTubes(int k, LinkId link);
   void setTubes(const ModelPiece& piece, LinkId link, const std::vector<LinkState>& begin,
                 const std::vector<LinkState>& end, double span, double margin);
@@ -68,12 +68,12 @@ class StepSweep {
   /// False: there is nothing.
   bool collectNear(LinkId link);
   [[nodiscard]] bool mayMeet(const Asked& asked) const;
-  /// Of so many leaves, another walk finds those of its pieces sooner than a look at all of them.
+  /// Whether there are so many leaves that another walk is faster than a look at all of them.
   [[nodiscard]] bool isCrowded(LinkId link) const;
   void walkPieces(LinkId link);
-  /// In a piece of the base level; null: of so many there is no list.
+  /// The leaves in a piece of the base level; null: there are too many for a list.
   [[nodiscard]] const NearLeaves* leavesIn(int k, LinkId link);
-  /// Null: there may be many.
+  /// The pairs in such a piece; null: there may be many.
   [[nodiscard]] const NearPairs* pairsIn(int k, LinkId link);
 
   const BracketPlan& plan_;

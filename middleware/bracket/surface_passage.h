@@ -38,7 +38,7 @@ class SurfacePassage {
 
  private:
   using Index = std::uint32_t;
-  /// Of a triangle, that the region meets.
+  /// An edge of a triangle, that the region meets.
   struct Edge {
     Eigen::Vector3d a, b;
     Index triangle;
@@ -60,14 +60,14 @@ class SurfacePassage {
   [[nodiscard]] bool isFree(const Eigen::Vector3d& centre, double radius, Index surface);
 
   std::vector<PassagePart> way_;  // moved aside
-  std::vector<Aabb> boxes_;       // of each part's region
+  std::vector<Aabb> boxes_;       // each part's region's
   Aabb region_;
   std::vector<TriangleId> ids_;
   std::vector<Triangle> triangles_;
   std::vector<Crossing> crossings_;
   std::vector<Edge> edges_;
-  std::vector<Index> above_;              // of each triangle: another one of its surface, or itself
-  std::vector<std::uint8_t> isBordered_;  // of each triangle: the region meets a border there
+  std::vector<Index> above_;              // per triangle: another one of its surface, or itself
+  std::vector<std::uint8_t> isBordered_;  // per triangle: the region meets a border there
   std::vector<Index> tried_;
 };
 

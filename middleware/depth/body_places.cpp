@@ -9,7 +9,7 @@ namespace foretouch::internal {
 namespace {
 
 constexpr double kTurnedPoint = MotionBounds::kPointRounding;
-/// Of the instant as the motion's t: a difference, a sum, a quotient.
+/// The rounding of the instant as the motion's t: a difference, a sum, a quotient.
 constexpr double kInstantOfPlace = 4.0 * kUnitRoundoff;
 
 LinkPlace placeOf(const LinkState& state, const MotionBounds& bounds) {
@@ -21,7 +21,7 @@ LinkPlace placeOf(const LinkState& state, const MotionBounds& bounds) {
   return place;
 }
 
-/// A frame in W that was told in the frame of its carrier.
+/// A frame in W that was given in the frame of its carrier.
 LinkPlace carried(const LinkPlace& carrier, const LinkPlace& own) {
   LinkPlace place;
   place.R_WL = carrier.R_WL * own.R_WL;
@@ -48,7 +48,7 @@ double LinkPlace::roundingAt(double rho) const {
 PlaceKnown BodyPlaces::at(const WorldParts& world, BodyId body, const WorldTime& time,
                           std::vector<LinkPlace>& places) {
   PlaceKnown how = PlaceKnown::Known;
-  // From the one whom nobody carries on.
+  // Begins with the one that is not carried.
   for (world.chainAt(body, time.us, chain_); !chain_.empty(); chain_.pop_back()) {
     const PlaceKnown own = place(world.body(chain_.back()), time, places);
     if (own == PlaceKnown::Silent || own == PlaceKnown::NotThere) return own;
@@ -71,7 +71,7 @@ BodyPiece bodyPieceAt(const WorldBody& body, const WorldTime& time) {
   return known;
 }
 
-/// Of one body; `places` has those of whoever carries it.
+/// Places one body; `places` has those of its carrier.
 PlaceKnown BodyPlaces::place(const WorldBody& body, const WorldTime& time,
                              std::vector<LinkPlace>& places) {
   const auto [how, episode, piece] = bodyPieceAt(body, time);

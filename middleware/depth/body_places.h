@@ -1,5 +1,5 @@
 // middleware/depth/body_places.h: where the links of a world's body are at one instant of world
-// time, whoever carries it, and how sure that is. Not installed.
+// time, whatever carries it, and how sure that is. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +28,12 @@ struct LinkPlace {
 
 enum class PlaceKnown : std::uint8_t {
   Known,
-  Assumed,   ///< It, or who carries it, is silent, and taken to hold still.
+  Assumed,   ///< It, or what carries it, is silent, and taken to hold still.
   Silent,    ///< The same, and taken to be undecided, or waited for.
   NotThere,  ///< Before the first pose, or forgotten.
 };
 
-/// What is known of one body by itself, whoever carries it.
+/// What is known of one body by itself, whatever carries it.
 struct BodyPiece {
   PlaceKnown how = PlaceKnown::NotThere;
   const Episode* episode = nullptr;  ///< These two unless it is Silent or NotThere.
@@ -45,7 +45,7 @@ struct BodyPiece {
 class BodyPlaces {
  public:
   /// Fills `places`, one per link of the body, unless it is Silent or NotThere. At an instant at
-  /// which a body changes its carrier: after it. O(joints of the body and of who carries it).
+  /// which a body changes its carrier: after it. O(joints of the body and of its carriers).
   [[nodiscard]] PlaceKnown at(const WorldParts& world, BodyId body, const WorldTime& time,
                               std::vector<LinkPlace>& places);
 

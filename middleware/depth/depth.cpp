@@ -130,8 +130,8 @@ class WayOut {
     }
   }
 
-  /// From a certified place, whose own planes say more than those on the way to it: a shorter move
-  /// that they allow. False: there is none.
+  /// Finds, from a certified place, whose own planes say more than those on the way to it, a
+  /// shorter move that they allow. False: there is none.
   bool tighten(Vector3d& move) {
     memory_.planes.clear();
     memory_.near.clear();

@@ -24,7 +24,7 @@
 namespace foretouch {
 
 /// The depth is the infimum of the lengths of all translations of what is moved that leave it
-/// without a point in common with the rest; of triangles, with their surface.
+/// without a point in common with the rest; for triangles, with their surface.
 struct Depth {
   /// No translation shorter than this one clears: the largest depth of a pair.
   double lower = 0.0;
@@ -33,7 +33,7 @@ struct Depth {
   double upper = std::numeric_limits<double>::infinity();
   Eigen::Vector3d wayOut = Eigen::Vector3d::Zero();
   bool isCertified = false;   ///< `upper` and `wayOut` mean something.
-  std::int32_t numPairs = 0;  ///< Of pieces that have, or may have, a point in common.
+  std::int32_t numPairs = 0;  ///< Pairs of pieces that have, or may have, a point in common.
   /// Those of the deepest pair; -1 if there is none: which LSS of those that are moved, and which
   /// LSS or triangle of the others.
   std::int32_t deepestMoved = -1, deepestOther = -1;
@@ -51,7 +51,7 @@ inline constexpr std::int64_t kMostDepthLooks = 200'000;
 [[nodiscard]] Depth depthIn(const std::vector<Lss>& moved, const Scene& scene, Scratch& scratch,
                             double rounding = 0.0);
 
-/// Who is moved, and out of whom: whole bodies, or a link of each.
+/// What is moved, and out of what: whole bodies, or a link of each.
 struct DepthQuestion {
   BodyId a = 0;
   LinkId linkOfA = kEveryLink;
@@ -60,8 +60,8 @@ struct DepthQuestion {
 };
 
 struct WorldDepth {
-  Depth depth;  ///< Of a, which `depth.wayOut` moves, in W; the bounds hold where they truly are.
-  /// The deepest pair, without witness points; of no pair, the bodies that were asked.
+  Depth depth;  ///< a's, which `depth.wayOut` moves, in W; the bounds hold where they truly are.
+  /// The deepest pair, without witness points; if there is none, the bodies that were asked.
   ContactSide a, b;
   bool isAssumed = false;  ///< As WorldContact::isAssumed.
 };
@@ -69,7 +69,7 @@ struct WorldDepth {
 /// The depth of two links is the infimum of the lengths of all translations of the one that leave
 /// it without a point in common with the other: with its surface, and with what that encloses.
 struct LinkDepth {
-  /// No translation shorter than this one parts them. 0: nothing is proven, as of links whose
+  /// No translation shorter than this one parts them. 0: nothing is proven, as for links whose
   /// surfaces enclose nothing, or that are only just in each other.
   double lower = 0.0;
   /// One along nhat_BA_W that is this long parts even their convex hulls.
@@ -86,10 +86,10 @@ class LinkDepths {
   LinkDepths(LinkDepths&&) noexcept;
   LinkDepths& operator=(LinkDepths&&) noexcept;
 
-  /// Of two links with a surface, at `t` in [0,1] of a motion of the avatar. Of two convex ones the
-  /// bounds are within 1e-6 m, or the share of their size by which they are not convex; others are
-  /// bounded from below by the balls that both have room for: such a place is found sooner with a
-  /// point where they meet, as contacts have it, in W; null: none is known.
+  /// The depth of two links with a surface, at `t` in [0,1] of a motion of the avatar. For two
+  /// convex ones the bounds are within 1e-6 m, or the share of their size by which they are not
+  /// convex; others are bounded from below by the balls that both have room for: such a place is
+  /// found sooner with a point where they meet, as contacts have it, in W; null: none is known.
   [[nodiscard]] LinkDepth at(const ChainMotion& motion, double t, LinkId a, LinkId b,
                              const Eigen::Vector3d* met_W = nullptr) const;
   /// Whether some closed surface is part of the link, or an LSS that is its own surface.

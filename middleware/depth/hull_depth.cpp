@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMostLooks = 300;
-/// Of a support point, its difference and a height of it, relative to the extent.
+/// The rounding of a support point, its difference and a height of it, relative to the extent.
 constexpr double kSupportRounding = 32.0 * kUnitRoundoff;
 /// Edges of a first body that are shorter than this share of the extent make a flat one.
 constexpr double kFlat = 1e-12;
@@ -81,7 +81,7 @@ class Difference {
     return length > 0.0 && std::isfinite(length);
   }
 
-  /// The point farthest along a unit direction, which offers a way out as well.
+  /// The point farthest along a unit direction, which also offers a way out.
   std::size_t look(const Vector3d& direction) {
     const Vector3d nhat = kUnitShrink * direction;
     const Farthest most = farthest(other_, nhat), least = farthest(one_, -nhat);

@@ -7,7 +7,7 @@ namespace foretouch::internal {
 namespace {
 
 constexpr int kMostRounds = 400;
-/// Of what a plane needs, that may be missing at the end; the proposal is stretched by as much.
+/// The share of what a plane needs that may be missing at the end; the proposal is stretched by it.
 constexpr double kMissing = 1e-10;
 
 }  // namespace

@@ -29,7 +29,7 @@ using internal::RoundHull;
 /// A piece that has to shrink by more than this share to be convex counts as not convex: balls say
 /// more of it.
 constexpr double kMostShrinking = 0.02;
-/// Of heights over a plane, relative to the extent: twice what their few operations round.
+/// The rounding of heights over a plane, relative to the extent: twice what their operations round.
 constexpr double kHeightRounding = 32.0 * kUnitRoundoff;
 /// Triangles times corners that a piece is looked at for: what is larger counts as not convex.
 constexpr double kMostLooks = 3e8;
@@ -268,7 +268,7 @@ class MostRoom {
     return true;
   }
 
-  /// To a corner, a face or an edge of the cube around the best.
+  /// Moves to a corner, a face or an edge of the cube around the best.
   bool move(double step) { return around(Vector3d(at_), step); }
 
   bool around(const Vector3d& from, double step) {
@@ -286,7 +286,7 @@ class MostRoom {
   Vector3d at_ = Vector3d::Zero();
 };
 
-/// Of the deepest of the convex pieces.
+/// The lower bound of the deepest of the convex pieces.
 double lowerOfCores(const std::vector<RoundHull>& ofOne, const std::vector<RoundHull>& ofOther,
                     const Place& place, double rounding) {
   double lower = 0.0;
@@ -305,7 +305,7 @@ Aabb sharedBox(Aabb one, const Aabb& other) {
   return one;
 }
 
-/// By the two balls around one point of the box that both links have most room for.
+/// The bound by the two balls around one point of the box that both links have most room for.
 template <typename Solid>
 double lowerOfRoom(const Solid& one, const Solid& other, const Place& place, const Aabb& box,
                    const std::optional<Vector3d>& met, double rounding) {

@@ -18,9 +18,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a facet's height over the origin, in unit roundoffs, relative to the sums of magnitudes of
-/// its two edges and of the pair's extent; and of the normal itself, relative to its edges. Counted
-/// in depth.md 3: halving the first breaks the proof.
+/// What a facet's height over the origin rounds by, relative to the sums of magnitudes of its two
+/// edges and of the pair's extent; and the normal itself, relative to its edges. In unit roundoffs,
+/// counted in depth.md 3: halving the first breaks the proof.
 constexpr double kFacetRounding = 32.0 * kUnitRoundoff;
 constexpr double kNormalRounding = 16.0 * kUnitRoundoff;
 /// Sums of two radii, and the uncertainty that is added to them.

@@ -125,7 +125,7 @@ class Question {
     return answer;
   }
 
-  /// In the mesh's frame, and back.
+  /// The depth in the mesh's frame, turned back.
   Result<Depth> inMesh(BodyId mesh) {
     FORETOUCH_CHECK(placesOf(mesh));
     const LinkPlace frame = memory_.places.front();
@@ -187,8 +187,8 @@ class Question {
   const WorldTime& time_;
   Scratch& scratch_;
   WorldDepthMemory& memory_;
-  double rounding_ = 0.0;  // of LSS in W
-  double most_ = 0.0;      // of those seen from a mesh
+  double rounding_ = 0.0;  // that of LSS in W
+  double most_ = 0.0;      // that of those seen from a mesh
   bool isAssumed_ = false;
 };
 

@@ -51,7 +51,7 @@ Result<EdgeClearance> EdgeQuery::clearance(const double* q0, const double* q1, s
   return answer;
 }
 
-/// From memory.from to memory.to, in W and as each prop sees it.
+/// Looks from memory.from to memory.to, in W and as each prop sees it.
 void EdgeQuery::lookAt(ClearanceSearch& search, Scratch& scratch, double begin,
                        double share) const {
   const Skeleton& skeleton = robot_->avatar().skeleton();

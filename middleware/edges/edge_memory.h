@@ -25,7 +25,7 @@ struct EdgeMemory : ScratchPart {
   std::vector<LinkState> states;
 };
 
-/// Of poses seen from a prop, in parts of the distance: articulated/robot.md 3.
+/// The rounding of poses seen from a prop, in parts of the distance: articulated/robot.md 3.
 inline constexpr double kPropRounding = 0x1p-43;
 
 /// The same pose, its roots as seen from the frame P.

@@ -125,7 +125,7 @@ Result<Done> EdgeQuery::place(std::size_t prop, const std::optional<RigidPose>& 
   }
   const auto rotation = unitQuaternion(X_WP->rotation);
   if (!rotation) return refused(ErrorCode::OutOfRange, "expected a unit rotation");
-  // Not so of a number that is none.
+  // False for what is not a number.
   if (!(X_WP->translation.array().abs() <= kMostPropDistance).all()) {
     return refused(ErrorCode::OutOfRange, "expected a place within 10 km of the origin");
   }

@@ -46,7 +46,7 @@ struct EdgeOptions {
   std::vector<IgnoredPair> ignored;
   /// Obstacles beside the scene, each with a place of its own.
   std::vector<EdgeProp> props;
-  /// Of clearance(): how far its bounds may be apart, and how far it looks (ClearanceOptions).
+  /// For clearance(): how far its bounds may be apart, and how far it looks (ClearanceOptions).
   double clearanceTolerance = kDefaultTolerance;
   double clearanceWithin = std::numeric_limits<double>::infinity();
 };
@@ -73,7 +73,7 @@ struct EdgeAnswer {
 
 /// How near an edge comes to the scene and to the props that are there.
 struct EdgeClearance : Clearance {
-  std::int32_t prop = -1;  ///< Whose scene has the triangle; -1: the query's own.
+  std::int32_t prop = -1;  ///< The prop whose scene has the triangle; -1: the query's own.
 };
 
 /// How far a path is free: a list of configurations, with an edge from each to the next.
@@ -82,7 +82,7 @@ struct PathAnswer {
   /// The path keeps its clearance on [0, freeUntil), never too late: `edge` plus how far that one
   /// is free. The number of edges if all are Clear.
   double freeUntil = 0.0;
-  EdgeAnswer answer;  ///< Of that edge; of the last one if all are Clear.
+  EdgeAnswer answer;  ///< That edge's; the last one's if all are Clear.
 };
 
 /// Checked and resolved once. Copies are cheap; any number of threads may ask one, each with a
@@ -98,7 +98,7 @@ class EdgeQuery {
   /// another thread asks. Errors: no such prop; a rotation that is not unit, or a place that is not
   /// finite or beyond kMostPropDistance. Then it is where it was.
   Result<Done> place(std::size_t prop, const std::optional<RigidPose>& X_WP);
-  /// Of a prop from the origin of W, along each axis (m): its own frame is known to rounding there.
+  /// How far a prop may be along each axis of W (m): its own frame is known to rounding there.
   static constexpr double kMostPropDistance = 1e4;
   [[nodiscard]] std::size_t numProps() const { return props_.size(); }
 
@@ -106,7 +106,7 @@ class EdgeQuery {
   [[nodiscard]] const Scene& scene() const { return scene_->scene(); }
   /// As given to build().
   [[nodiscard]] const EdgeOptions& options() const { return *options_; }
-  /// Errors: as Robot::checked(). `count`: of numbers in each of q0 and q1. An edge from q to q
+  /// Errors: as Robot::checked(). `count`: the numbers in each of q0 and q1. An edge from q to q
   /// asks whether q is free.
   [[nodiscard]] Result<EdgeAnswer> answer(const double* q0, const double* q1, std::size_t count,
                                           Scratch& scratch) const;
@@ -128,7 +128,7 @@ class EdgeQuery {
   /// never below `lower`, and at most `upper` at `t`. EdgeOptions::clearance and own links have no
   /// part in it; what the query ignores has none either. `slope0` and `slope1`: where not null,
   /// `count` numbers each, how `upper` changes with the coordinates of q0 and q1 (m per rad or m);
-  /// of several ways one, where Clearance::isAlone is false. Errors: as answer(), and an edge of
+  /// for one of several, where Clearance::isAlone is false. Errors: as answer(), and an edge of
   /// more than kMostParts parts.
   [[nodiscard]] Result<EdgeClearance> clearance(const double* q0, const double* q1,
                                                 std::size_t count, Scratch& scratch,

@@ -11,9 +11,9 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of a longer motion (us) so much is traced at once: of seconds, a live window would wait for what
-/// only later ones tell. Shorter, and people who are tracked 10 times per second are looked at more
-/// than once per pose.
+/// So much of a longer motion (us) is traced at once: with seconds, a live window would wait for
+/// what only later ones say. Shorter, and people who are tracked 10 times per second are looked at
+/// more than once per pose.
 constexpr std::int64_t kMostMotionUs = 100'000;
 
 /// As worldTimeAt(), rounded up: never earlier than it is.
@@ -88,8 +88,8 @@ Result<Done> BodiesTracer::traceSpans(const Asked& asked, SpanSides& span) {
   while (spans.next()) {
     part_ = {spans.beginUs(), spans.endUs(), isFresh(asked, spans), spans.isAssumed(),
              isChanged(spans)};
-    // Their motion may tell more than the part of it that was asked; but what is told of the two
-    // altogether holds for these links as well.
+    // Their motion may show more than the part of it that was asked; but what is reported of the
+    // two bodies as a whole holds for these links, too.
     if (part_.beginUs >= asked.bodies.lostUs) {
       loseAll(asked, part_.beginUs, UndecidedReason::Resolution);
       return Done{};
@@ -104,7 +104,7 @@ Result<Done> BodiesTracer::traceSpans(const Asked& asked, SpanSides& span) {
   return Done{};
 }
 
-/// What it is in contact with there may have begun before anybody looked.
+/// Whether a contact that it has there may have begun before it was looked at.
 bool BodiesTracer::isFresh(const Asked& asked, const SystemSpans& spans) {
   const TraceWindow& window = asked.window;
   const bool isBegin = spans.beginUs() == window.fromUs;
@@ -127,7 +127,7 @@ bool BodiesTracer::isChanged(const SystemSpans& spans) {
   });
 }
 
-/// What is known of another motion says nothing about this one, but for what is open. Who was free
+/// What is known of another motion says nothing about this one, but for what is open. What was free
 /// before the window is so until it is listed.
 void BodiesTracer::enterMotion(const Asked& asked, const SystemSpans& spans) {
   FollowedBodies& followed = asked.followed();
@@ -143,7 +143,7 @@ void BodiesTracer::enterMotion(const Asked& asked, const SystemSpans& spans) {
   followed.endUs = spans.endUs();
 }
 
-/// False: doubles do not tell where the bodies are, in the rest of the window.
+/// False: doubles do not resolve where the bodies are, in the rest of the window.
 Result<bool> BodiesTracer::traceSpan(const Asked& asked, SpanSides& span) {
   FollowedBodies& followed = asked.followed();
   if (part_.endUs < followed.nextUs && !isAnyNew(asked)) return true;
@@ -166,7 +166,7 @@ Result<bool> BodiesTracer::traceSpan(const Asked& asked, SpanSides& span) {
   return true;
 }
 
-/// Listed in the span, and not followed on its motion.
+/// Whether it is listed in the span, and not followed on its motion.
 bool BodiesTracer::isNew(const Asked& asked, const ListedPair& listed) const {
   const FollowedBodies& followed = asked.followed();
   if (!(listed.time < WorldTime{part_.endUs, 0.0})) return false;
@@ -198,7 +198,7 @@ void BodiesTracer::addListed(const Asked& asked, SpanSides& span) {
   }
 }
 
-/// Those that the link may come near from there on.
+/// Adds the objects that the link may come near from there on.
 void BodiesTracer::addObjects(const Asked& asked, SpanSides& span, const LinkPair& links,
                               const WorldTime& from) {
   FollowedBodies& followed = asked.followed();
@@ -231,7 +231,7 @@ bool BodiesTracer::set(const Asked& asked, SpanSides& span, const FollowedSides&
   return true;
 }
 
-/// From the span's begin, or from where it is listed, to the motion's end.
+/// Traces from the span's begin, or from where it is listed, to the motion's end.
 void BodiesTracer::traceSides(const Asked& asked, SpanSides& span, FollowedSides& side) {
   const WorldTime begin{part_.beginUs, 0.0};
   std::vector<StepPart>& parts = asked.followed().parts;
@@ -266,7 +266,7 @@ void BodiesTracer::traceSides(const Asked& asked, SpanSides& span, FollowedSides
       !side.isOpen && beginsThere && isFromBegin && (part_.isFresh || start == TraceStart::Unknown);
 }
 
-/// Of the sides at hand.
+/// Whether the sides at hand are within `within` of each other.
 bool BodiesTracer::isNear(double t, double within) {
   sides_.collect(t, t, within, near_);
   return std::any_of(near_.begin(), near_.end(), [&](const SidesPair& pair) {
@@ -278,8 +278,8 @@ IntervalTolerance BodiesTracer::toleranceOf(const Asked& asked, const SpanSides&
   return IntervalTolerance::of(asked.world.options.tolerance, span.off());
 }
 
-/// Whether an event of the motion is told in this part of it. What begins where it ends belongs to
-/// the next one. The last part has whatever is left, however times are rounded.
+/// Whether an event of the motion is reported in this part of it. What begins where it ends belongs
+/// to the next one. The last part has whatever is left, however times are rounded.
 bool BodiesTracer::isDue(const Asked& asked, const WorldTime& time, bool isEnd) const {
   FollowedBodies& followed = asked.followed();
   const WorldTime until{part_.endUs, 0.0};
@@ -310,7 +310,7 @@ WorldTime BodiesTracer::beginAt(SpanSides& span, const StepPart& part) const {
   return std::max(earliestTimeAt(span.spans(), part.from), WorldTime{part_.beginUs, 0.0});
 }
 
-/// The side's next part. False: something of it is told later.
+/// Reports the side's next part. False: something of it is reported later.
 bool BodiesTracer::tellContact(const Asked& asked, SpanSides& span, FollowedSides& side) {
   const std::vector<StepPart>& parts = asked.followed().parts;
   const StepPart& part = parts[side.nextPart];
@@ -340,14 +340,14 @@ bool BodiesTracer::tellContact(const Asked& asked, SpanSides& span, FollowedSide
   return true;
 }
 
-/// Of the event that was told last.
+/// Adds the details of the event that was reported last.
 void BodiesTracer::tellDetails(const Asked& asked, SpanSides& span, const FollowedSides& side,
                                double t, double within) {
   if (!set(asked, span, side)) return;
   details_.fill(span, sides_, t, within, asked.masses, asked.answer.events.back());
 }
 
-/// What ends there although nobody moves apart.
+/// Ends what ends there although nothing moves apart.
 void BodiesTracer::endOpen(const Asked& asked, FollowedSides& side, std::int64_t utimeUs,
                            LeaveCause cause) {
   if (!side.isOpen) return;
@@ -358,7 +358,7 @@ void BodiesTracer::endOpen(const Asked& asked, FollowedSides& side, std::int64_t
   tellLast(asked, side, utimeUs);
 }
 
-/// Of the event that was told last, where the motion before ends. Nothing, where that is unknown.
+/// Adds the details of the last event where the motion before ends. Nothing, where that is unknown.
 void BodiesTracer::tellLast(const Asked& asked, const FollowedSides& side, std::int64_t utimeUs) {
   SpanSides before(asked.world, asked.plans, spanBefore_);
   // They need not be asked any more.
@@ -376,7 +376,7 @@ void BodiesTracer::tellLast(const Asked& asked, const FollowedSides& side, std::
                 asked.answer.events.back());
 }
 
-/// Nothing of the two is asked from there on.
+/// Ends all: nothing of the two is asked from there on.
 void BodiesTracer::endAll(const Asked& asked, std::int64_t utimeUs) {
   FollowedBodies& followed = asked.followed();
   for (FollowedSides& side : followed.sides) {
@@ -385,7 +385,7 @@ void BodiesTracer::endAll(const Asked& asked, std::int64_t utimeUs) {
   followed.clear();
 }
 
-/// Nothing is claimed of them from there on.
+/// Loses all: nothing is claimed of them from there on.
 void BodiesTracer::loseAll(const Asked& asked, std::int64_t utimeUs, UndecidedReason reason) {
   FollowedBodies& followed = asked.followed();
   for (FollowedSides& side : followed.sides) {

@@ -1,5 +1,5 @@
 // middleware/events/bodies_tracer.h: follows two bodies through one window, from span to span, and
-// tells what begins and ends. Not installed.
+// reports what begins and ends. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,8 @@ struct TraceWindow {
   std::int64_t fromUs = 0, toUs = 0;
   bool isFirst = false;            ///< Nothing is known of what was before.
   std::vector<ListedPair> listed;  ///< By bodies, then by links.
-  std::vector<BodyId> returned;    ///< Were unknown before: by number.
-  /// Were given up before, and are not any more: in order. kStillScene stands for own links, too.
+  std::vector<BodyId> returned;    ///< Bodies that were unknown before: by number.
+  /// Pairs given up before, and no longer now: in order. kStillScene stands for own links, too.
   std::vector<BodyPair> returnedPairs;
 };
 
@@ -59,12 +59,12 @@ class BodiesTracer {
 
  private:
   struct Asked;
-  /// The span that it is at: of the window, and of a motion that may go beyond it.
+  /// The span that it is at: part of the window, and of a motion that may go beyond it.
   struct Part {
     std::int64_t beginUs = 0, endUs = 0;
-    bool isFresh = false;    ///< What touches at its begin may have begun before anybody looked.
-    bool isAssumed = false;  ///< Somebody is silent and taken to hold still.
-    bool isChanged = false;  ///< At its begin somebody changes his carrier, or appears.
+    bool isFresh = false;    ///< What touches at its begin may have begun before it was looked at.
+    bool isAssumed = false;  ///< A body is silent and taken to hold still.
+    bool isChanged = false;  ///< At its begin a body changes its carrier, or appears.
   };
 
   Result<Done> traceSpans(const Asked& asked, SpanSides& span);

@@ -1,4 +1,4 @@
-// middleware/events/body_masses.h: what bodies weigh, for the effective mass that an event tells.
+// middleware/events/body_masses.h: what bodies weigh, for an event's effective mass.
 // Not installed.
 #pragma once
 
@@ -26,7 +26,7 @@ class BodyMasses {
     masses_[body] = std::make_unique<Entry>(std::move(mass));
   }
   [[nodiscard]] bool has(BodyId body) const { return masses_.count(body) != 0; }
-  /// Every one belongs to a body that can have it. Errors: Mismatch, with the body.
+  /// Whether each belongs to a body that can have it. Errors: Mismatch, with the body.
   [[nodiscard]] Result<Done> checked(const WorldParts& world) const;
 
   /// How a body's point answers an impulse there. `states`: of all its links; all in one frame
@@ -34,7 +34,7 @@ class BodyMasses {
   [[nodiscard]] Eigen::Matrix3d inverseAt(BodyId body, LinkId link,
                                           const std::vector<LinkState>& states,
                                           const Eigen::Vector3d& p) const;
-  /// The same of two points of one body, each of which moves the other.
+  /// The same for two points of one body, each of which moves the other.
   [[nodiscard]] Eigen::Matrix3d inverseBetween(BodyId body, LinkId one, const Eigen::Vector3d& p,
                                                LinkId other, const Eigen::Vector3d& q,
                                                const std::vector<LinkState>& states) const;

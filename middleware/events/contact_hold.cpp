@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 /// Roundings of a weighted point, of the difference of two, and of the norm, relative to the
 /// coordinates involved.
 constexpr double kPointRounding = 32.0 * kUnitRoundoff;
-/// Of a determinant of three differences, relative to the product of their lengths.
+/// The rounding of a determinant of three differences, relative to the product of their lengths.
 constexpr double kDeterminantRounding = 64.0 * kUnitRoundoff;
 /// A step is found to this share of what it could be.
 constexpr double kStepShare = 0.01;
@@ -33,7 +33,7 @@ struct HeldPoint {
   double acceleration = 0.0, positionRounding = 0.0, velocityRounding = 0.0;
 };
 
-/// Of a triangle that is all but a segment, whose face says nothing.
+/// The weights for a triangle that is all but a segment, whose face says nothing.
 std::array<double, 2> weightsOnEdges(const Vector3d& u, const Vector3d& v, const Vector3d& q) {
   const auto along = [](const Vector3d& edge, const Vector3d& from) {
     const double length = edge.squaredNorm();
@@ -153,7 +153,7 @@ double determinant(const Vector3d& u, const Vector3d& v, const Vector3d& w) {
 /// One of the functions that keep their signs while a segment goes through a triangle: the
 /// determinant of three differences, each of which changes by no more than its bound.
 struct Orientation {
-  double size = 0.0;              // of its value, rounding taken off
+  double size = 0.0;              // that of its value, rounding taken off
   std::array<double, 3> lengths;  // of the differences
   std::array<double, 3> areas;    // of the other two
   double spread = 0.0;

@@ -26,7 +26,7 @@ bool isNearer(const MovingPair& x, const SidesPair& ofX, const MovingPair& y,
   return key(x, ofX) < key(y, ofY);
 }
 
-/// The event tells of a and b, the sides of the other way round.
+/// The event is about a and b, the sides are the other way round.
 void turnAround(WorldEvent& event) {
   std::swap(event.a.lss, event.b.lss);
   std::swap(event.a.triangle, event.b.triangle);
@@ -98,7 +98,7 @@ void EventDetails::tellPoints(MovingSides& sides, double t, double within, World
   }
 }
 
-/// From the frame of the sides.
+/// Takes the event from the frame of the sides to W.
 void EventDetails::toWorld(SpanSides& span, double t, WorldEvent& event) const {
   const LinkState frame = span.frameAt(t);
   const auto move = [&](Vector3d& p) { p = frame.pointAt(p) + span.origin(); };

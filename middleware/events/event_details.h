@@ -1,4 +1,4 @@
-// middleware/events/event_details.h: what an event tells of its instant: where the two meet, how
+// middleware/events/event_details.h: what an event reports of its instant: where the two meet, how
 // fast, and how much mass meets. Not installed.
 #pragma once
 

@@ -22,15 +22,15 @@ struct FollowedSides {
   ObjectId object = kNoObject;
   WorldTime from;  ///< Free before it, if nothing is open.
   bool isOpen = false;
-  PartKind kind = PartKind::Contact;  ///< Of what is open, as the next two.
+  PartKind kind = PartKind::Contact;  ///< That of what is open, as the next two.
   UndecidedReason reason = UndecidedReason::None;
   WorldTime since;
-  SidesPair witness;  ///< That held them together last.
-  /// The rest of the motion is known. What begins and ends in it, and is not told yet, is in
+  SidesPair witness;  ///< The pair that held them together last.
+  /// The rest of the motion is known. What begins and ends in it, and is not reported yet, is in
   /// FollowedBodies::parts, from the first to the second place.
   bool isTraced = false;
   std::size_t nextPart = 0, endPart = 0;
-  bool startsInside = false;  ///< The next part begins where nobody looked before.
+  bool startsInside = false;  ///< The next part begins where it was not looked at before.
   bool isMoved = false;       ///< The next part ends where it began: one was put elsewhere there.
 
   [[nodiscard]] bool isPending() const { return nextPart < endPart; }
@@ -45,10 +45,10 @@ struct FollowedBodies {
   std::vector<StepPart> parts;
   /// Links whose near objects, for the rest of the motion, are among the sides.
   std::vector<LinkPair> collected;
-  /// All sides are traced, and nothing is told before it.
+  /// All sides are traced, and nothing is to be reported before it.
   std::int64_t nextUs = std::numeric_limits<std::int64_t>::min();
 
-  /// Whether there is something to tell of them, sooner or later, that no window lists.
+  /// Whether there is something to report of them, sooner or later, that no window lists.
   [[nodiscard]] bool isActive() const {
     return std::any_of(sides.begin(), sides.end(),
                        [](const FollowedSides& side) { return side.isOpen || side.isPending(); });
@@ -63,7 +63,7 @@ struct FollowedBodies {
       side.nextPart = side.endPart = 0;
     }
   }
-  /// As if nobody had looked at them.
+  /// As if they had never been looked at.
   void clear() {
     sides.clear();
     forgetMotion();
@@ -79,9 +79,9 @@ struct ListedPair {
 /// Two bodies in a window.
 struct TracedBodies {
   FollowedBodies* followed = nullptr;
-  std::size_t first = 0, count = 0;  ///< Of TraceWindow::listed.
-  std::uint64_t work = 0;            ///< That they may cost; with too little nobody looks.
-  /// Doubles do not tell where they are, says the question, from there to the window's end.
+  std::size_t first = 0, count = 0;  ///< Theirs in TraceWindow::listed.
+  std::uint64_t work = 0;            ///< What they may cost; with too little they are not traced.
+  /// Doubles do not resolve where they are, by the question, from there to the window's end.
   std::int64_t lostUs = std::numeric_limits<std::int64_t>::max();
 
   [[nodiscard]] bool isGivenUp() const { return work < kSpanWork; }

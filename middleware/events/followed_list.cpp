@@ -40,7 +40,7 @@ void FollowedList::plan(std::int64_t fromUs, const std::vector<ListedPair>& list
   }
 }
 
-/// Nothing of the two is known any more.
+/// Drops those of which nothing is known any more.
 void FollowedList::retire(std::int64_t fromUs) {
   std::size_t kept = 0;
   for (auto& both : bodies_) {

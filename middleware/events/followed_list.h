@@ -20,8 +20,8 @@ class FollowedList {
   /// begin on.
   void tellKnown(const WorldParts& world, std::int64_t fromUs, std::int64_t toUs,
                  FollowedLinks& known) const;
-  /// Fills in what there is to do in a window from there on: whoever is listed, by bodies, and
-  /// whoever something is still to be told of.
+  /// Fills in what there is to do in a window from there on: bodies that are listed, in order, and
+  /// those of which something is still to be reported.
   void plan(std::int64_t fromUs, const std::vector<ListedPair>& listed,
             std::vector<TracedBodies>& tasks);
   /// Knows what is open, and nothing else.

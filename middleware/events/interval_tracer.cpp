@@ -10,16 +10,16 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of the tolerance: a contact goes on until the two are farther apart than the first, and is
-/// proven to stay within the second; the rest of twice the tolerance is for the rounding of
+/// Shares of the tolerance: a contact goes on until the two are farther apart than the first, and
+/// is proven to stay within the second; the rest of twice the tolerance is for the rounding of
 /// instants (events.md 1).
 constexpr double kLeaveShare = 1.5, kLimitShare = 2.0 - 0x1p-6;
 
 /// A search through more pairs at once is cut in halves of time, if that leaves fewer.
 constexpr std::size_t kMostPairs = 192;
 constexpr double kLeastPiece = 0x1p-10;
-/// Of the rest of the motion: a proof for so long is taken, instead of looking for a longer one
-/// among all pairs that are near, of which there may be hundreds.
+/// A share of the rest of the motion: a proof for so long is taken, instead of looking for a longer
+/// one among all pairs that are near, of which there may be hundreds.
 constexpr double kEnoughShare = 0.25;
 
 }  // namespace
@@ -167,7 +167,7 @@ double IntervalTracer::cutPiece(double begin, double end) {
   return end;
 }
 
-/// Among the pairs of near_: all others stay farther than `enter` apart in the piece.
+/// Searches the pairs of near_: all others stay farther than `enter` apart in the piece.
 IntervalTracer::Search IntervalTracer::searchPiece(double from, double to,
                                                    EventCounters& counters) {
   const auto isLater = [](const Candidate& x, const Candidate& y) {

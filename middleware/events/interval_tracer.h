@@ -24,10 +24,10 @@ struct StepPart {
   double from = 0.0, to = 1.0;
   bool goesOn =
       false;  ///< To the step's end; else they are free, or it is known again, from `to` on.
-  UndecidedReason reason = UndecidedReason::None;  ///< Of Unresolved.
+  UndecidedReason reason = UndecidedReason::None;  ///< For Unresolved.
 };
 
-/// The distances that decide (m). What the motion is off by is taken off (world.md 2).
+/// The distances that decide (m). The motion's own error is taken off (world.md 2).
 struct IntervalTolerance {
   double enter, leave, limit, floor;
 
@@ -73,7 +73,7 @@ class IntervalTracer {
   [[nodiscard]] bool isWithin(double t, double within);
   [[nodiscard]] Hold holdAt(double t, double within);
   [[nodiscard]] bool tryHold(const SidesPair& pair, double t, double within, Hold& best);
-  /// From an instant of contact to where it ends; false: it cannot be told from there on.
+  /// Goes from an instant of contact to where it ends; false: from there on that is not resolved.
   [[nodiscard]] bool followContact(double& t, EventCounters& counters);
   [[nodiscard]] Search searchContact(double from, double to, double firstSpan,
                                      EventCounters& counters);
@@ -82,7 +82,7 @@ class IntervalTracer {
 
   MovingSides* sides_ = nullptr;
   IntervalTolerance tolerance_{};
-  SidesPair last_;  // that held longest
+  SidesPair last_;  // the pair that held longest
   std::vector<SidesPair> near_, fewer_;
   struct Candidate {
     double freeUntil;

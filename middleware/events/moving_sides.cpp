@@ -13,7 +13,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// As measured, roughly: a distance, two boxes, and what a tree of triangles takes.
+/// Work as measured, roughly: a distance, two boxes, and what a tree of triangles takes.
 constexpr std::uint64_t kLookWork = 40, kBoxWork = 4, kTreeWork = 50;
 
 Part partOf(const SidePiece& piece) {
@@ -24,7 +24,7 @@ SidePiece pieceOf(std::int32_t lss, Part part) {
   return {lss, part.isTriangle() ? part.index() : -1};
 }
 
-/// Of triangles without the LSS that holds them.
+/// Names a triangle without the LSS that holds it.
 std::tuple<std::int32_t, std::int32_t> surfaceOf(const SidePiece& piece) {
   return {piece.triangle, piece.triangle < 0 ? piece.lss : -1};
 }
@@ -182,8 +182,8 @@ SweptTube MovingSides::tubeOf(const Collecting& in, std::int32_t index) const {
           in.reach};
 }
 
-/// Those of them whose boxes meet; of a whole LSS and a triangle, that its tube meets. An LSS's
-/// pairs lie side by side.
+/// Collects those of them whose boxes meet; for a whole LSS, the triangles that its tube meets. An
+/// LSS's pairs lie side by side.
 void MovingSides::collectAmong(Collecting& in) const {
   Swept one{-1, Part::whole(), {}};
   std::optional<SweptTube> tube;
@@ -278,7 +278,7 @@ void MovingSides::collectScene(Collecting& in, const Swept& one) {
   if (!(below[0] == below[1])) collectScene(in, sweptOfOne(in, one.lss, below[1]));
 }
 
-/// Of those found.
+/// Adds the triangles of those found.
 void MovingSides::addTriangles(Collecting& in, const Swept& one) {
   std::optional<SweptTube> tube;
   if (!one.part.isTriangle()) {

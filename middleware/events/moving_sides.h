@@ -24,7 +24,7 @@ namespace foretouch::internal {
 /// No object of a scene: the other side is a link.
 inline constexpr ObjectId kNoObject = -1;
 
-/// A piece of a side's surface: a triangle, of a link with the LSS that holds it; or an LSS.
+/// A piece of a side's surface: a triangle, with the LSS that holds it if a link's; or an LSS.
 struct SidePiece {
   std::int32_t lss = -1, triangle = -1;
 };
@@ -49,7 +49,7 @@ struct LinkSide {
   LinkId frame = kNoParent;
   MotionBounds inFrame;
   std::vector<AxisBounds> bounds;  // per LSS
-  std::int32_t first = 0;          // of its LSS in the numbers of radius shares
+  std::int32_t first = 0;          // its first LSS in the numbers of radius shares
 
   [[nodiscard]] Side side() const {
     return {link, *lss, bounds, *evaluator, surface, nullptr, frame, &inFrame};
@@ -72,7 +72,7 @@ class MovingSides {
   /// A link of the motion that the evaluator has.
   void setLink(MotionEvaluator& evaluator, LinkId link, const LinkShape& shape);
   void setOther(MotionEvaluator& evaluator, LinkId link, const LinkShape& shape);
-  /// Whose shares of radii count, with the number of each link's first LSS.
+  /// Sets whose shares of radii count, with the number of each link's first LSS.
   void setShares(const PairsAsked& asked, std::int32_t first, std::int32_t firstOfOther);
   /// The triangles of the object, instead of another link; of all objects if it is kNoObject.
   void setScene(const Scene& scene, ObjectId object);
@@ -112,7 +112,7 @@ class MovingSides {
   /// In the units of QueryOptions::workBudget: done, and beyond which nothing more is looked at.
   std::uint64_t work = 0, mostWork = std::numeric_limits<std::uint64_t>::max();
   [[nodiscard]] bool isSpent() const { return work >= mostWork; }
-  /// Work of whoever looks among boxes instead.
+  /// Adds the work of a caller that looks among boxes instead.
   void addBoxes(std::size_t count);
 
  private:
@@ -158,7 +158,7 @@ class MovingSides {
   double growthSign_ = 0.0;
   bool isBackward_ = false, areNear_ = false;
   const std::vector<SidesPair>* limited_ = nullptr;
-  States states_;  // of the motion as it goes
+  States states_;  // those of the motion as it goes
   std::vector<TriangleId> found_;
 };
 

@@ -1,4 +1,4 @@
-// middleware/events/pair_key.h: which two an event, a contact or an open part is about. Not
+// middleware/events/pair_key.h: the two that an event, a contact or an open part is about. Not
 // installed.
 #pragma once
 
@@ -26,12 +26,12 @@ struct PairKey {
   return x.tied() == y.tied();
 }
 
-/// About a body altogether, or about two of which nothing is known.
+/// Whether it is about a whole body, or about two of which nothing is known.
 [[nodiscard]] inline bool isOfEveryLink(const PairKey& key) {
   return key.linkOfA == kEveryLink || key.linkOfB == kEveryLink;
 }
 
-/// Of whatever has two sides.
+/// The key of anything that has two sides.
 template <typename TwoSided>
 [[nodiscard]] PairKey keyOf(const TwoSided& of, ObjectId object) {
   return {of.a.body, of.a.link, of.b.body, of.b.link, object};

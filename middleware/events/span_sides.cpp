@@ -62,7 +62,7 @@ MotionEvaluator& SpanSides::inWorld(BodyId body) const {
   return plan_->isMerged() || member.chain == 0 ? evaluator_ : ofOther_;
 }
 
-/// On its chain.
+/// The link on its chain.
 LinkId SpanSides::inSystem(BodyId body, LinkId link) const {
   return plan_->first[slotOf(scratch_.spans.placeOf(body))] + link;
 }

@@ -31,7 +31,7 @@ struct LinkPair {
   return x.a != y.a ? x.a < y.a : x.b < y.b;
 }
 
-/// One of them is a mesh, or the scene: each of its objects is met by itself.
+/// Whether one of them is a mesh, or the scene: each of its objects is met by itself.
 [[nodiscard]] bool isOfObjects(const WorldParts& world, const BodyPair& bodies);
 
 /// Errors: a world whose contacts cannot be followed: one that asks whether meshes meet.
@@ -41,7 +41,7 @@ struct LinkPair {
 struct SpanScratch {
   SystemScratch system;
   MotionEvaluator evaluator, ofOther;  // of the two chains
-  MotionEvaluator ofSystem;            // of what is seen from a mesh, in W
+  MotionEvaluator ofSystem;            // that of what is seen from a mesh, in W
   std::vector<LinkState> states;
 };
 
@@ -71,14 +71,14 @@ class SpanSides {
     return 1e-6 * static_cast<double>(scratch_.spans.endUs() - scratch_.spans.beginUs());
   }
 
-  /// False: the two links are not asked in this span. Of a mesh or the scene: all its objects.
+  /// False: the two links are not asked in this span. For a mesh or the scene: all its objects.
   [[nodiscard]] bool set(const LinkPair& links, MovingSides& sides);
   /// The sides' link is b's, and the other side is a.
   [[nodiscard]] bool isTurned() const { return isTurned_; }
 
   /// The frame that the sides are seen from, relative to origin() in W.
   [[nodiscard]] LinkState frameAt(double t);
-  /// A link of the one or of the other of the two bodies, likewise, and what bounds its motion.
+  /// The same for a link of one of the two bodies, with what bounds its motion.
   /// Precondition: a body, and not the scene.
   [[nodiscard]] LinkState stateOf(BodyId body, LinkId link, double t);
   [[nodiscard]] MotionBounds boundsOf(BodyId body, LinkId link) const;

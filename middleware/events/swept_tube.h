@@ -19,9 +19,9 @@
 
 namespace foretouch::internal {
 
-/// Around the axis half-way between its places at both ends of the span. A point of the axis stays
-/// as near to its place there as the farther one of the axis' ends does: half of that end's chord,
-/// and what its path bends (guarantees.md 4).
+/// A tube around the axis half-way between its places at both ends of the span. A point of the axis
+/// stays as near to its place there as the farther one of the axis' ends does: half of that end's
+/// chord, and what its path bends (guarantees.md 4).
 class SweptTube {
  public:
   /// As sweptBox().
@@ -48,7 +48,7 @@ class SweptTube {
     double radius;
   };
   [[nodiscard]] bool mayMeet(const Ball& ball) const { return isNear(ball, distanceTo(ball)); }
-  /// Of its centre from the tube's axis, as computed.
+  /// How far its centre is from the tube's axis, as computed.
   [[nodiscard]] double distanceTo(const Ball& ball) const {
     const Eigen::Vector3d from = ball.centre - a_;
     const double s = clamp01(from.dot(axis_) * perSquare_);

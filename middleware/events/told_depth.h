@@ -1,5 +1,5 @@
-// middleware/events/told_depth.h: how deep what starts in contact is, as it is told to others: in
-// LinkContact, WorldContact and WorldEvent 0 stands for a depth that nobody knows as well.
+// middleware/events/told_depth.h: how deep what starts in contact is, as it is reported to others:
+// in LinkContact, WorldContact and WorldEvent 0 also stands for an unknown depth.
 #pragma once
 
 #include <limits>
@@ -10,8 +10,8 @@
 
 namespace foretouch {
 
-/// Metres. NaN: it starts in contact, and nothing says how deep. So it is of triangles, which have
-/// no inside: of exact and skinned fidelity, and of meshes that meet.
+/// Metres. NaN: it starts in contact, and nothing says how deep. So it is for triangles, which have
+/// no inside: at exact and skinned fidelity, and for meshes that meet.
 inline constexpr double kUnknownDepth = std::numeric_limits<double>::quiet_NaN();
 
 [[nodiscard]] inline double toldDepth(bool startsInside, double penetration) {

@@ -16,7 +16,7 @@
 
 namespace foretouch {
 
-/// In an event about a body altogether, in place of the other one: whatever it is asked about.
+/// In an event about a whole body, in place of the other one: all that it is asked about.
 inline constexpr BodyId kEveryBody = -2;
 
 /// In the order of events of one instant: what ends comes before what begins.
@@ -25,8 +25,8 @@ enum class EventKind : std::uint8_t {
   UnresolvedTo,    ///< It is known again what the two do.
   StartsInside,    ///< They are in contact where they are known first: no touch was seen.
   Enter,           ///< They were free, and are in contact from here on.
-  UnresolvedFrom,  ///< Nothing is claimed of the two from here on; a contact of theirs ends as
-                   ///< well.
+  UnresolvedFrom,  ///< Nothing is claimed of the two from here on; a contact of theirs ends,
+                   ///< too.
 };
 inline constexpr std::size_t kNumEventKinds = 5;
 /// "leave", "unresolved_to", "starts_inside", "enter", "unresolved_from".
@@ -36,7 +36,7 @@ inline constexpr std::size_t kNumEventKinds = 5;
 enum class LeaveCause : std::uint8_t {
   Apart,     ///< They are apart: proven.
   NotAsked,  ///< They are not asked any more: one carries the other, or World::ask() says so.
-  Moved,     ///< One of them, or who carries it, is put elsewhere there, with a jump.
+  Moved,     ///< One of them, or what carries it, is put elsewhere there, with a jump.
 };
 
 /// Two points, one of each side, that are near at an event's instant.
@@ -51,15 +51,15 @@ struct WorldEvent {
   static constexpr std::size_t kMostPoints = 4;
 
   EventKind kind = EventKind::Enter;
-  LeaveCause cause = LeaveCause::Apart;  ///< Of Leave. Apart from Apart: the places, speeds and
+  LeaveCause cause = LeaveCause::Apart;  ///< For Leave. Unless Apart: the places, speeds and
                                          ///< points are the last ones, of the motion before.
-  /// Of UnresolvedFrom and UnresolvedTo. Gap: a body is silent.
+  /// For UnresolvedFrom and UnresolvedTo. Gap: a body is silent.
   UndecidedReason reason = UndecidedReason::None;
   bool isAssumed = false;  ///< As WorldContact::isAssumed.
   WorldTime time;
-  /// Of Leave and UnresolvedTo: when that began which ends here. Else the event's own time.
+  /// For Leave and UnresolvedTo: when what ends here began. Else the event's own time.
   WorldTime since;
-  /// As in WorldContact. Of UnresolvedFrom and UnresolvedTo the points are zero; the links may be
+  /// As in WorldContact. For UnresolvedFrom and UnresolvedTo the points are zero; the links may be
   /// kEveryLink, and b may be kEveryBody: a body that is silent, and taken to be Undecided.
   ContactSide a, b;
   /// An object of the mesh, or of the static scene, each by itself. -1 if there is none.
@@ -68,7 +68,7 @@ struct WorldEvent {
   double penetration = 0.0;  ///< As WorldContact::penetration.
   /// Unit, from b to a; zero if there is none.
   Eigen::Vector3d nhat_BA_W = Eigen::Vector3d::Zero();
-  /// The material point of a at its witness point less that of b: m/s.
+  /// The velocity of a's material point at its witness point less that of b's: m/s.
   Eigen::Vector3d velocity_W = Eigen::Vector3d::Zero();
   /// Along the normal, above zero while the two approach: m/s.
   double approachSpeed = 0.0;
@@ -96,7 +96,7 @@ enum class PartKind : std::uint8_t { Contact, Unresolved };
 /// at its begin unless it began before. Every touch of the two is in a part.
 struct WorldPart {
   PartKind kind = PartKind::Contact;
-  UndecidedReason reason = UndecidedReason::None;  ///< Of Unresolved.
+  UndecidedReason reason = UndecidedReason::None;  ///< For Unresolved.
   bool isAssumed = false;    ///< Some of it, since it began, rests on a motion that is assumed.
   bool beganBefore = false;  ///< It goes on from before the time that was asked.
   bool goesOn = false;       ///< Its end is that of the time that was asked.
@@ -109,7 +109,7 @@ struct WorldPart {
 /// A contact, or something unresolved, that has not ended.
 struct OpenPart {
   PartKind kind = PartKind::Contact;
-  UndecidedReason reason = UndecidedReason::None;  ///< Of Unresolved.
+  UndecidedReason reason = UndecidedReason::None;  ///< For Unresolved.
   bool isAssumed = false;                          ///< As WorldPart::isAssumed, until now.
   ContactSide a, b;                                ///< As where it began.
   ObjectId object = -1;                            ///< As WorldEvent::object.
@@ -117,9 +117,9 @@ struct OpenPart {
 };
 
 struct EventCounters {
-  std::uint64_t windows = 0;       ///< Asked of World::contacts().
+  std::uint64_t windows = 0;       ///< Windows asked of World::contacts().
   std::uint64_t contacts = 0;      ///< Intervals of contact that began.
-  std::uint64_t stretches = 0;     ///< Of contacts: each in one span between poses of the two.
+  std::uint64_t stretches = 0;     ///< Parts of contacts: each in a span between poses of the two.
   std::uint64_t contactLooks = 0;  ///< Instants at which a contact was followed on.
   std::uint64_t freeLooks = 0;  ///< Instants at which two that had touched were looked for again.
   std::uint64_t pairs = 0;      ///< Distances of an LSS and another, or a triangle, for all these.

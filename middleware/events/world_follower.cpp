@@ -34,7 +34,7 @@ namespace {
 
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
-/// The first pose of any body, or change of who carries one, after the instant.
+/// The first pose of any body, or change of a body's carrier, after the instant.
 std::int64_t nextCutUs(const WorldParts& world, std::int64_t afterUs) {
   std::int64_t next = kNever;
   for (const internal::WorldBody& body : world.bodies) {
@@ -69,7 +69,7 @@ PairKey keyOf(const WorldContact& contact) {
   return internal::keyOf(contact, internal::kNoObject);
 }
 
-/// Two bodies altogether of which nothing is known from an instant on.
+/// Two whole bodies of which nothing is known from an instant on.
 struct GivenUp {
   PairKey key;
   WorldTime time;
@@ -89,7 +89,7 @@ struct WorldFollower::Impl {
   FollowOptions options;
   std::optional<WorkerPool> pool;
   std::int64_t startUs = 0, untilUs = 0;
-  std::uint64_t world = 0;  // that it follows; 0: none yet
+  std::uint64_t world = 0;  // the one that it follows; 0: none yet
   BodyMasses masses;
   std::optional<internal::WorldMemory> scratch{std::in_place};
   WorldContacts contacts;
@@ -99,12 +99,12 @@ struct WorldFollower::Impl {
   internal::FollowedLinks known;
   TraceWindow window;
   std::vector<TracedBodies> tasks;
-  internal::WorkShares shares;                 // of the tasks
+  internal::WorkShares shares;                 // for the tasks
   std::vector<GivenUp> givenUp;                // in the window, by pair
   std::vector<BodyId> unknown, unknownBefore;  // silent and undecided, by number; as openBefore
   bool isSaved = false;                        // what was before the call
   std::vector<std::unique_ptr<Worker>> workers;
-  std::vector<WorldEvent> own;  // of bodies altogether
+  std::vector<WorldEvent> own;  // about whole bodies
   std::vector<const WorldEvent*> order;
   std::vector<AssumedContact> assumed;
 
@@ -196,7 +196,7 @@ struct WorldFollower::Impl {
     return traceAll(parts);
   }
 
-  /// Bodies of which nothing is known, or is known again, and pairs that are given up.
+  /// Reports bodies of which nothing is known, or is known again, and pairs that are given up.
   void tellUnknown() {
     window.returned.clear();
     window.returnedPairs.clear();
@@ -227,14 +227,14 @@ struct WorldFollower::Impl {
     for (const GivenUp& pair : givenUp) tellNew(pair.key, pair.time, pair.reason);
   }
 
-  /// Each is told as a body of which nothing is known.
+  /// Whether both are crowded: each is reported as a body of which nothing is known.
   [[nodiscard]] bool areCrowded(const TracedBodies& task) const {
     const std::vector<bool>& isCrowded = scratch->isCrowded;
     const auto [a, b] = task.followed->bodies;
     return !isCrowded.empty() && a != b && b >= 0 && isCrowded[slotOf(a)] && isCrowded[slotOf(b)];
   }
 
-  /// What each two may cost while they are followed, as while they are asked.
+  /// Shares what each two may cost while they are followed, as while they are asked.
   void shareTasks(const WorldParts& parts) {
     shares.begin(parts.bodies.size());
     for (const TracedBodies& task : tasks) {
@@ -246,7 +246,7 @@ struct WorldFollower::Impl {
     }
   }
 
-  /// Of the two altogether; a body's line about the scene is about its own links as well.
+  /// The key of the two as a whole; a body's line about the scene is also about its own links.
   [[nodiscard]] static PairKey wholeKeyOf(const TracedBodies& task) {
     const internal::BodyPair& both = task.followed->bodies;
     const BodyId with = both.b == both.a ? kStillScene : both.b;
@@ -274,7 +274,7 @@ struct WorldFollower::Impl {
     }
   }
 
-  /// The window begins with what is unknown of the two.
+  /// Whether the window begins with the two unknown.
   [[nodiscard]] bool isGivenUp(const PairKey& key) const {
     const GivenUp* const found = findGivenUp(key);
     return found && found->time == WorldTime{window.fromUs, 0.0};

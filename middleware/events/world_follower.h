@@ -31,7 +31,7 @@ inline constexpr std::int64_t kMostCutUs = 10'000'000;
 inline constexpr std::int64_t kMostCuts = 10'000'000;
 
 /// For one thread at a time; the world must not change while it is asked. Memory is bounded by the
-/// bodies and by who touches, and nothing is allocated once it has grown.
+/// bodies and by what touches, and nothing is allocated once it has grown.
 class WorldFollower {
  public:
   /// Nothing before `fromUs` is reported: what touches there starts inside. Errors: options or an
@@ -44,11 +44,11 @@ class WorldFollower {
   /// What a body weighs, for WorldEvent::effectiveMass. A body without one is moved by nothing:
   /// it is tracked, or stands still. Errors: as checkedMass(); a body below 0.
   Result<Done> weigh(BodyId body, const Mass& mass);
-  /// The same of an avatar that is a ragdoll.
+  /// The same for an avatar that is a ragdoll.
   Result<Done> weigh(BodyId body, AvatarMass mass);
 
   /// Everything that happens from where the last call ended until `untilUs`; nothing if that is not
-  /// later. What it tells depends on the poses alone, for any number of threads and any order in
+  /// later. What it reports depends on the poses alone, for any number of threads and any order in
   /// which they came; and not on the calls, as long as each ends where time is cut
   /// (World::knownUntilUs() is a pose). Until then the world must keep what it knows
   /// (World::forgetBefore()). `answer` is filled anew; its memory is kept.
@@ -56,9 +56,9 @@ class WorldFollower {
   /// last call, or one that asks whether meshes meet (Mismatch). Then nothing has been followed.
   Result<Done> follow(const World& world, std::int64_t untilUs, WorldEvents& answer);
 
-  /// Until where it has followed.
+  /// The instant until which it has followed.
   [[nodiscard]] std::int64_t followedUntilUs() const;
-  /// By pair: a's body and link, b's, then the object.
+  /// What is open, by pair: a's body and link, b's, then the object.
   [[nodiscard]] const std::vector<OpenPart>& open() const;
 
  private:

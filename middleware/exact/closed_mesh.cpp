@@ -39,7 +39,7 @@ void cross(const Eigen::Vector3d& p, const Triangle& triangle, ObjectId object,
   if (ray == RayUp::Crosses) around.inside.push_back(object);
 }
 
-/// Of what was crossed: what was so an odd number of times.
+/// Keeps of what was crossed what was so an odd number of times.
 void keepOdd(std::vector<ObjectId>& crossed) {
   std::sort(crossed.begin(), crossed.end());
   std::size_t kept = 0;

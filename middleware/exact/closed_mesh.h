@@ -19,16 +19,16 @@ enum class PointPlace : std::uint8_t {
   AtSurface,  ///< Nearer to the surface than the point is known.
 };
 
-/// Of objects that a point is in, or at; each once, in order.
+/// The objects that a point is in, or at; each once, in order.
 struct ObjectsAround {
-  std::vector<ObjectId> inside;     ///< Of those that are closed: crossed an odd number of times.
+  std::vector<ObjectId> inside;     ///< Closed ones that were crossed an odd number of times.
   std::vector<ObjectId> atSurface;  ///< Nearer to it than the point is known.
   std::vector<TriangleId> ids;      ///< Memory.
 };
 /// Replaces both. `rounding`: the point is not farther from where it is given (m).
 void findObjectsAround(const SceneParts& scene, const Eigen::Vector3d& p, double rounding,
                        ObjectsAround& around);
-/// The same of loose triangles, all of object 0.
+/// The same for loose triangles, all of object 0.
 void findObjectsAround(const std::vector<Triangle>& triangles, const Eigen::Vector3d& p,
                        double rounding, ObjectsAround& around);
 

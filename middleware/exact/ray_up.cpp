@@ -7,7 +7,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of the point moved aside: never 0, unless a and b are one as seen from above.
+/// The turn to the point moved aside: never 0, unless a and b are one as seen from above.
 int turnBeside(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& p) {
   const int turn = turnOf(a, b, p);
   if (turn != 0) return turn;

@@ -13,7 +13,7 @@ using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_bac
 /// Above the exponent of every double.
 inline constexpr int kNoExponent = 2000;
 
-/// Of a value m * 2^e with m odd: e. Of zero: kNoExponent.
+/// The e of a value m * 2^e with m odd; kNoExponent for zero.
 [[nodiscard]] int exponentOf(double value);
 
 /// value / 2^lowest, an integer. Precondition: lowest <= exponentOf(value).

@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 /// Each of the determinant's six products of three components passes eight roundings: three
 /// subtractions, two products, three sums. So does the sum of their magnitudes, to which this is
-/// relative; twice eight covers both. Halving it breaks the proof. Of two products of two
+/// relative; twice eight covers both. Halving it breaks the proof. With two products of two
 /// components, there are fewer.
 constexpr double kSideOfRounding = 16.0 * kUnitRoundoff;
 /// Absorbs underflow: six products below 2^-1074, each times a length of up to 2e100.

@@ -20,7 +20,7 @@ using internal::signOf;
 
 constexpr double kLargestCoordinate = 1e100;
 
-/// On some axis all of one is beyond all of the other.
+/// Whether on some axis all of one is beyond all of the other.
 template <std::size_t M, std::size_t N>
 bool apartOnAnAxis(const std::array<Vector3d, M>& one, const std::array<Vector3d, N>& other) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -44,7 +44,7 @@ struct View {
   std::array<int, 3> cornerFromSegment;           // end, end, corner k
   std::array<std::array<int, 3>, 2> endFromEdge;  // corner k, corner k + 1, end
 
-  /// All points are on one line of the view.
+  /// Whether all points are on one line of the view.
   [[nodiscard]] bool isLine() const {
     const auto isZero = [](int sign) { return sign == 0; };
     return std::all_of(cornerFromSegment.begin(), cornerFromSegment.end(), isZero) &&
@@ -116,7 +116,7 @@ bool meet(const Segment& segment, const Corners& corners) {
   });
 }
 
-/// All corners of one are strictly on one side of the other's plane.
+/// Whether all corners of one are strictly on one side of the other's plane.
 bool isBeside(const Corners& one, const Corners& other) {
   const int side = sideOf(other[0], other[1], other[2], one[0]);
   return side != 0 && side == sideOf(other[0], other[1], other[2], one[1]) &&

@@ -6,7 +6,7 @@
 
 namespace foretouch {
 
-/// No false positive and no false negative, of the coordinates as they are: degenerate triangles,
+/// No false positive and no false negative, for the coordinates as they are: degenerate triangles,
 /// triangles in one plane and those that touch in a point included. Doubles decide where their
 /// rounding cannot matter, integers the rest. All coordinates finite, |coordinate| <= 1e100
 /// (asserted).

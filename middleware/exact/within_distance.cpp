@@ -81,7 +81,7 @@ bool isWithinExactly(const Vector3d& p, const Triangle& triangle, double distanc
 bool isWithin(const Vector3d& p, const Triangle& triangle, double distance) {
   const Separation apart = separation(Hull::segment(p, p), Hull::of(triangle));
   if (apart.lower() > distance) return false;
-  // What is no number is within.
+  // What is not a number is within.
   return !(apart.upper > distance) || isWithinExactly(p, triangle, distance);
 }
 

@@ -8,7 +8,7 @@
 
 namespace foretouch::internal {
 
-/// Exactly at the distance as well, and of the coordinates as they are; degenerate triangles
+/// Also exactly at the distance, and for the coordinates as they are; degenerate triangles
 /// included. A plane decides where it can, integers the rest: nanometres from a triangle of a
 /// metre, a plane is tilted by rounding and proves nothing. All coordinates finite, |coordinate| <=
 /// 1e100, distance >= 0.

@@ -19,7 +19,7 @@ struct StillAxis {
   float pad, padPerRho;
 };
 
-/// Parts of one link as lanes read them, side by side; of each: LanePart (frame_lanes.h). Slots
+/// Parts of one link as lanes read them, side by side; for each: LanePart (frame_lanes.h). Slots
 /// beyond `count` are zero.
 struct PartRows {
   alignas(64) PairFloats point[3][3] = {};  ///< [point][axis]

@@ -86,7 +86,7 @@ void placeLanes(const BlendTriangle* triangles, const std::int32_t* which, const
   }
 }
 
-/// Of one end of the axis.
+/// Adds one end of the axis.
 HWY_INLINE void addEnd(const AxisShare* shares, int count, const double* AxisShare::*end, int lane,
                        NodeVector (&least)[3], NodeVector (&most)[3], NodeVector& spread) {
   const NodeLanes d;
@@ -151,8 +151,8 @@ constexpr double kBoundRoundings = 64.0, kShareRoundings = 8.0;
 /// Underflow may cost a place (m) or a rate (m per u) this much (frame_lanes.md 3).
 constexpr double kBlendUnderflow = 0x1p-90;
 
-/// Of the sums that make a box, relative to their terms: the proof needs 12 unit roundoffs, of what
-/// then grows it again too.
+/// The rounding of the sums that make a box, relative to their terms: the proof needs 12 unit
+/// roundoffs, of what then grows it again too.
 constexpr float kBlendBoxRounding = 32.0F * kUnitRoundoffOfFloat;
 constexpr float kBlendBoxInflation = 1.0F + 16.0F * kUnitRoundoffOfFloat;
 
@@ -171,7 +171,7 @@ float weightedOf(const float (&rows)[kRows][kCoefficients]) {
 /// What the shares' bounds add up to.
 struct ShareSums {
   float error = 0.0F, weighted = 0.0F, speed = 0.0F, acceleration = 0.0F;
-  double shift[3] = {0.0, 0.0, 0.0};  ///< Of the links' origins from the curve's.
+  double shift[3] = {0.0, 0.0, 0.0};  ///< That of the links' origins from the curve's.
 };
 
 ShareSums sumsOf(const BlendFrame* frames, const LaneBlend& blend, const double* origin) {

@@ -24,7 +24,7 @@ struct BlendFrame {
   FramePolynomials polynomials;
   ArmBound error;                ///< As in FramePolynomials.
   ArmBound weighted;             ///< Sum over j of (2j+2) |j-th coefficient|.
-  ArmBound speed, acceleration;  ///< Of the polynomials.
+  ArmBound speed, acceleration;  ///< Those of the polynomials.
 };
 [[nodiscard]] BlendFrame blendFrame(const FramePolynomials& polynomials);
 
@@ -44,13 +44,13 @@ struct LaneBlend {
   int count;
 };
 
-/// Of blended points over a span, every one of them. Metres, derivatives per unit of u; rounded up.
+/// Bounds on all blended points over a span. Metres, derivatives per unit of u; rounded up.
 struct BlendBounds {
   /// On |true - evaluated|, the weights taken to add up to 1.
   float positionPad;
-  /// Of the derivative of the polynomials as evaluated.
+  /// On the error of the derivative of the polynomials as evaluated.
   float velocityPad;
-  float speed, acceleration;  ///< Of the polynomials.
+  float speed, acceleration;  ///< Those of the polynomials.
   float weighted;             ///< Sum over j of (2j+2) |j-th coefficient|.
 };
 
@@ -59,7 +59,7 @@ struct BlendPoint {
   float c[3][kCoefficients];  ///< Ascending powers of u.
   BlendBounds bounds;
 };
-/// `frames`: by link. `origin`: relative to that of the nodes, of floats, as FramePolynomials have.
+/// `frames`: by link. `origin`: relative to that of the nodes, in floats, as FramePolynomials have.
 [[nodiscard]] BlendPoint blendPoint(const BlendFrame* frames, const LaneBlend& blend,
                                     const double* origin);
 
@@ -89,7 +89,7 @@ struct CurveBox {
 /// What surrounds a triangle of points in lanes.
 struct BlendHull {
   float pad;              ///< At least the error of the points' places.
-  float radius;           ///< Of what they stand for: 0 for a triangle itself.
+  float radius;           ///< That of what they stand for: 0 for a triangle itself.
   CurveBox swept, start;  ///< Around it at every u in [-1,1], and at u = -1.
 };
 /// `pad` at least triangle.bounds.positionPad.

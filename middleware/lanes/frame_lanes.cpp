@@ -91,8 +91,8 @@ namespace {
 
 HWY_EXPORT(placeLanes);
 
-/// Of a velocity, relative to the sums of its terms' absolute values: the proof needs 17.2 unit
-/// roundoffs.
+/// The rounding of a velocity, relative to the sums of its terms' absolute values: the proof needs
+/// 17.2 unit roundoffs.
 constexpr double kRateRounding = 20.0 * kUnitRoundoffOfFloat;
 
 /// Sum of k |c_k|, which bounds the derivative's terms on [-1,1].

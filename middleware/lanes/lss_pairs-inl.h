@@ -109,7 +109,7 @@ struct Triangles {
   Point<V> corner[3];
   V reach;
 };
-/// Of a leaf, from one of its triangles on.
+/// The triangles of a leaf, from one of them on.
 template <class D>
 HWY_INLINE Triangles<hn::Vec<D>> trianglesOf(D d, const float* vertices, const float* origin,
                                              float reach) {
@@ -158,7 +158,7 @@ struct Spheres {
   Point<V> centre;
   V reach;
 };
-/// Of clusters[which[i]]; lanes from `count` on mean nothing.
+/// The spheres of clusters[which[i]]; lanes from `count` on mean nothing.
 template <class D>
 HWY_INLINE Spheres<hn::Vec<D>> spheresOf(D d, const Cluster* clusters, const std::int32_t* which,
                                          std::size_t count, const float* origin, float reach) {

@@ -28,7 +28,7 @@ struct LaneLss {
   float extent;      ///< |a(u)| and |b(u)| are at most this.
   float reach;       ///< The radius plus the LSS's share of a plane's rounding.
 };
-/// `lssRadius`: of the LSS itself.
+/// `lssRadius`: that of the LSS itself.
 [[nodiscard]] LaneLss laneLss(const LssPolynomials& polynomials, double lssRadius);
 
 /// The separations (m) at which lanes change course; floor < handOver.

@@ -86,15 +86,15 @@ HWY_INLINE PlacePairs<D> placePairs(D d, const PlacedLss& lss, const PlaceBlock&
   return pairs;
 }
 
-/// Of a squared sine that is compared with a bound: far above rounding.
+/// For a squared sine that is compared with a bound: far above rounding.
 constexpr double kMore = 1.0 + 1e-6;
 
 /// A place in every lane.
 template <class D>
 struct LanePlaces {
-  hn::Vec<D> squared;      ///< Of the distance.
+  hn::Vec<D> squared;      ///< That of the distance.
   Point<hn::Vec<D>> away;  ///< From the triangle to the axis.
-  hn::Vec<D> along;        ///< Of the axis.
+  hn::Vec<D> along;        ///< Where on the axis.
   hn::Mask<D> isOnFace;
   hn::Mask<D> isFlat;         ///< On an edge or a vertex inside a flat surface.
   hn::Mask<D> isStraight[3];  ///< On that vertex, where a corner goes on straight.
@@ -109,7 +109,7 @@ HWY_INLINE hn::Mask<D> isAtLast(D d, hn::Vec<D> share) {
   return hn::Gt(share, hn::Set(d, 1.0 - kAtEnd));
 }
 
-/// At a share of edge k.
+/// Whether what is at a share of edge k is inside a flat surface.
 template <class D>
 HWY_INLINE hn::Mask<D> isFlatAt(D d, const PlacePairs<D>& pairs, int k, hn::Vec<D> share) {
   const auto isFirst = isAtFirst(d, share), isLast = isAtLast(d, share);
@@ -118,7 +118,7 @@ HWY_INLINE hn::Mask<D> isFlatAt(D d, const PlacePairs<D>& pairs, int k, hn::Vec<
                        hn::And(isLast, pairs.isFlatVertex[(k + 1) % 3])));
 }
 
-/// Of the places at a share of edge k, those on straight vertices.
+/// Finds the places at a share of edge k that are on straight vertices.
 template <class D>
 HWY_INLINE void setStraight(D d, const PlacePairs<D>& pairs, int k, hn::Vec<D> share,
                             hn::Mask<D> places, LanePlaces<D>& place) {
@@ -211,7 +211,7 @@ HWY_INLINE LanePlaces<D> placeOfEdge(D d, const PlacedLss& lss, const PlacePairs
   return place;
 }
 
-/// The axis passes through the face.
+/// Whether the axis passes through the face.
 template <class D>
 HWY_INLINE hn::Mask<D> passesThrough(D d, const PlacePairs<D>& pairs) {
   using V = hn::Vec<D>;
@@ -271,7 +271,7 @@ HWY_INLINE hn::Vec<D> limitsOf(D d, const NearBins& bins, const LanePlaces<D>& p
   return hn::GatherIndex(d, bins.limit, index);
 }
 
-/// Of the asked places on vertices where a corner goes on straight, those that stand: across it.
+/// Those asked places on vertices where a corner goes on straight that stand: across it.
 template <class D>
 HWY_INLINE hn::Mask<D> standsAtStraight(D d, const PlacedLss& lss, const PlacePairs<D>& pairs,
                                         const LanePlaces<D>& place, hn::Mask<D> asked) {
@@ -294,7 +294,7 @@ HWY_INLINE hn::Mask<D> standsAtStraight(D d, const PlacedLss& lss, const PlacePa
   return asked;
 }
 
-/// Of the asked places, those that may win.
+/// Those of the asked places that may win.
 template <class D>
 HWY_INLINE hn::Mask<D> mayWin(D d, const PlacedLss& lss, const NearBins& bins,
                               const PlacePairs<D>& pairs, const LanePlaces<D>& place,
@@ -316,7 +316,7 @@ HWY_INLINE hn::Mask<D> mayWin(D d, const PlacedLss& lss, const NearBins& bins,
   return hn::And(asked, hn::Le(place.squared, limitsOf(d, bins, place)));
 }
 
-/// The closest points are so near that their difference is noise.
+/// Whether the closest points are so near that their difference is noise.
 template <class D>
 HWY_INLINE hn::Mask<D> isNoisy(D d, const PlacePairs<D>& pairs, hn::Vec<D> squared) {
   const auto sum = [](const Point<hn::Vec<D>>& p) HWY_ATTR {

@@ -11,7 +11,7 @@ namespace foretouch::internal {
 
 /// A share of a length: closer to an end than this is at it.
 inline constexpr double kAtEnd = 1e-9;
-/// Of the pair's extent: below it, the difference of the closest points is noise.
+/// A share of the pair's extent: below it, the difference of the closest points is noise.
 inline constexpr double kNoisyDifference = 1e-9;
 
 /// Bins of directions and places on the axis, and the distance that a place must not exceed to win.
@@ -24,13 +24,13 @@ struct NearBins {
   static constexpr double kQuarterBounds[] = {0.27, 0.53, 0.79};
 
   double toBins[3][3];   ///< Turns directions of W into the bins' frame.
-  double limit[kCount];  ///< Squared (m^2); infinity: nobody is in the bin.
+  double limit[kCount];  ///< Squared (m^2); infinity: the bin is empty.
 };
 
 /// An LSS where it stands, in W.
 struct PlacedLss {
   double a[3], b[3];
-  double squaredReach;   ///< Of the axis (m^2): the radius and what counts as near.
+  double squaredReach;   ///< The axis' (m^2): the radius and what counts as near.
   double nearParallel;   ///< Squared sine of axis and edge from which on their crossing is trusted.
   double flatDirection;  ///< Sine within which a direction is along the normal of a flat surface.
 };
@@ -45,7 +45,7 @@ struct PlaceBlock {
 /// Where a place of an LSS and a triangle comes from: the sphere at an end of the axis, or an edge.
 inline constexpr int kPlaceSources = 5;  // ends a and b, edges 0 to 2
 
-/// Bit i: of triangle i.
+/// Bit i: for triangle i.
 struct PlaceChoice {
   unsigned unsure;                  ///< It takes more than lanes to say which places may win.
   unsigned may[kPlaceSources];      ///< The place from there may win; without what is unsure.

@@ -42,7 +42,7 @@ HWY_INLINE Moving<hn::Vec<D>> standing(D d, const float (&p)[3]) {
   return {{hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2])}, {zero, zero, zero}};
 }
 
-/// Not provably farther than `within`; NaN is near.
+/// Whether it is not provably farther than `within`; NaN is near.
 template <class D, class V>
 HWY_INLINE hn::Mask<D> isNear(D d, V gap, float within) {
   return hn::Not(hn::Gt(gap, hn::Set(d, within)));

@@ -17,14 +17,14 @@ struct StillLss {
   float a[3], b[3];  ///< The axis ends.
   float reach;       ///< The radius and all that rounds, the triangles' own share apart.
 };
-/// `vertexRounding`: of the triangles' coordinates.
+/// `vertexRounding`: that of the triangles' coordinates.
 [[nodiscard]] StillLss stillLss(const double* a, const double* b, double radius,
                                 double vertexRounding);
 
 /// The leaves to look at: leaves[leaf[i]], of which bit k of triangles[i] is the k-th triangle.
 struct LeafChoice {
   const BvhLeaf* leaves;
-  const Cluster* clusters;   ///< Of the same leaves.
+  const Cluster* clusters;   ///< Those of the same leaves.
   const std::int32_t* leaf;  ///< Can be read kMaxLanes beyond `count`.
   const std::uint8_t* triangles;
   std::size_t count;

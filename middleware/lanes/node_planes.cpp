@@ -153,7 +153,7 @@ struct Beyond {
   }
 };
 
-/// The plane at rest with the normal of lane `k` keeps the pair apart, whenever either is where.
+/// Whether the plane at rest with the normal of lane `k` keeps the pair apart in their ranges.
 HWY_INLINE bool restsBetween(const NodePlanes& planes, const Beyond& beyond,
                              const Beyond& beyondOther, const PlanePair& pair,
                              const ProposalBlock& block, std::size_t k) {

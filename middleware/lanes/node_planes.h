@@ -12,7 +12,7 @@
 
 namespace foretouch::internal {
 
-/// Between neighbouring nodes.
+/// Pieces between neighbouring nodes.
 inline constexpr int kNodePieces = kNodes - 1;
 inline constexpr std::uint8_t kEveryPiece = (1U << kNodePieces) - 1U;
 
@@ -33,7 +33,7 @@ struct PlanePair {
 /// Roundings of a plane's heights in float, per metre of both sides' extents (node_planes.md 2).
 inline constexpr double kNodePlaneRounding = 16.0 * 0x1p-24;
 
-/// Both are in it.
+/// A range of nodes; both are in it.
 struct NodeRange {
   int first = 0, last = kNodes - 1;
 };
@@ -45,8 +45,8 @@ struct NodePlanes {
   float sagittas[kNodes];  ///< h^2/8 of piece k, rounded up; the last is not used.
   /// The second of each pair, if it is of another table; null: of the same.
   const NodeEnds::Axis* others = nullptr;
-  /// From the origin of `axes` to that of `others`, rounded to nearest (m). The reach then includes
-  /// kNodePlaneRounding of its coordinates' sum as well.
+  /// From the origin of `axes` to that of `others`, rounded to nearest (m). The reach then also
+  /// includes kNodePlaneRounding of its coordinates' sum.
   float shift[3] = {0.0F, 0.0F, 0.0F};
   /// For planes at rest: between which nodes each is looked at.
   NodeRange nodes = {}, otherNodes = {};

@@ -11,7 +11,7 @@ namespace foretouch::internal {
 
 /// Which pairs are asked: for LSS i and block k of LSS, bit j says that i and 16 k + j are.
 struct AskedPairs {
-  std::int32_t blocks = 0;          ///< Of SweptBoxes::kPadding LSS each.
+  std::int32_t blocks = 0;          ///< Blocks of SweptBoxes::kPadding LSS each.
   std::vector<std::uint16_t> bits;  ///< Row after row, `blocks` per LSS; only j > i.
   std::size_t numPairs = 0;         ///< Bits that are set.
 

@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace foretouch::internal::HWY_NAMESPACE {
 namespace {
 
-/// Of n.velocity, relative to the velocity: the proof needs 4.02 unit roundoffs; where both sides
+/// For n.velocity, relative to the velocity: the proof needs 4.02 unit roundoffs; where both sides
 /// move, relative to both velocities, 5.02.
 constexpr float kSpeedRounding = 4.5F * kUnitRoundoffOfFloat;
 constexpr float kRelativeSpeedRounding = 5.5F * kUnitRoundoffOfFloat;

@@ -1,6 +1,6 @@
 // middleware/lanes/triangle_pairs.h: many pairs of triangles at once, one per float lane, each at
 // its own instant: a proven bound on their separation now, and for how long it holds. The
-// counterpart of movingPair(), which decide the pairs that floats leave
+// counterpart of movingPair(), which decides the pairs that floats leave
 // open. Proof with rounding: middleware/lanes/triangle_pairs.md. Not installed.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace foretouch::internal {
 struct TrianglePairBlock {
   alignas(64) PairFloats link[3][3];       ///< [vertex][axis]
   alignas(64) PairFloats velocity[3][3];   ///< [vertex][axis] of the link's triangle.
-  alignas(64) PairFloats acceleration[3];  ///< Of each vertex: at most this long, from now on.
+  alignas(64) PairFloats acceleration[3];  ///< Each vertex's: at most this long, from now on.
   alignas(64) PairFloats scene[3][3];      ///< [vertex][axis]
   /// At least the points' error: the largest of the link's three plus the largest of the scene's.
   alignas(64) PairFloats positionPad;
@@ -30,7 +30,7 @@ struct TrianglePairBlock {
 /// pads cover both sides then, each the sum of what they are for one.
 struct OtherMotions {
   alignas(64) PairFloats velocity[3][3];  ///< [vertex][axis]
-  alignas(64) PairFloats acceleration;    ///< Of every vertex: at most this long, from now on.
+  alignas(64) PairFloats acceleration;    ///< Every vertex's: at most this long, from now on.
 };
 
 /// The proof for each pair. Both are 0 if nothing is proven.
@@ -53,8 +53,8 @@ void proveSteps(const TrianglePairBlock& block, const OtherMotions& others, std:
 /// third vertex. Looks at three pairs of edges, not nine.
 void proveSegmentSteps(const TrianglePairBlock& block, std::size_t count, TrianglePairSteps& steps);
 
-/// The same for pairs of which both sides move; and for those whose scene's triangle is a segment
-/// as well, from scene[0] to scene[1]: one pair of edges.
+/// The same for pairs of which both sides move; and for those whose scene's triangle is also a
+/// segment, from scene[0] to scene[1]: one pair of edges.
 void proveSegmentSteps(const TrianglePairBlock& block, const OtherMotions& others,
                        std::size_t count, TrianglePairSteps& steps);
 void proveAxisSteps(const TrianglePairBlock& block, const OtherMotions& others, std::size_t count,

@@ -25,8 +25,8 @@ using Lanes = hn::Vec<Floats>;
 using LaneMask = hn::Mask<Floats>;
 using Vec3 = Point<Lanes>;
 
-/// Of the plane's arithmetic, relative to the extents: the proof needs 6.02 unit roundoffs. Halving
-/// it breaks the proof; doubling it costs 4e-7 of the extents.
+/// The rounding of the plane's arithmetic, relative to the extents: the proof needs 6.02 unit
+/// roundoffs. Halving it breaks the proof; doubling it costs 4e-7 of the extents.
 constexpr float kPairPlaneRounding = 6.5F * kUnitRoundoffOfFloat;
 /// Shrinks a direction whose normalisation errs by at most 4.51 unit roundoffs.
 constexpr float kPairUnitShrink = 1.0F - 5.0F * kUnitRoundoffOfFloat;
@@ -66,7 +66,7 @@ struct Triangles {
   Vec3 scene[kScenePoints - 1];  // the other vertices
 };
 
-/// Of the heights of all of the scene's vertices, the first of which is 0.
+/// The top of the heights of all of the scene's vertices, the first of which is 0.
 template <int kPoints, int kScenePoints>
 HWY_INLINE Lanes topOf(Floats d, const Triangles<kPoints, kScenePoints>& pair, const Vec3& n) {
   Lanes top = hn::Zero(d);

@@ -28,7 +28,7 @@ struct AvatarMass::Parts {
   std::vector<Eigen::Matrix3d> inertias;          // of the links, axes of W
   internal::TreeInertia inertia;
   std::vector<double> leastTurns;
-  // Memory of the questions.
+  // Memory for the questions.
   std::vector<internal::Vector6d> forces;
   std::vector<Eigen::Vector3d> torques, turns, shifts, moreTurns;
   std::vector<internal::Twist> twists, moreTwists;

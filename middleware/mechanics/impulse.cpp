@@ -32,7 +32,7 @@ class Collision {
   }
 
  private:
-  /// Afterwards nothing slides.
+  /// The impulse after which nothing slides.
   [[nodiscard]] CollisionImpulse sticking(const ContactMaterial& material) const {
     CollisionImpulse impulse;
     impulse.onA_W = K_.ldlt().solve(-material.restitution * un_ * n_ - u_);
@@ -66,7 +66,7 @@ class Collision {
   double un_;
 };
 
-/// Of the materials share(0) to share(1), of which the first is lawful, one that is and whose
+/// One of the materials share(0) to share(1), of which the first is lawful: it is lawful, and its
 /// neighbour is not.
 template <typename Share>
 CollisionImpulse mostLawful(const Collision& collision, const Share& share) {

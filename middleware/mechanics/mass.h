@@ -43,7 +43,7 @@ struct CollisionImpulse {
   ContactMaterial applied;
 };
 
-/// The mass that meets the mass of the other along the normal (kg): of a ball that hits a wall, the
+/// The mass that meets the other's along the normal (kg): for a ball that hits a wall, the
 /// ball's. Infinite if neither can be moved. What a haptic device needs beside the speed.
 [[nodiscard]] double effectiveMass(const CollisionPoint& point);
 
@@ -69,7 +69,7 @@ Result<Mass> checkedMass(const Mass& mass);
 /// A solid LSS of `density` (kg/m3): a cylinder and two half spheres. All zero for radius 0.
 [[nodiscard]] Mass massOf(const Lss& lss, double density);
 
-/// Of two bodies that are one. All zero if neither weighs anything.
+/// The mass of two bodies that are one. All zero if neither weighs anything.
 [[nodiscard]] Mass sumOf(const Mass& one, const Mass& other);
 
 /// The masses of an avatar's links, kg in all, each in its link's frame: every LSS solid, all of

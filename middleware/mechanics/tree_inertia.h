@@ -44,7 +44,7 @@ class TreeInertia {
   /// nothing.
   void reset(const std::vector<JointId>& parents, double leastMass = 1e-9);
 
-  /// Begins anew: no mass. `origins`: of the joints, relative to the common origin.
+  /// Begins anew: no mass. `origins`: the joints', relative to the common origin.
   void begin();
   void setOrigin(JointId joint, const Eigen::Vector3d& origin);
   /// A point of the link, relative to the common origin.

@@ -1,5 +1,5 @@
 // middleware/near/clearance.h: how near a motion comes to a scene where nothing is hit: bounds from
-// below and from above, when, and where. Of an avatar's LSS. The proof: clearance.md. Metres in W;
+// below and from above, when, and where. For an avatar's LSS. The proof: clearance.md. Metres in W;
 // t in [0,1] of the motion.
 #pragma once
 
@@ -25,7 +25,7 @@ struct ClearanceOptions {
   /// `upper - lower` is at most this (m) where doubles resolve it; kMinTolerance to kMaxTolerance.
   /// A tenth of it costs about twice the time.
   double tolerance = kDefaultTolerance;
-  /// Nobody looks farther (m): what comes no nearer has this as its lower bound.
+  /// The search ends there (m): what comes no nearer has this as its lower bound.
   double within = std::numeric_limits<double>::infinity();
   /// The avatar hardly ever leaves this distance from the origin of W along each axis (m); 0: it
   /// may be anywhere in the scene's box. Only for speed: two megabytes keep what is known of

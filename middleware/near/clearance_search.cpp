@@ -19,24 +19,24 @@ using Span = ClearanceMemory::Span;
 using Curve = ClearanceMemory::Curve;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Of a tolerance: what curves may be off by.
+/// The share of a tolerance that curves may be off by.
 constexpr double kCurveShare = 1.0 / 64.0;
-/// Of a motion: a span that is shorter is not halved any more.
+/// A span that is a shorter share of a motion is not halved any more.
 constexpr double kShortest = 0x1p-40;
 /// What floats of boxes, and of sums of three products, are off by, in parts of all lengths; more
 /// than four times as much.
 constexpr double kFloatSum = 32.0 * static_cast<double>(kUnitRoundoffOfFloat);
-/// Of squares of gaps.
+/// For squares of gaps.
 constexpr double kFloatSquare = 1.0 + kFloatSum;
 /// Beyond all places (m); its square is finite.
 constexpr double kFarthest = 1e100;
-/// Of an axis, whose distances cells know.
+/// Points of an axis whose distances cells know.
 constexpr int kMostPoints = 8;
 /// Places that count as one: normals with this cosine, times so near (of the motion).
 constexpr double kAloneNormal = 0.999, kAloneTime = 0.02;
 /// Halvings that find the time of the least separation of one pair.
 constexpr int kSettlings = 12;
-/// Of the tolerance: what is left when it ends earlier.
+/// The share of the tolerance that is left when it ends earlier.
 constexpr double kSettled = 1.0 / 256.0;
 
 struct LessNear {
@@ -64,7 +64,7 @@ Eigen::AlignedBox3d boxOfCells(const Scene& scene, double reach) {
   return both.isEmpty() ? within : both;
 }
 
-/// At most so far does a point of the axis move within `half` of the instant.
+/// How far, at most, a point of the axis moves within `half` of the instant.
 double movesOf(const Curve& curve, const AxisCurve::Ends& ends, double half) {
   const AxisCurve& c = curve.curve;
   const double a = ends.velocityA.norm() + c.velocityRounding + 0.5 * half * c.accelerationA,
@@ -163,10 +163,10 @@ class ClearanceSearch::Look {
   struct Plane {
     float nhat[3];
     bool isUp[3];
-    double top;  ///< Of the axis, where it is lowest.
+    double top;  ///< The axis', where it is lowest.
   };
 
-  /// The first one stays, of the others the last one.
+  /// The first plane stays, and the last one of the others.
   void usePlane(const Vector3d& nhat) {
     numPlanes_ = std::min(numPlanes_ + 1, 2);
     Plane& plane = planes_[numPlanes_ - 1];
@@ -194,7 +194,7 @@ class ClearanceSearch::Look {
             kInflation * ((std::abs(nhat.dot(ends_.velocityB)) + rounding) * half_ + bends_[1])};
   }
 
-  /// All through the span, by the plane in between now, which then leaves out others, too.
+  /// Whether it stays away all through the span, by a plane between, which leaves out others, too.
   [[nodiscard]] bool keepsAway(TriangleId id) {
     const Separation apart = separation(Hull::segment(ends_.a, ends_.b),
                                         hullFrom(scene_.origin, scene_.triangles[slotOf(id)]));
@@ -286,7 +286,7 @@ void ClearanceSearch::boundByCells(Span& span) const {
   }
 }
 
-/// Unless it is far.
+/// Pushes it, unless it is far.
 void ClearanceSearch::push(Span span) {
   boundByCells(span);
   if (span.bound >= floor()) return;

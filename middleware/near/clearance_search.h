@@ -39,7 +39,7 @@ struct ClearanceMotion {
   const ChainMotion* motion;
   double rounding = 0.0;            ///< No true place is farther from the motion's (m).
   double begin = 0.0, share = 1.0;  ///< Its t is begin + share * t of the whole.
-  std::int32_t prop = -1;           ///< Whose scene it is.
+  std::int32_t prop = -1;           ///< The prop whose scene it is.
 };
 
 struct ClearanceMemory : ScratchPart {
@@ -77,7 +77,7 @@ class ClearanceSearch {
 
   void look(const ClearanceMotion& motion);
   [[nodiscard]] Clearance finish();
-  /// Of the scene of the nearest place.
+  /// The prop whose scene has the nearest place.
   [[nodiscard]] std::int32_t prop() const { return prop_; }
 
  private:
@@ -86,7 +86,7 @@ class ClearanceSearch {
   void addCurves();
   void boundByCells(ClearanceMemory::Span& span) const;
   void lookAt(const ClearanceMemory::Span& span);
-  /// Of the motion at hand, at its own t.
+  /// Takes a place of the motion at hand, at its own t.
   void take(const ClearanceMemory::Curve& curve, double t, const Separation& apart, TriangleId id);
   void push(ClearanceMemory::Span span);
   void settle(const ClearanceMemory::Curve& curve, const ClearanceMemory::Span& span);
@@ -97,8 +97,8 @@ class ClearanceSearch {
   ClearanceMemory& memory_;
   ClearanceMotion motion_{};
   Clearance best_;
-  double lowest_;           // of spans too short to be halved
-  std::int32_t prop_ = -1;  // of the best
+  double lowest_;           // that of spans too short to be halved
+  std::int32_t prop_ = -1;  // that of the best
   bool isSettled_ = true;
 };
 

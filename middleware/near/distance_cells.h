@@ -14,7 +14,7 @@
 
 namespace foretouch::internal {
 
-/// Any number of threads may ask: whoever finds a cell out finds the same.
+/// Any number of threads may ask: each that finds a cell out finds the same.
 class DistanceCells {
  public:
   /// Along each axis; eight bytes per cell, once there was a question.

@@ -9,7 +9,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// Classes of gaps: a thousand triangles come thirty a class, where order no longer matters.
+/// Classes of gaps: a thousand triangles come thirty per class, where order no longer matters.
 constexpr std::size_t kClasses = 32;
 /// So many triangles take less by themselves than in a block.
 constexpr std::size_t kFew = 2;
@@ -35,7 +35,7 @@ void NearBlocks::order(const Scene& scene, const IgnoredObjects& ignored,
   std::array<std::size_t, kClasses + 2> begin{};
   for (std::size_t k = 0; k < near.count; ++k) {
     const float place = scale * (near.gap[k] - low);
-    // Written so that what is no number has a class.
+    // Written so that what is not a number has a class.
     std::size_t one =
         place < static_cast<float>(kClasses) ? static_cast<std::size_t>(place) : kClasses - 1;
     if (ignored.has(scene, near.id[k])) one = kClasses;  // beyond all

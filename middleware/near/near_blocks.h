@@ -23,11 +23,11 @@ class NearBlocks {
   void order(const Scene& scene, const IgnoredObjects& ignored, const NearTriangles& near);
 
   [[nodiscard]] std::size_t size() const { return order_.size(); }
-  /// Of the k-th triangle: its id, and a lower bound on its separation.
+  /// The k-th triangle's id, and a lower bound on its separation.
   [[nodiscard]] TriangleId id(std::size_t k) const { return order_[k].id; }
   [[nodiscard]] float gap(std::size_t k) const { return order_[k].gap; }
 
-  /// Bit i: of triangle `from` + i, of the next PlaceBlock::kSize.
+  /// Bit i: for triangle `from` + i, of the next PlaceBlock::kSize.
   [[nodiscard]] PlaceChoice mayWin(const Scene& scene, const FlatEdges& flat,
                                    const StandingLss& lss, const NearBins& bins, std::size_t from);
 

@@ -54,7 +54,7 @@ struct NearRange {
   std::size_t first = 0, count = 0;
   bool hadMore = false;  ///< More than kMostNearPerLink were left: these are the nearest.
 };
-/// Reduced features of one link.
+/// The most features of one link that Reduced leaves.
 inline constexpr std::size_t kMostNearPerLink = 256;
 
 struct NearFeatures {
@@ -68,7 +68,7 @@ namespace internal {
 struct NearPlan;
 }  // namespace internal
 
-/// A question to ask again and again: what of a scene are links of an avatar near to? Of their LSS.
+/// A question to ask again and again: what of a scene are links of an avatar near to? By their LSS.
 /// Checked once; copies are cheap, and any number of threads may ask one NearQuery, each with
 /// scratch memory of its own.
 class NearQuery {

@@ -55,7 +55,7 @@ class LocalPair {
   [[nodiscard]] double extent() const {
     return axis_.lpNorm<1>() + v_[1].lpNorm<1>() + v_[2].lpNorm<1>();
   }
-  /// Of the axis' middle over a plane through `p`, doubled.
+  /// The height of the axis' middle over a plane through `p`, doubled.
   [[nodiscard]] double side(const Vector3d& normal, const Vector3d& p) const {
     return normal.dot(a_ - p) + normal.dot(b_ - p);
   }
@@ -174,7 +174,7 @@ class PlaceMaker {
 
   [[nodiscard]] const LocalPair& pair() const { return pair_; }
 
-  /// The difference of its points has a direction.
+  /// Whether the difference of its points has a direction.
   [[nodiscard]] bool isApart(const Spot& spot) const {
     return std::sqrt(spot.squared) > kNoisyDifference * pair_.extent();
   }
@@ -196,8 +196,8 @@ class PlaceMaker {
   }
 
  private:
-  /// From triangle to axis. Where the two are not apart, the normal of the features that meet, to
-  /// the side of the axis' longer part.
+  /// The way from triangle to axis. Where the two are not apart, the normal of the features that
+  /// meet, to the side of the axis' longer part.
   [[nodiscard]] Vector3d directionOf(const Spot& spot, double distance) const {
     const Vector3d difference = spot.onAxis - spot.onTriangle;
     if (distance > kNoisyDifference * pair_.extent()) return difference / distance;
@@ -227,12 +227,12 @@ class PlaceMaker {
     }
   }
 
-  /// The unit `v` is within kFlatDirection of the direction of `w`, on either side.
+  /// Whether the unit `v` is within kFlatDirection of the direction of `w`, on either side.
   static bool isAlong(const Vector3d& v, const Vector3d& w) {
     const double length = w.norm();
     return length > 0.0 && v.cross(w).norm() <= kFlatDirection * length;
   }
-  /// The unit `v` is within kFlatDirection of the plane across `w`.
+  /// Whether the unit `v` is within kFlatDirection of the plane across `w`.
   static bool isAcross(const Vector3d& v, const Vector3d& w) {
     const double length = w.norm();
     return length > 0.0 && std::abs(v.dot(w)) <= kFlatDirection * length;

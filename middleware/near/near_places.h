@@ -24,7 +24,7 @@ struct StandingLss {
   Eigen::Vector3d a, b;
   double radius;
   double reach;     ///< How far is near.
-  double rounding;  ///< Of the two ends.
+  double rounding;  ///< That of the two ends.
 };
 
 /// Between which parts of the two a place is.
@@ -33,7 +33,7 @@ enum class NearPart : std::uint8_t { Whole, EndA, EndB, Edge0, Edge1, Edge2 };
 /// A feature before its gap is proven.
 struct NearPlace {
   NearFeature feature;
-  double distance = 0.0;  ///< Of the axis, as computed.
+  double distance = 0.0;  ///< The axis', as computed.
   /// From the triangle to the axis, of any length: the direction that bins go by.
   Eigen::Vector3d away = Eigen::Vector3d::Zero();
   NearPart part = NearPart::Whole;
@@ -47,8 +47,8 @@ struct NearPlace {
 /// Knows places that cannot win.
 class NearFilter {
  public:
-  /// False: a place at this distance, which is not 0, with this difference of its two points would
-  /// be for nothing.
+  /// False: a place at this distance, which is not 0, with this difference of its two points,
+  /// cannot win.
   [[nodiscard]] virtual bool mayWin(const Eigen::Vector3d& difference, double along,
                                     double distance) const = 0;
 
@@ -56,7 +56,7 @@ class NearFilter {
   ~NearFilter() = default;
 };
 
-/// Of one pair; none if the closest points are farther apart than the reach.
+/// The places of one pair; none if the closest points are farther apart than the reach.
 struct NearPlaces {
   static constexpr int kMost = 6;
   NearPlace place[kMost];

@@ -26,7 +26,7 @@ struct NearPlan {
 struct NearMemory : ScratchPart {
   static constexpr ScratchKind kKind = ScratchKind::Near;
 
-  ChainMotion still;                      // of a pose that is asked
+  ChainMotion still;                      // that of a pose that is asked
   std::vector<LinkState> states;          // at it
   std::vector<double> reach;              // the same for all
   std::vector<StandingLss> lss;           // asked

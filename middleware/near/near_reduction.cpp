@@ -20,7 +20,7 @@ const Eigen::Matrix3d kTilt = [] {
 }();
 
 using RowMajorMatrix3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-/// Of a bin without a place.
+/// The limit of a bin without a place.
 constexpr double kNobody = std::numeric_limits<double>::infinity();
 /// A squared distance beyond the square of another by this factor has a larger root in doubles,
 /// too: the two squares and the root round by less.
@@ -144,7 +144,7 @@ void NearReduction::accept(bool faces) {
   }
 }
 
-/// A nearer one holds the LSS along the same normal, at the same place.
+/// Whether a nearer one holds the LSS along the same normal, at the same place.
 bool NearReduction::isStoodFor(const NearPlace& place) const {
   const NearFeature& feature = place.feature;
   return std::any_of(accepted_.begin(), accepted_.end(), [&](const NearPlace& nearer) {

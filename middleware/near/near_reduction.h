@@ -1,5 +1,5 @@
-// middleware/near/near_reduction.h: of all places where one LSS is near, those that a solver of
-// contacts needs. Metres, W. Not installed.
+// middleware/near/near_reduction.h: the places that a solver of contacts needs, of all those where
+// one LSS is near. Metres, W. Not installed.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ class NearReduction final : public NearFilter {
  public:
   NearReduction();
 
-  /// Forgets the last LSS. `R_WL`: of the LSS's link; directions are told apart in its frame, so
+  /// Forgets the last LSS. `R_WL`: its link's; directions are told apart in its frame, so
   /// that a motion of all does not change the answer.
   void begin(const Scene& scene, const StandingLss& lss, const Eigen::Matrix3d& R_WL);
   void offer(const NearPlace& place);

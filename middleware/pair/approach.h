@@ -17,7 +17,7 @@ struct MaterialPoint {
   double acceleration = 0.0, velocityRounding = 0.0;
 };
 
-/// That of a link which is at `p` then; state and bounds in the same frame.
+/// The point of a link that is at `p` then; state and bounds in the same frame.
 [[nodiscard]] inline MaterialPoint materialPointAt(const LinkState& state,
                                                    const MotionBounds& bounds,
                                                    const Eigen::Vector3d& p) {

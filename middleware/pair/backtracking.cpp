@@ -25,7 +25,7 @@ struct Later {
   }
 };
 
-/// Farther first, so that the heap's top is the nearest; total likewise.
+/// Farther first, so that the heap's top is the nearest; total, too.
 struct Farther {
   bool operator()(const Candidate& x, const Candidate& y) const {
     if (x.nearest != y.nearest) return x.nearest > y.nearest;
@@ -197,7 +197,7 @@ class Backtracker {
     return true;
   }
 
-  /// The pair of the best contact so far.
+  /// Whether it is the pair of the best contact so far.
   [[nodiscard]] bool isBest(const Candidate& candidate) const {
     if (!hasContact() || candidate.otherLss != best_->otherLss ||
         otherTriangle(query_, candidate) != best_->triangle) {

@@ -13,13 +13,13 @@ struct Growth {
   [[nodiscard]] double at(double t) const { return constant + t * (linear + t * square); }
   [[nodiscard]] double rateAt(double t) const { return linear + 2.0 * t * square; }
   [[nodiscard]] double bend() const { return 2.0 * square; }
-  /// On [from, to].
+  /// The most on [from, to].
   [[nodiscard]] double mostIn(double from, double to) const {
     const double atEnds = std::max(at(from), at(to));
     const double top = square < 0.0 ? -0.5 * linear / square : from;
     return top > from && top < to ? std::max(atEnds, at(top)) : atEnds;
   }
-  /// On [0,1].
+  /// The most on [0,1].
   [[nodiscard]] double most() const { return mostIn(0.0, 1.0); }
 };
 [[nodiscard]] inline Growth operator+(const Growth& x, const Growth& y) {

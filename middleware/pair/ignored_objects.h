@@ -26,7 +26,7 @@ class IgnoredObjects {
     std::sort(objects_.begin(), objects_.end());
     return false;
   }
-  /// One more of the current link.
+  /// Adds one more of the current link.
   void add(ObjectId object) {
     objects_.insert(std::lower_bound(objects_.begin(), objects_.end(), object), object);
   }
@@ -43,7 +43,7 @@ class IgnoredObjects {
   std::vector<ObjectId> objects_;  // ascending
 };
 
-/// Of a leaf's triangles, each a bit, those that are not passed over.
+/// Those of a leaf's triangles, each a bit, that are not passed over.
 [[nodiscard]] inline std::uint8_t withoutIgnored(std::uint8_t triangles, const BvhLeaf& leaf,
                                                  const Scene& scene,
                                                  const IgnoredObjects& ignored) {

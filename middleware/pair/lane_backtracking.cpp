@@ -45,7 +45,7 @@ class LaneBacktracker {
   }
 
  private:
-  /// Until no pair is left that could change the answer; false if a spent budget ended it.
+  /// Looks until no pair is left that could change the answer; false if a spent budget ended it.
   [[nodiscard]] bool lookAtAll() {
     while (!scratch_.lss.isEmpty() || !scratch_.triangles.isEmpty()) {
       if (query_.meter.isPartSpent(counters_)) return false;
@@ -85,7 +85,7 @@ class LaneBacktracker {
     return true;
   }
 
-  /// From the pair down to triangles, by the nearest part of each.
+  /// Looks from the pair down to triangles, by the nearest part of each.
   void lookDown(StillPair pair, double t) {
     while (!isTooFar(static_cast<double>(pair.nearest), t)) {
       if (pair.part.isTriangle()) return scratch_.stillSurfaces.push_back(pair);
@@ -99,7 +99,7 @@ class LaneBacktracker {
     }
   }
 
-  /// Keeps all that may be near but the nearest that is no triangle, whose lane it returns; -1:
+  /// Keeps all that may be near but the nearest that is not a triangle, whose lane it returns; -1:
   /// there is none.
   [[nodiscard]] std::int32_t keepNear(const WideNode& node, std::int32_t candidate, double t) {
     const PairFloats& gaps = scratch_.gaps.lower;
@@ -146,7 +146,7 @@ class LaneBacktracker {
     return true;
   }
 
-  /// What is reported at `t`, or will be, is nearer.
+  /// Whether what is reported at `t`, or will be, is nearer.
   [[nodiscard]] bool isTooFar(double nearest, double t) const {
     return nearest > atMost_ || (horizon_ <= t && nearest > nearest_);
   }
@@ -164,7 +164,7 @@ class LaneBacktracker {
     return lookStill(t) && lookAtAll();
   }
 
-  /// Of what may be near, from `t` on if not later.
+  /// Starts what may be near, from `t` on if not later.
   void start(double t) {
     scratch_.lss.reset(scratch_.lanes.begin(), end_);
     scratch_.triangles.reset(scratch_.lanes.begin(), end_);
@@ -205,7 +205,7 @@ class LaneBacktracker {
     return spent(freeUntil);
   }
 
-  /// A pair that nobody has looked at may be deeper, so whether the links start in contact is open.
+  /// A pair that was not looked at may be deeper, so whether the links start in contact is open.
   [[nodiscard]] bool isOpenAtStart() const {
     return Sides::kAnswersStarts && best_->toi == 0.0 && best_->verdict == Verdict::Contact;
   }

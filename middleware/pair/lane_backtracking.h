@@ -26,7 +26,7 @@ class LaneFrames {
 /// As backtrack(), for exact and skinned fidelity and for candidates in the span of
 /// `scratch.lanes`, to which it adds their triangles as needed. Every pair's instants depend on
 /// that pair alone, so the reported contact does not depend on order, unless the current part of
-/// the budget runs out before all pairs are done. `frames`: of the lanes, or null if they are
+/// the budget runs out before all pairs are done. `frames`: the lanes', or null if they are
 /// there.
 [[nodiscard]] PairContact backtrackInLanes(const LinkQuery& query,
                                            std::vector<Candidate>& candidates, PartScratch& scratch,

@@ -23,7 +23,7 @@ struct HitRange {
 /// reach's.
 void findNear(const Scene& scene, const AxisEnds& ends, double radius, double reach, HitRange range,
               const LeafHits& hits, NearTriangles& near, QueryCounters& counters);
-/// The same of leaves by themselves: `leaf` can be read kMaxLanes beyond `count`.
+/// The same for leaves by themselves: `leaf` can be read kMaxLanes beyond `count`.
 void findNear(const Scene& scene, const AxisEnds& ends, double radius, double reach,
               const std::int32_t* leaf, const std::uint8_t* triangles, std::size_t count,
               NearTriangles& near);

@@ -25,7 +25,7 @@ struct SlabScratch {
   ChainNodes nodes;
   bool areNodesOfStep = false;
   SweptBoxes boxes;
-  NodeEnds ends;                 // with `boxes`, if somebody asks for own links
+  NodeEnds ends;                 // with `boxes`, where own links are asked
   bool areBoxesOfNodes = false;  // of the avatar's own LSS, all of them
   std::uint64_t lastUse = 0;
 };

@@ -50,7 +50,7 @@ class LaneSides {
 /// A link's meshes under their LSS.
 class MeshSides : private LaneSides {
  public:
-  /// Contacts at the start are left to whoever asks.
+  /// Contacts at the start are left to the caller.
   static constexpr bool kAnswersStarts = false;
   using LaneSides::candidateOf;
   using LaneSides::readCandidates;
@@ -149,7 +149,7 @@ class SkinSides : private LaneSides {
   }
 
  private:
-  /// Unless the boxes over the whole span are farther apart than any contact.
+  /// Pushes it unless the boxes over the whole span are farther apart than any contact.
   template <typename Push>
   void pushIfNear(PartPair pair, HierarchyChild part, const Push& push) const {
     const CurveBox& scene = scratch_.lanes.box(laneTriangle(pair));
@@ -236,11 +236,11 @@ class OwnSides : private LaneSides {
     if (!mesh.surface->hasTriangles(lss)) return std::nullopt;
     return StillPair{-std::numeric_limits<float>::infinity(), candidate, mesh.surface->root(lss)};
   }
-  /// Of a pair that is not of surfaces.
+  /// What is below a pair that is not of surfaces.
   [[nodiscard]] const WideNode& belowStill(const StillPair& pair) const {
     return meshSide().surface->wideNode(meshLss(pair.candidate), pair.part);
   }
-  /// As one that goes on from `t`.
+  /// The pair as one that goes on from `t`.
   [[nodiscard]] PartPair movingFrom(double t, const StillPair& pair) const {
     PartPair moving;
     moving.freeUntil = t;

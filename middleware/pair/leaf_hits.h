@@ -17,7 +17,7 @@ struct LeafHits {
   std::vector<std::int32_t> leaf;  // padded by kMaxLanes
   std::vector<std::uint8_t> triangles;
 
-  /// By box, otherwise in the order of the walk (counting sort).
+  /// Sorts by box, otherwise in the order of the walk (counting sort).
   void sortByBox(std::size_t boxes);
 };
 

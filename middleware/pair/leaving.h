@@ -1,5 +1,5 @@
-// middleware/pair/leaving.h: by which tolerance to ask again whoever begins within its tolerance
-// without touching, so that he can leave (docs/guarantees.md 13). Not installed.
+// middleware/pair/leaving.h: by which tolerance to ask again what begins within its tolerance
+// without touching, so that it can leave (docs/guarantees.md 13). Not installed.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace foretouch::internal {
 
-/// QueryOptions::passSeparating: of the separation at t = 0, how near a link may come when it
-/// leaves.
+/// QueryOptions::passSeparating: how near a link may come when it leaves, as a share of the
+/// separation at t = 0.
 inline constexpr double kPassShare = 0.25;
 /// QueryPlan::startShare is at most this: with more, what begins apart would soon be where it may
 /// not go on.

@@ -54,7 +54,7 @@ struct Candidate {
 /// end.
 [[nodiscard]] double nextPossible(const Pieces& pieces, const Candidate& candidate, double t);
 
-/// No query has answered the link.
+/// Whether no query has answered the link.
 [[nodiscard]] inline bool isUnanswered(const LinkContact& contact) {
   return contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::None;
 }
@@ -101,7 +101,7 @@ struct LinkQuery {
   std::vector<LinkState>* states = nullptr;  // memory for those of all links, if there is a skin
 
   [[nodiscard]] bool isExact() const { return one.surface != nullptr; }
-  /// Nothing is below either part: whatever they touch, the link touches.
+  /// Whether nothing is below either part: whatever they touch, the link touches.
   [[nodiscard]] bool isSurface(const Candidate& candidate) const {
     return one.isSurface(candidate.lss, candidate.part) &&
            (other == nullptr || other->isSurface(candidate.otherLss, candidate.otherPart));

@@ -54,7 +54,7 @@ MovingPair movingPair(const MovingHull& one, const MovingHull& other) {
   MovingPair pair{one, other, separation(one.hull, other.hull), {}, 0.0};
   const double radii = one.radius + other.radius;
   const double otherRounding = worstOf(other, other.positionRounding);
-  // Of the sums with radii and roundings; the differences of clearances have theirs in the slack.
+  // For the sums with radii and roundings; the differences of clearances have theirs in the slack.
   const double sumRounding = 4.0 * kUnitRoundoff * (std::abs(radii) + std::abs(pair.axes.upper));
   for (std::size_t i = 0; i < countOf(one.hull.count); ++i) {
     pair.gap[i] =

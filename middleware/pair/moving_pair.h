@@ -24,7 +24,7 @@ struct MovingHull {
   Hull hull;
   double radius = 0.0;
   double radiusRate = 0.0, radiusBend = 0.0;  ///< First and second derivative of the radius.
-  bool moves = false;  ///< False: the rest is zero, and of a scene's triangle also exact.
+  bool moves = false;  ///< False: the rest is zero, and for a scene's triangle also exact.
   std::array<Eigen::Vector3d, 3> velocity;
   std::array<double, 3> acceleration{}, positionRounding{}, velocityRounding{};
 
@@ -41,7 +41,7 @@ struct MovingHull {
 /// A pair of parts, with all rounding errors on the safe side.
 struct MovingPair {
   MovingHull one, other;
-  Separation axes;              ///< Of the hulls, as computed, without radii.
+  Separation axes;              ///< That of the hulls, as computed, without radii.
   std::array<double, 3> gap{};  ///< Proven: clearance of each point of `one`, less the radii.
   double gapUpper = 0.0;        ///< Proven: the separation is at most this.
 

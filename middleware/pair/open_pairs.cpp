@@ -15,7 +15,7 @@ constexpr int kProposingNodes[] = {3, 0, 7};
 /// Past the rounding of a sum, and of the kernel's product with it.
 constexpr float kBendInflation = 1.0F + 0x1p-21F;
 
-/// Per h^2/8 of a piece, rounded up past h's own rounding.
+/// The h^2/8 of a piece, rounded up past h's own rounding.
 float sagittaOf(double begin, double end) {
   const double h = end - begin;
   return floatPaddedAbove(h * h / 8.0 * kInflation);
@@ -23,7 +23,7 @@ float sagittaOf(double begin, double end) {
 
 }  // namespace
 
-/// Of the current slab. Pairs that touch at the start may need none.
+/// Evaluates those of the current slab. Pairs that touch at the start may need none.
 void PairQuery::evaluateNodes(QueryCounters& counters) {
   if (isOneChain_) {
     one_.slabs.evaluateNodes(one_.motion, begin_, end_, plan_.origin, counters);
@@ -76,7 +76,7 @@ const NodeEnds& PairQuery::endsOf(const Moving& side) const {
   return plan_.isOfOwnLinks() ? side.slabs.slab().ends : side.known.ends;
 }
 
-/// Asked ones whose boxes meet.
+/// Collects asked pairs whose boxes meet.
 void PairQuery::collectMeetingPairs() {
   MeetingPairs& meeting = pair_.meeting;
   if (plan_.isOfOwnLinks()) return collectMeeting(one_.slabs.boxes(), asked_.asked(), meeting);
@@ -119,7 +119,7 @@ void PairQuery::collectOpen(QueryCounters& counters) {
   }
 }
 
-/// In their frames, pairs bend less than in W; that costs too much for those that need it not.
+/// In their frames, pairs bend less than in W; that costs too much for those that do not need it.
 void PairQuery::tightenBends() {
   for (PlanePair& pair : pair_.pairs) {
     pair.bend =
@@ -152,7 +152,7 @@ void PairQuery::addPlanePair(const LssIndexPair& pair) {
   pair_.pairs.push_back(open);
 }
 
-/// Of the LSS' ends in the frame; rounded up. Found when it is first needed.
+/// The acceleration of the LSS' ends in the frame; rounded up. Found when it is first needed.
 float PairQuery::accelerationOf(std::int32_t frame, Moving& side, std::int32_t lss) {
   float& known = side.accelerations[slotOf(frame) * countOf(side.table().size()) + slotOf(lss)];
   if (known < 0.0F) {

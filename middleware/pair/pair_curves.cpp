@@ -29,7 +29,7 @@ void PairQuery::advanceAlongCurves(const LinkQuery& query, QueryCounters& counte
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isNever), candidates.end());
 }
 
-/// Of a mesh and an LSS. What is below the mesh's own decides, and no curve is needed before.
+/// For a mesh and an LSS. What is below the mesh's own decides, and no curve is needed before.
 bool PairQuery::isNearAtStart(const LinkQuery& query, const Candidate& candidate,
                               StateCache& states, QueryCounters& counters) const {
   const bool mayStart = begin_ == 0.0 && (candidate.pieces & 1U) != 0 &&
@@ -49,7 +49,7 @@ bool PairQuery::advance(const LinkQuery& query, Candidate& candidate, QueryCount
         alongCurve(one_, candidate.lss, query.one.frame, t, candidate.radiusShare, counters),
         alongCurve(other_, candidate.otherLss, query.one.frame, t, candidate.radiusShare,
                    counters));
-    // Curves that are off by much of the tolerance cannot tell.
+    // Curves that are off by much of the tolerance cannot decide.
     if (!(pair.gapLower() > handOver)) return true;
     const double reached = timeAfter(t, pair.stepFrom(floor), end_);
     if (!(reached > t)) return true;

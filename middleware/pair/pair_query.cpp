@@ -93,7 +93,7 @@ bool PairQuery::runAmongFrom(double begin, const FoundPairs& found, StepContacts
   return true;
 }
 
-/// The first node has the places at the start, well enough to tell who touches there.
+/// Whether the first node has the places at the start well enough to decide what touches there.
 bool PairQuery::areNodesFine(QueryCounters& counters) {
   evaluateNodes(counters);
   return pointRounding(one_.nodes().bounds(), 0.0) <= kStartRounding;
@@ -125,7 +125,7 @@ void PairQuery::finish(StepContacts& step) const {
   step.provenClearance = std::min(step.provenClearance, kFloorShare * least);
 }
 
-/// By pairs of links; those that have an answer from an earlier slab keep it.
+/// Answers by pairs of links; those that have an answer from an earlier slab keep it.
 void PairQuery::answerPairs(StepContacts& step) {
   std::vector<PlanePair>& pairs = pair_.pairs;
   const auto linksOf = [this](const PlanePair& pair) {
@@ -184,7 +184,7 @@ void PairQuery::answerPair(std::size_t first, std::size_t count, StepContacts& s
   if (contact.verdict != Verdict::Clear) keep(contact, frame, step);
 }
 
-/// Of the pair at hand; null if it has not left.
+/// The pair at hand, as one that has left; null if it has not.
 const LeftPair* PairQuery::leftPair() const {
   const auto found = std::find_if(
       pair_.left.begin(), pair_.left.end(),
@@ -192,7 +192,7 @@ const LeftPair* PairQuery::leftPair() const {
   return found != pair_.left.end() ? &*found : nullptr;
 }
 
-/// Of the pair at hand: the smaller one of both links, unless they began within it and left.
+/// The pair's tolerance: the smaller one of both links, unless they began within it and left.
 double PairQuery::tolerance() const {
   const LeftPair* const left = leftPair();
   return left != nullptr
@@ -200,7 +200,7 @@ double PairQuery::tolerance() const {
              : std::min(one_.plan.of(one_.link).tolerance, other_.plan.of(other_.link).tolerance);
 }
 
-/// The pair began within its tolerance, and goes on with another one.
+/// Whether the pair began within its tolerance, and goes on with another one.
 bool PairQuery::mayLeave(LinkQuery& query, const PairContact& contact, QueryCounters& counters) {
   if (plan_.startShare == 0.0 || contact.verdict != Verdict::Contact) return false;
   if (leftPair() != nullptr) return false;
@@ -213,7 +213,7 @@ bool PairQuery::mayLeave(LinkQuery& query, const PairContact& contact, QueryCoun
   return true;
 }
 
-/// Of the two links' LSS at t = 0: planes may have closed the piece that begins there.
+/// The separation of the links' LSS at t = 0: planes may have closed the piece that begins there.
 double PairQuery::startSeparation(const LinkQuery& query, QueryCounters& counters) {
   StateCache states(query, counters);
   double least = std::numeric_limits<double>::infinity();
@@ -228,7 +228,7 @@ double PairQuery::startSeparation(const LinkQuery& query, QueryCounters& counter
   return least;
 }
 
-/// In the query's frame.
+/// The contact in the query's frame.
 PairContact PairQuery::contactFrom(const LinkQuery& query, const PlanePair* pairs,
                                    std::size_t count, QueryCounters& counters) {
   scratch_.candidates.clear();
@@ -241,7 +241,7 @@ PairContact PairQuery::contactFrom(const LinkQuery& query, const PlanePair* pair
   return areMeshes ? meshContact(query, counters) : backtrack(query, scratch_.candidates, counters);
 }
 
-/// Of the triangles of both links, or of the LSS of one that has none.
+/// The contact of the triangles of both links, or of the LSS of one that has none.
 PairContact PairQuery::meshContact(const LinkQuery& query, QueryCounters& counters) {
   // A single lane is slower than doubles.
   if (activeSimd() == Simd::Scalar) return backtrack(query, scratch_.candidates, counters);
@@ -330,7 +330,7 @@ Candidate PairQuery::candidateOf(const LssIndexPair& pair, std::uint8_t pieces) 
   return candidate;
 }
 
-/// In W, with both links named.
+/// Keeps it in W, with both links named.
 void PairQuery::keep(PairContact contact, LinkId frame, StepContacts& step) {
   contact.link = one_.link;
   contact.other = other_.link;
@@ -353,7 +353,7 @@ void PairQuery::collect(double t, const PosedLink& /*posed*/, double /*reach*/,
   const auto ofOther = static_cast<std::uint32_t>(others.first(other_.link + 1) - firstOfOther);
   for (std::size_t k = 0; k < pair_.meeting.count; ++k) {
     const LssIndexPair& pair = pair_.meeting.pairs[k];
-    // One comparison tells both ends of a range.
+    // One comparison checks both ends of a range.
     if (static_cast<std::uint32_t>(pair.i - firstOfOne) >= ofOne ||
         static_cast<std::uint32_t>(pair.j - firstOfOther) >= ofOther) {
       continue;

@@ -19,18 +19,18 @@
 
 namespace foretouch::internal {
 
-/// Pairs of LSS, i of the one side's table and j of the other's, that somebody else has found (of
+/// Pairs of LSS, i of the one side's table and j of the other's, that were found elsewhere (of
 /// own links, i < j): all others are proven apart, and so are these on pieces that are not open,
 /// while [0,1] is one slab.
 struct FoundPairs {
   const LssIndexPair* meeting;  ///< May be as near as a contact.
   std::size_t numMeeting;
   const PlanePair*
-      open;  ///< Of these; at the nodes of [0,1]. Frames, reaches and bends are not read.
+      open;  ///< Among these; at the nodes of [0,1]. Frames, reaches and bends are not read.
   std::size_t numOpen;
 };
 
-/// Of both sides; the same object twice, where one chain has both.
+/// The motions of both sides; the same object twice, where one chain has both.
 struct PairMotions {
   const ChainMotion& one;
   const ChainMotion& other;
@@ -48,7 +48,7 @@ class PairQuery final : private Neighbours, private LaneFrames {
   /// The same for those that were found, of which only asked ones count. Once the work is spent,
   /// all that are left are undecided without a look.
   void runAmong(const FoundPairs& found, StepContacts& step);
-  /// The same from `begin` in (0,1) on: who touches there starts in contact. Of LSS alone. False:
+  /// The same from `begin` in (0,1) on: what touches there starts in contact. For LSS alone. False:
   /// the motion is too long or too far away to begin anywhere but at 0, and nothing is answered.
   [[nodiscard]] bool runAmongFrom(double begin, const FoundPairs& found, StepContacts& step);
 

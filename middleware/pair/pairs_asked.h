@@ -28,7 +28,7 @@ struct LinksOfSides {
   LinkId one, other;
 };
 
-/// Of the LSS of two tables; of own links, twice the same.
+/// The asked pairs of the LSS of two tables; of own links, twice the same.
 class PairsAsked {
  public:
   PairsAsked() = default;

@@ -10,11 +10,11 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of a scene's vertex, taken relative to the origin and rounded (lanes/frame_lanes.md 4).
+/// The rounding of a scene's vertex that is taken relative to the origin (lanes/frame_lanes.md 4).
 constexpr double kVertexRounding = 2.0 * kUnitRoundoffOfFloat;
 constexpr double kOriginRounding = 2.0 * kUnitRoundoff;
-/// Of a bound of the vertices: the proof needs 2 unit roundoffs. Their pad is twice their error,
-/// which covers its own part.
+/// The rounding of a bound of the vertices: the proof needs 2 unit roundoffs. Their pad is twice
+/// their error, which covers its own part.
 constexpr float kSceneBoxRounding = 8.0F * kUnitRoundoffOfFloat;
 /// Rounds the sum of a floor and a radius, or of two pads, up.
 constexpr float kFloorInflation = 1.0F + 4.0F * kUnitRoundoffOfFloat;

@@ -26,7 +26,7 @@ namespace foretouch::internal {
 
 /// What the parts of two links are.
 enum class BothParts : std::uint8_t {
-  Triangles,    ///< Of either, or what is above them.
+  Triangles,    ///< Those of either, or what is above them.
   AxisOfOne,    ///< The first link's are LSS, which nothing is below.
   AxisOfOther,  ///< The other's are.
 };
@@ -50,7 +50,7 @@ class PartLanes {
   /// A number for the triangle, ascending from 0.
   std::int32_t add(const Triangle& triangle_W);
 
-  /// Around the triangle, relative to the frame's origin. Made when it is first needed.
+  /// The box around the triangle, relative to the frame's origin. Made when it is first needed.
   [[nodiscard]] const CurveBox& box(std::int32_t triangle);
 
   /// A place's x in W (m), relative to the frame's origin and rounded up.
@@ -67,7 +67,7 @@ class PartLanes {
     return begin_ + (static_cast<double>(u) + 1.0) * halfSpan_;
   }
 
-  /// Fills a lane. `floor` (m): of the part's own surface, its radius counted.
+  /// Fills a lane. `floor` (m): that of the part's own surface, its radius counted.
   void put(std::size_t lane, std::int32_t triangle, const LanePart& part, float u, float floor);
   /// The same for a triangle or a part of a skin, whose curve is relative to the link's frame.
   void putBlend(std::size_t lane, std::int32_t triangle, std::int32_t curve, const BlendHull& hull,
@@ -77,10 +77,10 @@ class PartLanes {
   /// Proves the first `count` lanes: all of triangles, or all of LSS.
   void proveTriangles(std::size_t count);
   void proveLss(std::size_t count);
-  /// The same of a skin.
+  /// The same for a skin.
   void proveBlendedTriangles(const BlendTriangle* curves, std::size_t count);
   void proveBlendedParts(const BlendTriangle* curves, std::size_t count);
-  /// The same of both links; `areSurfaces`: where one's are LSS, the other's may be triangles.
+  /// The same for both links; `areSurfaces`: where one's are LSS, the other's may be triangles.
   void proveBoth(BothParts kind, bool areSurfaces, std::size_t count);
 
   /// Lower bound (m) on the separation of the lane's part and triangle; not above 0 if nothing is
@@ -88,7 +88,7 @@ class PartLanes {
   [[nodiscard]] double lower(std::size_t lane) const {
     return static_cast<double>(steps_.lower[lane]) - static_cast<double>(radius_[lane]);
   }
-  /// Of a skin's triangle at the lane's instant: no point of it has a smaller x in W (m).
+  /// For a skin's triangle at the lane's instant: no point of it has a smaller x in W (m).
   [[nodiscard]] double leastX(std::size_t lane) const;
   /// Up to which t the pair keeps its floor, rounded down; at most the span's end.
   [[nodiscard]] double freeUntil(std::size_t lane) const;

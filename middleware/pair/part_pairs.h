@@ -23,7 +23,7 @@ struct PartPair {
   HierarchyChild part = HierarchyChild::node(0), otherPart = part;
   // The LSS itself, whatever its part says.
   bool isWhole = true, isOtherWhole = true;
-  bool isEntered = false;  // of two links: both LSS were replaced by what is below them
+  bool isEntered = false;  // for two links: both LSS were replaced by what is below them
 };
 
 /// A part of a mesh and an LSS of another link, at one instant at least so far apart (m).
@@ -102,15 +102,15 @@ struct PartScratch {
   PartLanes lanes;
   GapBounds gaps{};  // of what is below a part, at one instant
   TimeBuckets lss, triangles;
-  // Of two links at one instant: the LSS by candidate, a stack of pairs, triangles, and what is
+  // For two links at one instant: the LSS by candidate, a stack of pairs, triangles, and what is
   // apart.
   std::vector<StillAxis> stillAxes;
   std::vector<StillPair> stillPairs, stillSurfaces, stillApart;
-  std::vector<std::array<LanePart, 2>> wholeParts;  // by candidate: of both LSS
+  std::vector<std::array<LanePart, 2>> wholeParts;  // by candidate: those of both LSS
   std::vector<HierarchyChild> parts;                // a stack
   std::vector<std::int32_t> linkTriangles;          // those the stack ended in
   SkinLanes skin;                                   // at skinned fidelity
-  // At the start of a skin: of clusters; of triangles that may touch; of parts; of triangles apart.
+  // A skin's pairs at the start: of clusters, triangles that may touch, parts, triangles apart.
   std::vector<StartPair> clusterPairs, startPairs;
   std::vector<Candidate> partPairs, nearPairs;
 };

@@ -26,13 +26,13 @@ struct LeftPair {
   double tolerance;
 };
 
-/// What is known of one side of a pair. Of own links, accelerations and curves of both are the
+/// What is known of one side of a pair. For own links, accelerations and curves of both are the
 /// first side's.
 struct SideScratch {
   std::vector<float> accelerations;  // per frame, per LSS; negative: not known yet
   std::vector<AxisBounds> bounds;    // per LSS of the current link
   std::vector<KnownCurve> curves;    // of its LSS, as far as needed
-  SweptBoxes boxes;                  // of two bodies, in the current slab
+  SweptBoxes boxes;                  // for two bodies, in the current slab
   NodeEnds ends;
 };
 
@@ -71,7 +71,7 @@ struct QueryMemory : ScratchPart {
     evaluator.reset(motion);
     lanes.beginStep();
   }
-  /// The same of two bodies, which may be on one chain.
+  /// The same for two bodies, which may be on one chain.
   void beginStep(const ChainMotion& one, const ChainMotion& other) {
     beginStep(one);
     if (&one == &other) return;

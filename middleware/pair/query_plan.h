@@ -22,7 +22,7 @@ namespace foretouch::internal {
 struct QueryMemory;
 class WorkMeter;
 
-/// Each link has a surface of its own, fixed to it.
+/// Whether each link has a surface of its own, fixed to it.
 [[nodiscard]] inline bool isOfLinks(Fidelity fidelity) {
   return fidelity == Fidelity::Link || fidelity == Fidelity::Exact;
 }

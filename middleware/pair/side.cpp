@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a blended point, in its links' own: the second time covers the products and sums of so many
-/// shares; more of them cost in proportion.
+/// The rounding of a blended point, in its links' own: the second time covers the products and
+/// sums of so many shares; more of them cost in proportion.
 constexpr double kBlendedRounding = 2.0, kSharesCovered = 16.0;
 
 /// Adds one link's share of a skinned vertex. `roundings` of a point's count for each.

@@ -38,7 +38,7 @@ class Part {
   std::int32_t code_;
 };
 
-/// A link at one instant, and the other one of a pair; of a skinned surface, all links.
+/// A link at one instant, and the other one of a pair; for a skinned surface, all links.
 struct PosedLink {
   LinkState state, other;
   const std::vector<LinkState>* all = nullptr;
@@ -53,7 +53,7 @@ struct Side {
   MotionEvaluator& evaluator;                 // of the motion of the link's chain
   const LinkSurface* surface = nullptr;       // exact fidelity; else null
   const SkinParts* skin = nullptr;            // skinned fidelity; else null
-  /// Of a link above it, where only the joints below that move it; kNoParent: W.
+  /// That of a link above it, where only the joints below that move it; kNoParent: W.
   LinkId frame = kNoParent;
   const MotionBounds* inFrame = nullptr;  // in that frame; null in W
 
@@ -62,7 +62,7 @@ struct Side {
   [[nodiscard]] MotionBounds bounds() const {
     return inFrame != nullptr ? *inFrame : motion().bounds(link);
   }
-  /// Nothing is below the part.
+  /// Whether nothing is below the part.
   [[nodiscard]] bool isSurface(std::int32_t lssIndex, Part part) const {
     return surface == nullptr || part.isTriangle() || !surface->hasTriangles(lssIndex);
   }
@@ -75,7 +75,7 @@ struct Side {
     if (skin != nullptr && part.isTriangle()) return skinTriangle(part.index(), *posed.all);
     return hullAt(lssIndex, part, posed.state);
   }
-  /// The same of a link that has no skin, in the frame of its state.
+  /// The same for a link that has no skin, in the frame of its state.
   [[nodiscard]] MovingHull hullAt(std::int32_t lssIndex, Part part, const LinkState& state) const;
   /// A box around the part's points, as computed.
   [[nodiscard]] Aabb boxOfPoints(std::int32_t lssIndex, Part part, const PosedLink& posed) const;

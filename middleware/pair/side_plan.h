@@ -31,8 +31,8 @@ struct SidePlan {
   Avatar avatar;
   QueryOptions options;  ///< Surfaces and skins in it outlive the plan's pointers.
   std::vector<LinkPlan> links;
-  LssTable table;             ///< Of the avatar.
-  ToleranceRange tolerances;  ///< Of all links.
+  LssTable table;             ///< The avatar's.
+  ToleranceRange tolerances;  ///< Those of all links.
 
   [[nodiscard]] const LinkPlan& of(LinkId link) const { return links[slotOf(link)]; }
 
@@ -40,14 +40,14 @@ struct SidePlan {
   static Result<SidePlan> make(const Avatar& avatar, const QueryOptions& options);
 };
 
-/// Two sides, and what is asked of them. Of own links, both are the same. What it refers to
+/// Two sides, and what is asked of them. For own links, both are the same. What it refers to
 /// outlives it.
 struct PairPlan {
   const SidePlan& one;
   const SidePlan& other;
   const PairsAsked& asked;
   double startShare = 0.0;                           ///< As QueryPlan::startShare.
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Near which places are told, in W.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Places are given near it, in W.
 
   [[nodiscard]] bool isOfOwnLinks() const { return &one == &other; }
   [[nodiscard]] double leastTolerance() const;

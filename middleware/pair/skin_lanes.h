@@ -35,7 +35,7 @@ class SkinLanes {
   /// Boxes of everything that each link's surface covers over the span, grown by `margin` (m),
   /// relative to the origin of the nodes and rounded outward; empty where there is none.
   [[nodiscard]] const SweptBoxes& linkBoxes(double margin);
-  /// The box of one blended LSS likewise. Its radius over the span is known from then on.
+  /// The same for one blended LSS. Its radius over the span is known from then on.
   void addBox(std::int32_t lss, double margin, SweptBoxes& boxes);
   /// Precondition of both: addBox() in this span.
   [[nodiscard]] double radius(std::int32_t lss) const { return spans_[slotOf(lss)].radius; }
@@ -61,8 +61,8 @@ class SkinLanes {
  private:
   /// A blended LSS over the span.
   struct Span {
-    double radius;     ///< Of the LSS, and what its points stray from the blend.
-    double middle[3];  ///< Of the axis, relative to the origin of the nodes.
+    double radius;     ///< The LSS's, and what its points stray from the blend.
+    double middle[3];  ///< The axis', relative to the origin of the nodes.
   };
 
   [[nodiscard]] const BlendFrame* framesFor(const LaneBlend& blend);
@@ -85,11 +85,11 @@ class SkinLanes {
   std::vector<AxisShare> axis_;            // of the current LSS
   std::vector<BlendFrame> frames_;         // per link, of those that are known
   std::vector<std::uint8_t> areKnown_;     // per link
-  LinkId link_ = kNoParent;                // whose curves there are
+  LinkId link_ = kNoParent;                // the one whose curves there are
   std::vector<BlendTriangle> curves_;      // those that were asked for
   std::vector<BlendHull> hulls_;           // of the same
   std::vector<std::int32_t> curveOf_;      // per triangle of the link; -1: none yet
-  std::vector<std::int32_t> curveOfPart_;  // per part of the link likewise
+  std::vector<std::int32_t> curveOfPart_;  // the same per part of the link
   std::int32_t firstPart_ = 0;             // of the link
   double originPad_ = 0.0;                 // of the curves' origin
 };

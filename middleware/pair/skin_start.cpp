@@ -14,7 +14,7 @@ constexpr double kSkinStartRounding = 1e-12;
 /// Clusters' pairs that go to lanes together. What they find saves later ones.
 constexpr std::size_t kPairsAtOnce = 32;
 
-/// Of a point that both sides share, as doubles compute it.
+/// The least x of a point that both sides share, as doubles compute it.
 double leastX(const Triangle& triangle) {
   const auto& v = triangle.vertices;
   const double least = std::min({v[0].x(), v[1].x(), v[2].x()});
@@ -72,7 +72,7 @@ class SkinStartSearch {
     }
   }
 
-  /// Unless the boxes at the start are farther apart than any contact.
+  /// Puts it unless the boxes at the start are farther apart than any contact.
   void put(const Candidate& pair, HierarchyChild part) {
     const std::int32_t curve = scratch_.skin.curve(part);
     const CurveBox& scene = scratch_.lanes.box(pair.laneTriangle);
@@ -175,7 +175,7 @@ class StartLook {
   std::optional<LinkContact> best_;
 };
 
-/// By the least x of the scene's triangles.
+/// Sorts by the least x of the scene's triangles.
 void sortClusters(const LinkQuery& query, const std::vector<Candidate>& clusters,
                   std::vector<StartPair>& sorted) {
   sorted.clear();

@@ -7,9 +7,9 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of a coordinate that becomes a float, with as much to spare.
+/// The rounding of a coordinate that becomes a float, with as much to spare.
 constexpr double kToFloat = 2.0 * kUnitRoundoffOfFloat;
-/// Of a matrix times a difference, in double.
+/// The rounding of a matrix times a difference, in double.
 constexpr double kTurned = 32.0 * kUnitRoundoff;
 /// Lengths change by once the rotation's rounding when the computed matrix is applied, and its
 /// transpose differs by twice as much from its inverse; one is to spare.

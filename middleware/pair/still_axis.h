@@ -9,8 +9,8 @@
 
 namespace foretouch::internal {
 
-/// `own`, `bounds`: of the link that has the LSS; `mesh`, `boundsOfMesh`: of the link that has the
-/// mesh. Both in one frame.
+/// `own`, `bounds`: those of the link that has the LSS; `mesh`, `boundsOfMesh`: of the one that has
+/// the mesh. Both in one frame.
 [[nodiscard]] StillAxis stillAxis(const Lss& lss, const LinkState& own, const AxisBounds& bounds,
                                   const LinkState& mesh, const MotionBounds& boundsOfMesh);
 

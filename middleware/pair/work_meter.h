@@ -30,11 +30,11 @@ class WorkMeter {
   explicit WorkMeter(std::uint64_t work) : whole_{work, {}}, part_(whole_) {}
 
   [[nodiscard]] bool isLimited() const { return whole_.work != kUnlimited || hasDeadline_; }
-  /// Of the whole query.
+  /// Whether the work of the whole query is spent.
   [[nodiscard]] bool isSpent(const QueryCounters& counters) const {
     return isOver(counters, whole_);
   }
-  /// Of the current part, which ends no later than the whole.
+  /// The same for the current part, which ends no later than the whole.
   [[nodiscard]] bool isPartSpent(const QueryCounters& counters) const {
     return isOver(counters, part_);
   }

@@ -82,7 +82,7 @@ class NearPoints {
     return box;
   }
 
-  /// Of some parts those that are not near the box around all others.
+  /// Drops those of some parts that are not near the box around all others.
   void dropFar(std::vector<Part>& parts, const std::vector<Part>& others) const {
     Aabb all;
     for (const Part& other : others) all.add(boxOf(other));

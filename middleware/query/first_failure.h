@@ -1,5 +1,5 @@
 // middleware/query/first_failure.h: tasks that several threads share: of those that fail, the one
-// with the least number tells why, whoever took it. Not installed.
+// with the least number says why, whichever thread took it. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace foretouch::internal {
   return Error::in(what, ErrorCode::DeviceFailed, std::string("broken off: ") + broken.what());
 }
 
-/// Of the tasks that one thread took.
+/// The first failure of the tasks that one thread took.
 class FirstFailure {
  public:
   /// `what` the tasks are about: a literal.
@@ -40,7 +40,7 @@ class FirstFailure {
     number_ = number;
   }
 
-  /// Of all threads: `failureOf(i)` is that of thread i.
+  /// The first one of all threads: `failureOf(i)` is that of thread i.
   template <typename FailureOf>
   [[nodiscard]] static Result<Done> of(std::size_t numThreads, const FailureOf& failureOf) {
     const FirstFailure* first = nullptr;

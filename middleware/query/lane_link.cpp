@@ -137,7 +137,7 @@ LaneLink::Answer LaneLink::answerBefore(LinkId link, Ask ask, float limit,
   return {candidates.empty() ? clearContact(link) : scalarAnswer(link, ask, counters), limit};
 }
 
-/// Of the pairs that lanes left.
+/// The contact of the pairs that lanes left.
 LinkContact LaneLink::scalarAnswer(LinkId link, Ask ask, QueryCounters& counters) {
   prepareScalar(link);
   const LinkPlan& asked = plan_.of(link);
@@ -158,7 +158,7 @@ LinkContact LaneLink::scalarAnswer(LinkId link, Ask ask, QueryCounters& counters
   return contact ? *contact : clearContact(link);
 }
 
-/// At exact fidelity: of the link's triangles, by the LSS candidates' times.
+/// At exact fidelity: the contact of the link's triangles, by the LSS candidates' times.
 LinkContact LaneLink::surfaceContact(const LinkQuery& query, Ask ask, QueryCounters& counters) {
   PartScratch& parts = lanes_.parts;
   // A single lane is slower than doubles, which need fewer evaluations.
@@ -185,7 +185,7 @@ LinkContact LaneLink::surfaceContact(const LinkQuery& query, Ask ask, QueryCount
                  : backtrack(query, scratch_.candidates, counters);
 }
 
-/// At skinned fidelity likewise, by the clusters' candidates.
+/// The same at skinned fidelity, by the clusters' candidates.
 LinkContact LaneLink::skinContact(const LinkQuery& query, Ask ask, QueryCounters& counters) {
   PartScratch& parts = lanes_.parts;
   parts.lanes.reset(parts.skin.beginLink(query.one.link), scene_.parts().origin, begin_, end_);
@@ -221,7 +221,7 @@ void LaneLink::collect(double t, const PosedLink& posed, double reach,
   }
 }
 
-/// Of one of the current link's LSS, or of one around a cluster of its skin.
+/// The ends of one of the current link's LSS, or of one around a cluster of its skin.
 AxisEnds LaneLink::endsOf(std::int32_t lss, const PosedLink& posed) const {
   if (plan_.of(link_).skin != nullptr) return lanes_.parts.skin.endsAt(lss, *posed.all);
   return axisEnds(body_.lss(link_)[slotOf(lss - table_.first(link_))], posed.state);

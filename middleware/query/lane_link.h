@@ -20,7 +20,7 @@ namespace foretouch::internal {
 /// Works on what LaneCull left in the scratch for the same span. All references outlive it.
 class LaneLink final : private Neighbours {
  public:
-  static constexpr float kBegin = -1.0F, kEnd = 1.0F;  ///< Of u, the time of a span.
+  static constexpr float kBegin = -1.0F, kEnd = 1.0F;  ///< Bounds of u, the time of a span.
 
   LaneLink(const QueryPlan& plan, const Body& body, const LssTable& table,
            const ChainMotion& motion, const WorkMeter& meter, QueryMemory& scratch);
@@ -32,7 +32,7 @@ class LaneLink final : private Neighbours {
   /// Looks for nothing later than `limit`. Undecided for want of work: free until the span's begin
   /// or later.
   [[nodiscard]] LinkContact answer(LinkId link, float limit, QueryCounters& counters);
-  /// Of a span that begins with the step: the nearest contact at t = 0, if the link begins within
+  /// For a span that begins with the step: the nearest contact at t = 0, if the link begins within
   /// its tolerance, else Clear, which says nothing of later.
   [[nodiscard]] LinkContact answerAtStart(LinkId link, QueryCounters& counters);
 

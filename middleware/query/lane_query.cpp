@@ -14,7 +14,7 @@ constexpr double kShareOfWhole = 0.875;
 constexpr std::uint64_t kSlabWork = 2048;
 constexpr int kMostHalvings = 6;
 
-/// The work was spent before the answer.
+/// Whether the work was spent before the answer.
 bool isSpent(const LinkContact& contact) {
   return contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::WorkBudget;
 }
@@ -97,7 +97,7 @@ LinkContact LaneQuery::answer(LinkId link, float limit, QueryCounters& counters)
   return mayLeave(contact, kPassShare) ? link_.answer(link, limit, counters) : contact;
 }
 
-/// The link begins apart, and goes on with a tolerance of its own.
+/// Whether the link begins apart, and goes on with a tolerance of its own.
 bool LaneQuery::mayLeave(const LinkContact& contact, double share) {
   if (contact.verdict != Verdict::Contact || contact.toi != 0.0) return false;
   double& own = lanes_.tolerances[slotOf(contact.link)];
@@ -105,15 +105,15 @@ bool LaneQuery::mayLeave(const LinkContact& contact, double share) {
   return own > 0.0;
 }
 
-/// At the start, its witness point does not approach the scene's.
+/// Whether, at the start, its witness point does not approach the scene's.
 bool LaneQuery::recedes(const LinkContact& contact) const {
   if (contact.verdict != Verdict::Contact || contact.toi != 0.0) return false;
   const LinkState state = motion_.stateAt(contact.link, 0.0);
   return state.velocityOf(contact.p_WLink).dot(contact.nhat_SL_W) >= 0.0;
 }
 
-/// The link's first contact with each object in the current slab, one after the other: whoever has
-/// had his is left out of the next question.
+/// The link's first contact with each object in the current slab, one after the other: an object
+/// that has had its own is left out of the next question.
 void LaneQuery::answerObjects(LinkId link, StepContacts& step) {
   LinkContact& earliest = step.links[slotOf(link)];
   for (;;) {
@@ -176,7 +176,7 @@ bool LaneQuery::answerOpen(StepContacts& step) {
   return true;
 }
 
-/// The link has hits in the current slab.
+/// Whether the link has hits in the current slab.
 bool LaneQuery::isNear(LinkId link) const {
   return lanes_.first[slotOf(table_.first(link))] != lanes_.first[slotOf(table_.first(link + 1))];
 }

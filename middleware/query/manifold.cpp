@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// No point that is told is farther from its surface (m), but for rounding.
+/// No reported point is farther from its surface (m), but for rounding.
 constexpr double kMostOff = 1e-9;
 
 /// A point that is the radius away from some point of the hull: on the surface, unless it is nearer

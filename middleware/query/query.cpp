@@ -26,7 +26,7 @@ void linkQuery(const internal::QueryPlan& plan, const ChainMotion& motion,
     return;
   }
   const internal::Body body(plan.avatar.lss(), plan.options.ignored);
-  // Of a skin, a single lane is slower than doubles.
+  // For a skin, a single lane is slower than doubles.
   const bool isSingleLane = plan.blends && activeSimd() == Simd::Scalar;
   if (plan.inLanes && !isSingleLane) {
     internal::LaneQuery(plan, body, plan.laneTable(), motion, meter, scratch).run(step);
@@ -35,7 +35,7 @@ void linkQuery(const internal::QueryPlan& plan, const ChainMotion& motion,
   }
 }
 
-/// Every link has an answer.
+/// Whether every link has an answer.
 [[maybe_unused]] bool isAnswered(const StepContacts& step) {
   return std::none_of(step.links.begin(), step.links.end(), internal::isUnanswered);
 }
@@ -58,7 +58,7 @@ void keepFirst(const internal::QueryPlan& plan, StepContacts& step) {
   }
 }
 
-/// Of all links, also of those that began nearer than theirs and left.
+/// The least tolerance of all links, also of those that began nearer than theirs and left.
 double leastTolerance(const internal::QueryPlan& plan, const internal::QueryMemory& scratch) {
   double least = plan.tolerances.least;
   if (!plan.inLanes) return least;

@@ -97,7 +97,7 @@ class StepQuery final : private Neighbours {
     return backtrack(query, scratch_.candidates, counters);
   }
 
-  /// Of the pairs that the search began with those whose boxes, grown by the tolerance, meet then.
+  /// Those pairs that the search began with whose boxes, grown by the tolerance, meet then.
   void collect(double t, const PosedLink& /*posed*/, double /*reach*/,
                std::vector<Candidate>& candidates, QueryCounters& /*counters*/) override {
     const int piece = pieces_.at(t);
@@ -229,7 +229,7 @@ class StepQuery final : private Neighbours {
   QueryMemory& scratch_;
   WorkMeter meter_;
   double tolerance_ = 0.0;  // of the current link
-  // Of the current link; null at other fidelities.
+  // The current link's; null at other fidelities.
   const LinkSurface* surface_ = nullptr;
   const SkinParts* skin_ = nullptr;
   Pieces pieces_;

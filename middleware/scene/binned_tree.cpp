@@ -11,7 +11,7 @@ namespace foretouch::internal {
 namespace {
 
 constexpr unsigned kMaxBins = 32;
-/// Centres that lie closer together than this (m, doubled) are not told apart: its reciprocal and
+/// Centres that lie closer together than this (m, doubled) count as one: its reciprocal and
 /// 32 bins stay finite.
 constexpr float kLeastExtent = 1e-30f;
 

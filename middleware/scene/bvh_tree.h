@@ -17,7 +17,7 @@
 
 namespace foretouch::internal {
 
-/// Who decides which triangles lie together. The hits of a walk do not depend on it (flat_bvh.md),
+/// What decides which triangles lie together. The hits of a walk do not depend on it (flat_bvh.md),
 /// its cost and the order of the hits do.
 enum class TreeBuilder : std::uint8_t {
   Embree,  ///< rtcBuildBVH, on all cores. Where this library was built with Embree.
@@ -57,7 +57,7 @@ struct TreeLeaf : TreeNode {
   unsigned primitives[kBvhWidth];  ///< Places in the ids that the tree was built of.
 };
 
-/// Owns its nodes. Where memory ended, a builder may have left out a part: whoever reads it checks.
+/// Owns its nodes. Where memory ended, a builder may have left out a part: its readers check.
 class BvhTree {
  public:
   virtual ~BvhTree() = default;

@@ -64,7 +64,7 @@ struct Eight {
   return eight;
 }
 
-/// Of a leaf's triangles; unused places repeat the last one.
+/// The boxes of a leaf's triangles; unused places repeat the last one.
 inline void boxesOf(const BvhLeaf& leaf, float (&lower)[3][kBvhWidth],
                     float (&upper)[3][kBvhWidth]) {
   for (int axis = 0; axis < 3; ++axis) {

@@ -20,7 +20,7 @@ constexpr unsigned kMinLeafSize = kBvhWidth;
 
 constexpr std::size_t kEmbreeAlignment = 16;
 
-/// Null without memory, which `hasShortage` (an atomic bool) then tells: Embree goes on without the
+/// Null without memory, which `hasShortage` (an atomic bool) then says: Embree goes on without the
 /// node, and so do the callbacks.
 template <typename Node>
 Node* newNode(RTCThreadLocalAllocator allocator, void* hasShortage) {

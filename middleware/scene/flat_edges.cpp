@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// More triangles at one edge than this are no flat surface: they count as its corners.
+/// More triangles at one edge than this are not a flat surface: they count as its corners.
 constexpr std::size_t kMostAtEdge = 16;
 
 /// Adding 0 turns -0 into 0.
@@ -38,7 +38,7 @@ const Vector3d& vertexOf(const Triangle& triangle, int k) {
   return triangle.vertices[slotOf(k % 3)];
 }
 
-/// The same two ends, and the triangles lie flat on both sides of them.
+/// Whether they have the same two ends, and the triangles lie flat on both sides of them.
 bool goOnFlat(const Triangle& one, int k, const Triangle& other, int l) {
   // Vertices are sorted, so edge 2 alone runs backwards.
   const Vector3d &p = vertexOf(one, k), &q = vertexOf(one, k + 1);
@@ -64,7 +64,7 @@ struct Corner {
   bool isStraight;
 };
 
-/// All of them leave the vertex along one line, on both sides.
+/// Whether all of them leave the vertex along one line, on both sides.
 bool areInLine(const CornerEnd* first, const CornerEnd* last,
                const FrozenArray<Triangle>& triangles) {
   const auto directionOf = [&](const CornerEnd& end) -> Vector3d {

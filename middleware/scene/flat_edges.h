@@ -1,4 +1,4 @@
-// middleware/scene/flat_edges.h: which edges and vertices of a scene's triangles are no corners of
+// middleware/scene/flat_edges.h: which edges and vertices of a scene's triangles are not corners of
 // its surface: edges over which it goes on flat, vertices inside a flat piece of it or on a
 // straight part of its rim. How a surface is cut into triangles then need not matter. Not
 // installed.
@@ -21,7 +21,7 @@ namespace foretouch::internal {
 /// kFlatDirection (near_places.cpp) must follow.
 inline constexpr double kFlatSine = 1e-3;
 
-/// Of a scene. Triangles meet where they share the two ends of an edge, bit for bit; a vertex on
+/// A scene's. Triangles meet where they share the two ends of an edge, bit for bit; a vertex on
 /// the middle of another triangle's edge is a corner here. Two bytes per triangle.
 class FlatEdges {
  public:
@@ -29,7 +29,7 @@ class FlatEdges {
   /// `ids`: the triangles that count, ascending; the vertices of each are in lexicographic order.
   /// O(n log n).
   FlatEdges(const FrozenArray<Triangle>& triangles, const std::vector<TriangleId>& ids);
-  /// Of bitsOf(), per triangle.
+  /// From bitsOf(), per triangle.
   explicit FlatEdges(FrozenArray<std::uint16_t> bits) : bits_(std::move(bits)) {}
 
   /// Edge k, from vertex k to vertex (k + 1) mod 3: another triangle goes on flat on its far side.

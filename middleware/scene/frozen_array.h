@@ -1,4 +1,4 @@
-// middleware/scene/frozen_array.h: numbers that nobody changes any more. Not installed.
+// middleware/scene/frozen_array.h: numbers that do not change any more. Not installed.
 #pragma once
 
 #include <cstddef>

@@ -16,14 +16,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of coordinates relative to the origin (m): all that float may round a scene's extent to.
+/// For coordinates relative to the origin (m): all that float may round a scene's extent to.
 constexpr float kMostLocal = 4e7F;
 
 Error noScene(const std::string& why) {
   return Error::of(ErrorCode::Mismatch, "expected the parts of a scene: " + why);
 }
 
-/// False of NaN. In vectors, as all of a scene is read.
+/// False for NaN. In vectors, as all of a scene is read.
 template <int Count, typename Number>
 bool isWithin(const Number* numbers, Number most) {
   const Eigen::Map<const Eigen::Array<Number, Count, 1>> all(numbers);
@@ -119,7 +119,7 @@ class TreeCheck {
     return true;
   }
 
-  /// The root is nobody's child, so its number stands where there is none.
+  /// The root is not a child of any node, so its number stands where there is none.
   static bool isNothing(const BvhNode& node, int slot) {
     for (int axis = 0; axis < 3; ++axis) {
       if (node.lower[axis][slot] != kFloatInfinity || node.upper[axis][slot] != -kFloatInfinity) {
@@ -156,7 +156,7 @@ class TreeCheck {
   std::size_t met_ = 0;
 };
 
-/// And it is not empty.
+/// Whether it is inside, and not empty.
 bool isInside(const Aabb& inner, const BvhNode& node, int slot) {
   if (!(inner.min.array() <= inner.max.array()).all()) return false;
   for (int axis = 0; axis < 3; ++axis) {
@@ -167,8 +167,8 @@ bool isInside(const Aabb& inner, const BvhNode& node, int slot) {
   return true;
 }
 
-/// Around the true triangles of a leaf, relative to the origin; empty if the leaf or its ball does
-/// not have them.
+/// The box around the true triangles of a leaf, relative to the origin; empty if the leaf or its
+/// ball does not have them.
 Aabb boxOfLeaf(const SceneParts& parts, std::uint32_t index) {
   const BvhLeaf& leaf = parts.bvh.leaf(index);
   const Cluster& ball = parts.bvh.cluster(index);

@@ -1,4 +1,4 @@
-// middleware/scene/scene_image.h: a Scene out of arrays that somebody kept, in memory or in a
+// middleware/scene/scene_image.h: a Scene out of arrays that were kept, in memory or in a
 // file's pages (assets/scene/scene_file.h). Not installed.
 #pragma once
 

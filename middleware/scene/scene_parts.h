@@ -27,7 +27,7 @@ struct SceneParts {
   [[nodiscard]] std::vector<TriangleId> finiteIds() const;
   /// Builds them on first use.
   [[nodiscard]] const FlatEdges& flatEdges() const;
-  /// One per object; likewise.
+  /// One per object; built on first use, too.
   [[nodiscard]] const std::vector<ObjectRoom>& rooms() const;
   /// The flat edges as they were built before.
   void takeFlatEdges(FlatEdges edges) {

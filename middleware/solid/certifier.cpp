@@ -18,8 +18,8 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of the gap with which a link or a pair begins: how near it may come, if that is less than the
-/// tolerance. So whatever is apart gets a true answer.
+/// How near a link or a pair may come, as a share of the gap with which it begins, if that is less
+/// than the tolerance. So whatever is apart gets a true answer.
 constexpr double kStartShare = 0.5;
 /// Where a cut leaves the pair that was met: this share of the skin apart, or of the gap that it
 /// began with if that is less.
@@ -243,7 +243,7 @@ void Certifier::findSheet(const SolidHit& hit, double toi) {
   sheet_ = {true, v[0], (along < 0.0 ? -1.0 : 1.0) / length * normal};
 }
 
-/// At `t` of the motion; of the sheet, where one is met.
+/// The gap at `t` of the motion; that of the sheet, where one is met.
 double Certifier::gapAt(const SolidHit& hit, double t) {
   const LinkState atLink = evaluator_.stateAt(hit.link, t);
   if (sheet_.isMet) {
@@ -256,7 +256,7 @@ double Certifier::gapAt(const SolidHit& hit, double t) {
                hit.other == kNoParent ? atLink : evaluator_.stateAt(hit.other, t));
 }
 
-/// Of any point of the avatar, wherever the motion places it.
+/// The rounding of any point of the avatar, wherever the motion places it.
 double Certifier::roundingOfMotion() const {
   double most = 0.0;
   for (std::int32_t i = 0; i < plan_->table.size(); ++i) {

@@ -44,8 +44,8 @@ struct OwnTouch {
 /// What counts of the radii of two LSS of different links (PairRadius).
 [[nodiscard]] double ownRadii(const QueryPlan& plan, LinkId link, std::int32_t lss, LinkId other,
                               std::int32_t otherLss);
-/// Of the LSS and the triangle, or of the two LSS, where the links are so; a lower bound. `atOther`
-/// counts only for an own link.
+/// The gap of the LSS and the triangle, or of the two LSS, with the links there; a lower bound.
+/// `atOther` counts only for an own link.
 [[nodiscard]] double gapOf(const QueryPlan& plan, const SolidHit& pair, const LinkState& atLink,
                            const LinkState& atOther);
 
@@ -108,7 +108,7 @@ class Certifier {
     bool isMet = false;
     Eigen::Vector3d p, n;  // a point, and the unit normal to the side of the LSS
   };
-  Sheet sheet_;  // of the cut that is made
+  Sheet sheet_;  // that of the cut that is made
   std::uint64_t workLeft_ = 0, workDone_ = 0;
   std::uint32_t queries_ = 0;
   SolidPhases* phases_ = nullptr;

@@ -65,7 +65,7 @@ double FloorLift::asked(const std::vector<LinkState>& target) const {
       }
     }
   }
-  // Nobody begins to lift for the skin alone.
+  // No lift begins for the skin alone.
   return lift_ > 0.0 || most > skin_ ? most : 0.0;
 }
 
@@ -80,7 +80,7 @@ void FloorLift::grow(double dtS) {
               asks_.end());
 }
 
-/// The median of the window: of a foot that lands, and of one that leaves, the depth says nothing.
+/// The median of the window: the depth of a foot that lands, or of one that leaves, says nothing.
 /// Feet in the air ask for nothing, and what is lifted stays so while their floor is known.
 double FloorLift::usualAsk() {
   if (asks_.empty()) return isFloorKnown() ? lift_ : 0.0;

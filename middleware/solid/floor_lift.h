@@ -20,10 +20,10 @@ class FloorLift {
 
   /// The avatar appears somewhere, lifted by so much.
   void reset(double lift = 0.0);
-  /// The floors that are remembered may be there no more. The lift goes on from what it is.
+  /// Forgets remembered floors, which may no longer be there. The lift goes on from what it is.
   void forgetFloors();
   [[nodiscard]] double lift() const { return lift_; }
-  /// Whether anything is lifted, or a floor is remembered: else nobody need ask.
+  /// Whether anything is lifted, or a floor is remembered: else there is nothing to ask.
   [[nodiscard]] bool isAny() const;
   /// How far a target that places the links so has to be lifted, for its feet to stand on the
   /// floors that are remembered; 0: no foot is there, or nothing is lifted and it is for the skin
@@ -52,7 +52,7 @@ class FloorLift {
   double skin_, most_, speed_;
   std::vector<LinkId> feet_;
   std::vector<Floor> floors_;  // per foot
-  std::vector<Ask> asks_;      // of the last second
+  std::vector<Ask> asks_;      // those of the last second
   std::vector<double> sorted_;
   double lift_ = 0.0;
 };

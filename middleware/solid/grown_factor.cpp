@@ -6,10 +6,10 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of a row's own entry: no pivot is below it, however rounding falls.
+/// A share of a row's own entry: no pivot is below it, however rounding falls.
 constexpr double kLeastPivot = 1e-14;
 
-/// In four sums, for vectors; their order is fixed, and so are the bits.
+/// Adds in four sums, for vectors; their order is fixed, and so are the bits.
 double dot(const double* x, const double* y, std::size_t n) {
   double sum[4] = {};
   std::size_t i = 0;

@@ -14,7 +14,7 @@ constexpr double kRangeLever = 0.2;
 /// No coordinate is as large: the range has no end there.
 constexpr double kNever = 2.0;
 
-/// Of the two quaternions of a turn, the one by the shorter way around.
+/// That one of a turn's two quaternions that goes the shorter way around.
 Eigen::Quaterniond shorter(Eigen::Quaterniond turn) {
   if (turn.w() < 0.0) turn.coeffs() = -turn.coeffs();
   return turn;

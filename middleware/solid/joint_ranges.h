@@ -18,7 +18,7 @@ namespace foretouch::internal {
 /// What is learned only grows: a target that rests teaches nothing. Roots have no range.
 class JointRanges {
  public:
-  /// Beyond what was seen. Of somebody new one pose is known.
+  /// How far beyond what was seen. One pose is known of a new person.
   static constexpr double kMargin = 0.7;
 
   explicit JointRanges(const Skeleton& skeleton);

@@ -76,7 +76,7 @@ std::size_t LeastPush::solve(TreeInertia& inertia, const TreePull& pull,
   return taken_.size();
 }
 
-/// Of the rows that are not taken up.
+/// Finds the excesses of the rows that are not taken up.
 void LeastPush::findExcesses(const std::vector<ContactRow>& rows, const TreeStep& step,
                              const TreePull& pull, const Eigen::Vector3d& origin) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -150,7 +150,7 @@ void LeastPush::take(const TreeInertia& inertia, const Eigen::Vector3d& origin,
   product(i, i) *= 1.0 + kCompliance;
 }
 
-/// Row by row of those that push, so that vectors add.
+/// Adds row by row of those that push, so that vectors add.
 void LeastPush::findSlacks() {
   const std::size_t n = taken_.size();
   slacks_.resize(n);

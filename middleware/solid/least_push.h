@@ -35,14 +35,14 @@ class LeastPush {
   /// Forgets the rows that solve() has taken up: their places, or the inertia, are others now.
   void begin();
   /// `step` is the free one on entry, and the constrained one on return; rows get their pushes.
-  /// `origin`: of the inertia's coordinates. Returns how many rows it has taken up since begin();
+  /// `origin`: the inertia's coordinates'. Returns how many rows it has taken up since begin();
   /// since then, only bounds may have changed.
   std::size_t solve(TreeInertia& inertia, const TreePull& pull, const Eigen::Vector3d& origin,
                     std::vector<ContactRow>& rows, TreeStep& step);
 
  private:
   struct Taken {
-    std::size_t row;  // of all
+    std::size_t row;  // its place among all
     std::size_t wayBegin, wayEnd;
     Vector6d onLink, onOther;  // wrench of a unit push
     double free;               // the row's excess at the free step
@@ -73,7 +73,7 @@ class LeastPush {
   std::vector<WayPart> ways_;
   std::vector<double> products_;                   // J M^-1 J^T of the taken rows
   std::vector<std::uint8_t> isPushing_, isWrong_;  // of the taken rows
-  GrownFactor factor_;                             // of those that push
+  GrownFactor factor_;                             // that of those that push
   std::vector<double> right_;     // of the taken rows: what pushes have to make up for
   std::vector<double> wanted_;    // of the taken rows: pushes that hold the pushing ones exactly
   std::vector<double> slacks_;    // of the taken rows, with the pushes

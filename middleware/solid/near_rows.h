@@ -35,7 +35,7 @@ inline constexpr std::uint64_t kIterationWork = 1000, kRowWork = 80, kTryWork = 
 /// So many cubes of the rows that a solution takes up are one evaluation: its factors.
 inline constexpr std::uint64_t kCubesPerWork = 20;
 
-/// Beyond a free step of `far` on a link.
+/// How far to look around a link that a free step moves by `far`.
 [[nodiscard]] inline double reachFor(double far, double trust, double skin) {
   return skin + std::min(trust, kReachOfStep * far + kReachMore) + kReachMargin;
 }
@@ -58,7 +58,7 @@ inline void appendRows(const NearFeatures& near, std::vector<ContactRow>& rows) 
   }
 }
 
-/// What is told of a row that pushes, but how fast it slips.
+/// What is reported of a row that pushes, but for how fast it slips.
 [[nodiscard]] inline SolidContact contactOf(const ContactRow& row) {
   SolidContact contact;
   contact.link = row.link;

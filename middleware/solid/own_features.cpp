@@ -13,13 +13,13 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of two LSS that overlap at rest: how much of their radii, and a cosine between an axis and the
+/// For two LSS that overlap at rest: how much of their radii, and a cosine between an axis and the
 /// way from one to the other.
 constexpr double kMostOverlap = 0.75, kEndOn = 0.7;
 /// A cosine: normals of two rows of one pair that lies along each other; and where two are one (m).
 constexpr double kAlong = 0.9, kSameEnd = 5e-3;
 
-/// Apart by balls around the axes, which is most pairs.
+/// Whether balls around the axes prove them apart, as they do for most pairs.
 bool areFarApart(const LssInWorld& one, const LssInWorld& other, double within) {
   const double apart = 0.5 * ((one.a + one.b) - (other.a + other.b)).norm();
   return apart - 0.5 * ((one.a - one.b).norm() + (other.a - other.b).norm()) > within;
@@ -38,7 +38,7 @@ Eigen::Vector3d closestOn(const LssInWorld& lss, const Eigen::Vector3d& p) {
   return axis.at(axis.project(p));
 }
 
-/// Of a pair that lies along each other: the closest points alone would let it turn about them, to
+/// For a pair that lies along each other: the closest points alone would let it turn about them, to
 /// and fro. Copies `row` for each end of an axis that is as near to the other axis.
 void appendEnds(const LssInWorld& one, const LssInWorld& other, double radii, double within,
                 const ContactRow& row, std::vector<ContactRow>& rows) {
@@ -62,8 +62,8 @@ void appendEnds(const LssInWorld& one, const LssInWorld& other, double radii, do
 }
 
 /// Two that overlap at rest can be kept no deeper than they are tracked if they lie side by side
-/// there. Those whose axes all but meet, as at a common joint, have no side to be on; and those
-/// that lie end to end, as along a spine, no joint between them can part.
+/// there. Those whose axes all but meet, as at a common joint, have no side to be on; and no
+/// joint between them can part those that lie end to end, as along a spine.
 bool lieSideBySide(const LssInWorld& one, const LssInWorld& other) {
   const Separation apart = separation(Hull::segment(one.a, one.b), Hull::segment(other.a, other.b));
   if (apart.distance < (1.0 - kMostOverlap) * (one.radius + other.radius)) return false;

@@ -23,7 +23,7 @@ struct LssInWorld {
 [[nodiscard]] bool findRow(const LssInWorld& one, const LssInWorld& other, double radii,
                            double within, ContactRow& row);
 
-/// The gap of a row that is not of a face or a joint's range, where the links are so; a lower
+/// The gap of a row that is not of a face or a joint's range, with the links there; a lower
 /// bound.
 [[nodiscard]] double gapOf(const QueryPlan& plan, const ContactRow& row,
                            const std::vector<LinkState>& states);
@@ -31,7 +31,7 @@ struct LssInWorld {
 class OwnFeatures {
  public:
   OwnFeatures() = default;
-  /// Of the pairs that the plan asks about; where it asks about none, of all but neighbours: they
+  /// Takes the pairs that the plan asks about; where it asks about none, all but neighbours: they
   /// are kept apart as far as the target has them. O(links^2 + LSS^2).
   explicit OwnFeatures(const QueryPlan& plan);
 
@@ -44,7 +44,7 @@ class OwnFeatures {
   void append(const QueryPlan& plan, const Places& places, double skin,
               const std::vector<double>& reach, const std::vector<std::uint8_t>& isHot,
               std::vector<ContactRow>& rows) const;
-  /// Two links that nobody asks about, of which one place has LSS deeper in each other by `by` (m)
+  /// Two links not asked about, of which one place has LSS deeper in each other by `by` (m)
   /// than the target and another place have them; kNoParent: there are none.
   struct Deeper {
     LinkId one = kNoParent, other = kNoParent;
@@ -56,8 +56,8 @@ class OwnFeatures {
   struct Asked {
     LinkId a, b;
   };
-  std::vector<Asked> pairs_;  // of links, a < b
-  bool isSoft_ = false;       // nobody asks about them
+  std::vector<Asked> pairs_;  // pairs of links, a < b
+  bool isSoft_ = false;       // they are not asked about
 };
 
 }  // namespace foretouch::internal

@@ -11,7 +11,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// The catch-up speed is reached in so long, from rest, and left likewise (s): 2 m/s with 5 g.
+/// The catch-up speed is reached in so long, from rest, and left in as long (s): 2 m/s with 5 g.
 constexpr double kSpeedUpS = 0.04;
 /// Nearer than this (m), the avatar need not brake: what returns by turning some joints against
 /// others leaves its place a little on the way.

@@ -29,7 +29,7 @@ class Pace {
 
   /// The avatar stands, or goes with the tracked one.
   void rest() { speed_ = headSpeed_ = 0.0; }
-  /// Of the body's points, as a tick begins.
+  /// The places of the body's points, as a tick begins.
   struct Begin {
     const Places &shown, &wanted;
     const Places& lastWanted;  ///< At the last target; empty: there is none.
@@ -42,24 +42,24 @@ class Pace {
 
   /// How far the farthest point of the target moved since the last tick.
   [[nodiscard]] double trackedStep() const { return tracked_.all; }
-  /// Nothing worth a motion is.
+  /// Whether nothing worth a motion is left.
   [[nodiscard]] bool isSpent() const;
   /// How much of a step may be taken that moves the body so far: more than 1 where that is more.
   [[nodiscard]] double shareOf(const Moved& step) const;
-  /// Whether all of a motion may be, as far as the chord of its path says: false is certain.
+  /// Whether all of a motion may be taken, as far as the chord of its path says: false is certain.
   [[nodiscard]] bool mayGo(const Places& here, const Places& there) const;
   /// How much of the motion may be shown, in [0, 1]. `part`: becomes the pose there, if it is less
   /// than the whole and more than nothing.
   [[nodiscard]] double shareOf(const Pose& from, const Pose& to, Pose& part);
   /// What is shown. `there`: the points' places at `to`; `here`: at `from`.
   void spend(const Pose& from, const Pose& to, const Places& here, const Places& there);
-  /// The same, for who has not placed them.
+  /// The same, for a caller that has not placed them.
   void spend(const Pose& from, const Pose& to);
   /// How far a motion takes the body.
   [[nodiscard]] Moved measure(const Pose& from, const Pose& to, const Places& here,
                               const Places& there);
 
-  /// The point is of a link that is a head.
+  /// Whether the point is on a link that is a head.
   [[nodiscard]] bool isOfHead(std::size_t point) const { return isHead_[point] != 0; }
 
  private:

@@ -13,7 +13,7 @@
 
 namespace foretouch::internal {
 
-/// Who else has a say about a place.
+/// What else has a say about a place.
 class PlaceJudge {
  public:
   PlaceJudge() = default;
@@ -44,7 +44,7 @@ class Placing {
   Unfolding unfolding_;
   Eigen::Vector3d up_;
   double reach_;
-  std::vector<Eigen::Vector3d> offsets_;  // listed when somebody searches
+  std::vector<Eigen::Vector3d> offsets_;  // listed at the first search
   std::size_t next_ = 0;
   Eigen::Vector3d begunAt_ = Eigen::Vector3d::Zero();  // the first root's place
 };

@@ -22,11 +22,11 @@ class PoseList {
     if (poses_.size() == count_) poses_.emplace_back();
     poses_[count_++] = pose;
   }
-  /// Those of `from` in [first, end).
+  /// Appends those of `from` in [first, end).
   void push(const PoseList& from, std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) push(from[i]);
   }
-  /// Memory for as many poses of this size.
+  /// Keeps memory for so many poses of this size.
   void reserve(std::size_t count, const Pose& pose) { poses_.assign(count, pose); }
   /// Only the first ones stay. Precondition: count <= size().
   void shorten(std::size_t count) { count_ = count; }

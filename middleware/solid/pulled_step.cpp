@@ -71,8 +71,8 @@ void PulledStep::aim(const Pose& target, const std::vector<Eigen::Vector3d>& wan
   inertia_.solve(pull_.forces, pull_.torques, free_.turns, free_.shifts, free_.twists);
 }
 
-/// A joint turns points on circles. What these bend away from a target that is beyond them the
-/// linear step does not see: it would turn too far, and back in the next tick (solid.md 2).
+/// A joint turns points on circles. The linear step does not see what these bend away from a target
+/// that is beyond them: it would turn too far, and back in the next tick (solid.md 2).
 void PulledStep::findStiffness(const BodyState& here, const std::vector<Eigen::Vector3d>& wanted) {
   const std::vector<JointId>& parents = skeleton_.parents();
   const auto& points = body_.points();

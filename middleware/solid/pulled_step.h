@@ -37,7 +37,7 @@ class PulledStep {
   [[nodiscard]] const Skeleton& skeleton() const { return skeleton_; }
 
   void place(const Pose& pose, BodyState& state) const;
-  /// Of a state that place() made. `wanted`: the body's points at the target.
+  /// Completes a state that place() made. `wanted`: the body's points at the target.
   void evaluate(const Pose& target, const std::vector<Eigen::Vector3d>& wanted, const Pose& pose,
                 BodyState& state) const;
 
@@ -60,14 +60,14 @@ class PulledStep {
   /// How far the whole step moves the body, to first order.
   [[nodiscard]] Moved moveOf(const BodyState& here, const Pace& pace) const;
   [[nodiscard]] double sizeOfFree(const BodyState& here) const { return sizeOf(free_, here); }
-  /// A share of the step on from `shown`, which `here` is of.
+  /// Goes a share of the step on from `shown`, whose state is `here`.
   void move(const BodyState& here, const Pose& shown, double share, Pose& moved);
 
  private:
   [[nodiscard]] double sizeOf(const TreeStep& step, const BodyState& here) const;
   void findStiffness(const BodyState& here, const std::vector<Eigen::Vector3d>& wanted);
 
-  /// Of all points on a joint's link and below: sums of weight times error, and of their products
+  /// Sums over all points on a joint's link and below: of weight times error, and of their products
   /// with the places.
   struct Bend {
     Eigen::Vector3d force = Eigen::Vector3d::Zero();

@@ -27,7 +27,7 @@ namespace {
 constexpr double kLongestTick = 10.0;
 /// Two places of one root are the same (m).
 constexpr double kSamePlace = 1e-6;
-/// Of a way around, in one tick: among narrow places it has many, and they cost.
+/// Pieces of a way around in one tick: among narrow places it has many, and they cost.
 constexpr int kMostPieces = 8;
 
 }  // namespace
@@ -211,7 +211,7 @@ class SolidAvatar::Parts {
     target_.moveRoots(tick.lift * options_.up);
   }
 
-  /// On along the way that was found; false if it is no longer free.
+  /// Goes on along the way that was found; false if it is no longer free.
   bool walkAround(SolidTick& tick) {
     const internal::PhaseScope scope(phases_, internal::SolidPhase::Around);
     isAround_ = true;

@@ -53,11 +53,11 @@ class SolidAvatar {
   /// Errors: as build(), and nothing has changed.
   Result<Done> changeScene(const Scene& scene);
 
-  /// For who leads the avatar through more than a scene (middleware/solid_world): where the last
+  /// For what leads the avatar through more than a scene (middleware/solid_world): where the last
   /// target led, its lost joints at their places and the lift included; empty before the first one.
   [[nodiscard]] const Pose& target() const;
-  /// Goes on from another place, to which the caller has led the avatar by motions of his own, and
-  /// for which he vouches. Precondition: a validated pose of the avatar. `before`: the same person
+  /// Goes on from another place, to which the caller has led the avatar by motions of its own, and
+  /// for which it vouches. Precondition: a validated pose of the avatar. `before`: the same person
   /// without what the hands have taken; what was seen of the joints there stays known.
   void resume(const Pose& shown, const SolidAvatar* before = nullptr);
   /// How the tracked joints were seen to turn.

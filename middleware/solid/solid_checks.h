@@ -8,7 +8,7 @@
 
 namespace foretouch::internal {
 
-/// With what names of links say where nothing is given.
+/// The options, with what names of links say where nothing is given.
 [[nodiscard]] SolidOptions completed(const Avatar& avatar, SolidOptions options);
 /// Errors: an option out of range; lists of another length than the avatar's links.
 Result<Done> checked(const Avatar& avatar, const SolidOptions& options);

@@ -60,7 +60,7 @@ struct SolidOptions {
   double placingReach = 2.0;
   /// Links, or links and objects, that touch nothing: a hole in the promise that the caller wants.
   std::vector<IgnoredPair> ignored;
-  /// Whether own links stop each other, too: the hand rests on the own knee. Of the same avatar.
+  /// Whether own links stop each other, too: a hand rests on the knee. The same avatar's.
   std::optional<PairRules> self;
   /// When a tick takes no further step, in evaluations of a pair in lanes (about 10 ns); the step
   /// that spends the last of it is finished. What is not reached by then waits for the next tick;

@@ -1,5 +1,5 @@
 // middleware/solid/solid_phases.h: on what a solid avatar's tick spends its time, for benchmarks.
-// Who does not ask pays a comparison per phase. Not installed.
+// A tick that is not timed pays a comparison per phase. Not installed.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ class SolidPhases {
     return before;
   }
   [[nodiscard]] SolidPhase phase() const { return phase_; }
-  /// Since begin(), of phases that have ended.
+  /// The time since begin(), of phases that have ended.
   [[nodiscard]] double microseconds(SolidPhase phase) const {
     const auto time = times_[static_cast<std::size_t>(phase)];
     return std::chrono::duration<double, std::micro>(time).count();

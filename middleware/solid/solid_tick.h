@@ -68,9 +68,9 @@ struct SolidContact {
 struct SolidCounters {
   std::uint32_t queries = 0;     ///< Motions asked.
   std::uint32_t iterations = 0;  ///< Steps proposed.
-  std::uint32_t features = 0;    ///< Near features that the solver was given, of all iterations.
+  std::uint32_t features = 0;    ///< Near features that the solver was given, in all iterations.
   std::uint32_t rows = 0;        ///< Those that it took up.
-  std::uint32_t aroundQueries = 0, placingQueries = 0;  ///< Of `queries`.
+  std::uint32_t aroundQueries = 0, placingQueries = 0;  ///< Part of `queries`.
   std::uint64_t work = 0;                               ///< As SolidOptions::workBudget counts it.
 };
 

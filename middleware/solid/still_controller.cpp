@@ -19,11 +19,11 @@ constexpr int kMostIterations = 8, kMostFruitless = 4;
 /// A tick ends with a step below this share of the tracked one, and at most this long (m): the rest
 /// waits for the next tick. A still target is followed until the avatar rests.
 constexpr double kEnoughOfStep = 0.2, kMostEnough = 1.5e-3;
-/// Of the step that a second solution would take, as a rule: what the first one's circles about
+/// The step that a second solution would take, as a rule: what the first one's circles about
 /// joints so far away are off their tangents (m).
 constexpr double kLever = 0.3;
 constexpr std::uint8_t kActiveTicks = 8;
-/// Of a step that the pace allows to first order: a little is left for what the path is longer.
+/// The share taken of a step that the pace allows to first order: the path is a little longer.
 constexpr double kWithinPace = 0.99;
 /// Where gathering costs more than this (evaluations in lanes), the next step is half as long, down
 /// to `kLeastAmongMuch` (m); where it costs less than a quarter of it, twice as long again.
@@ -32,7 +32,7 @@ constexpr double kLeastAmongMuch = 5e-3;
 constexpr int kDoublings = 3, kCorrections = 2;
 /// What is not proven but wished for may be missed by so much in a step (m).
 constexpr double kSoft = 5e-3;
-/// Nobody turns back for less (m, as the gaps of ranges).
+/// No joint turns back for less (m, as the gaps of ranges).
 constexpr double kSameTurn = 1e-4;
 /// A row holds what is shown within this share of the skin.
 constexpr double kHolds = 1.25;
@@ -114,7 +114,7 @@ void StillController::follow(const FollowRequest& request, Certifier& certifier,
   }
   if (areRowsOld_) moveRows(certifier.plan());
   keepActive();
-  // Nobody is caught by himself: wishes that hold him for long are dropped until he is free.
+  // No avatar is caught by itself: wishes that hold it for long are dropped until it is free.
   heldTicks_ = isHeldBySelf_ ? heldTicks_ + 1 : 0;
   isCaught_ = (isCaught_ || heldTicks_ > kActiveTicks) && !isSamePose(shown, request.target);
 }
@@ -229,7 +229,7 @@ bool StillController::showCut(const FollowRequest& request, double clearance, Po
   return true;
 }
 
-/// Shows what was reached, which there_ is of.
+/// Shows what was reached, whose state is there_.
 void StillController::moveThere(const FollowRequest& request, double clearance, Pose& shown,
                                 SolidTick& tick) {
   request.pace.spend(shown, reached_, here_.places, there_.places);
@@ -417,7 +417,7 @@ bool StillController::tryShare(const FollowRequest& request, const Pose& shown, 
 }
 
 /// At the target, what pushes is apart, and so is its link from all else: perhaps nothing is in the
-/// way. Of the surface, not of the triangle alone, lest its neighbours are asked in vain.
+/// way. By the surface, not by the triangle alone, lest its neighbours are asked in vain.
 bool StillController::isTargetApart(const FollowRequest& request, Certifier& certifier) {
   const PhaseScope scope(phases_, SolidPhase::Gather);
   const bool areApart = std::all_of(rows_.begin(), rows_.end(), [&](const ContactRow& row) {
@@ -434,7 +434,7 @@ bool StillController::isTargetApart(const FollowRequest& request, Certifier& cer
                      [](const NearFeature& feature) { return feature.gap > 0.0; });
 }
 
-/// Of a face: of the points on the axis that its plane holds, whichever triangles it is cut into.
+/// The row's gap; for a face, at the points on the axis that its plane holds, however it is cut.
 double StillController::gapAt(const std::vector<LinkState>& states, const QueryPlan& plan,
                               const ContactRow& row) const {
   if (!row.isFace) return gapOf(plan, row, states);
@@ -467,8 +467,8 @@ bool StillController::keepsGaps(const FollowRequest& request, const QueryPlan& p
   });
 }
 
-/// What the surfaces' curvature took of the gaps at the share that was tried, the next solution
-/// keeps away from.
+/// Makes the next solution keep away from what the surfaces' curvature took of the gaps at the
+/// share that was tried.
 void StillController::correctFor(const FollowRequest& request, const QueryPlan& plan,
                                  double share) {
   for (ContactRow& row : rows_) {
@@ -503,7 +503,7 @@ bool StillController::holds(const ContactRow& row, double gap) const {
   return !row.isTurn && gap + row.slack <= kHolds * options_.skin;
 }
 
-/// Something that pushes is near enough to hold what is shown, or nothing pushes.
+/// Whether something that pushes is near enough to hold what is shown, or nothing pushes.
 bool StillController::isHeld(const QueryPlan& plan) const {
   bool isPushed = false;
   for (const ContactRow& row : rows_) {

@@ -41,7 +41,7 @@ class StillController {
   /// it is clear, and shown. If false, follow() goes on from there.
   [[nodiscard]] bool goStraight(const Pose& target, Certifier& certifier, Pose& shown,
                                 SolidTick& tick);
-  /// Of the rows, only those push from now on that hold the shown pose: a step may have been cut
+  /// Lets only those rows push from now on that hold the shown pose: a step may have been cut
   /// short of what would have stopped the whole of it.
   void letGo();
   /// Forgets contacts.
@@ -53,7 +53,7 @@ class StillController {
   /// The rows of the tick's last step, by link and LSS, with their pushes; places of those that
   /// push are at the shown pose. Empty if nothing was near.
   [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
-  /// One of them pushes.
+  /// Whether one of them pushes.
   [[nodiscard]] bool hasPushes() const;
   /// Whether links were in contact lately, so that follow() will look around them.
   [[nodiscard]] bool isAnyActive() const;
@@ -82,7 +82,7 @@ class StillController {
   void aim(const FollowRequest& request, const Pose& shown);
   void gather(const FollowRequest& request, Certifier& certifier, SolidTick& tick);
   [[nodiscard]] bool areAllSoft() const;
-  /// Its surface is so near, at this gap, that it holds what is shown.
+  /// Whether its surface is so near, at this gap, that it holds what is shown.
   [[nodiscard]] bool holds(const ContactRow& row, double gap) const;
   [[nodiscard]] bool isHeld(const QueryPlan& plan) const;
   [[nodiscard]] bool warmOwn(const FollowRequest& request, const QueryPlan& plan, double share);
@@ -116,24 +116,24 @@ class StillController {
 
   // What is shown, and what may be next.
   BodyState here_, there_;
-  bool isHere_ = false;     // here_ is of the shown pose
-  bool isOfTried_ = false;  // there_ is of tried_
+  bool isHere_ = false;     // here_ is that of the shown pose
+  bool isOfTried_ = false;  // there_ is that of tried_
 
-  // Of the current iteration.
+  // For the current iteration.
   std::vector<double> reach_, activeReach_, touchReach_;
   std::vector<ContactRow> rows_;
   std::vector<LinkState> partStates_;
   bool areRowsOld_ = false;  // here_ was there_ when they were gathered
   Pose tried_, nearer_, reached_, part_;
-  double size_ = 0.0;         // of the whole step that was solved for
+  double size_ = 0.0;         // that of the whole step that was solved for
   std::uint64_t tries_ = 0;   // shares of it that were tried
   std::uint64_t solved_ = 0;  // sum of the cubes of the rows that its solutions took up
   bool isWhole_ = false;      // all of it is tried, as it was solved for at first
 
-  // Of the current tick.
+  // For the current tick.
   double trust_ = 0.0, enough_ = 0.0;
   double mostTrust_ = kMostTrust;  // less where much is near
-  double mostShare_ = 0.0;         // of the step, that trust and pace allow
+  double mostShare_ = 0.0;         // share of the step that trust and pace allow
   bool hasDirectFailed_ = false, hasMoved_ = false, isOver_ = false;
   // Where goStraight() was cut: the clearance of the motion to reached_; < 0: it was not.
   double cutClearance_ = -1.0;

@@ -10,9 +10,9 @@ namespace foretouch::internal {
 
 /// How far an avatar is from its target at the end of a tick.
 struct Deviation {
-  double far = 0.0;                                  ///< Of the point that is farthest off.
+  double far = 0.0;                                  ///< How far the point is that is farthest off.
   Eigen::Vector3d wanted = Eigen::Vector3d::Zero();  ///< Where the target has that point.
-  double farOfRoots = 0.0;                           ///< Of the root that is.
+  double farOfRoots = 0.0;                           ///< How far the root is that is.
   double moved = 0.0;  ///< The farthest that any point went in the tick.
 };
 
@@ -23,19 +23,19 @@ class StuckWatch {
   void reset() { *this = StuckWatch(most_); }
   /// A tick that did not reach the target.
   void look(const Deviation& deviation, double dtS);
-  /// It has been stuck, or far away, for so long that a way around is worth a search.
+  /// Whether it has been stuck, or far away, for so long that a way around is worth a search.
   [[nodiscard]] bool wantsAround() const;
-  /// Far away, so that a search is worth it though the target goes on.
+  /// Whether it is far away, so that a search is worth it though the target goes on.
   [[nodiscard]] bool isCaught() const { return isCaught_; }
   [[nodiscard]] bool wantsSnap() const { return wantsSnapIn(0.0); }
-  /// It may want to, if it stays away for so long.
+  /// Whether it may want to snap, if it stays away for so long.
   [[nodiscard]] bool wantsSnapIn(double dtS) const {
     return most_.maySnap && awayS_ + dtS > most_.patience;
   }
   /// The target is inside something: a search has to wait, and a snap that was announced is
   /// withdrawn, and announced anew in full.
   void foundInside();
-  /// Until it snaps.
+  /// Seconds until it snaps.
   [[nodiscard]] double snapInS() const;
 
  private:

@@ -33,9 +33,9 @@ class TargetPose {
 
   [[nodiscard]] const Pose& pose() const { return pose_; }
   [[nodiscard]] bool isLost(JointId joint) const { return isLost_[slotOf(joint)] != 0; }
-  /// In the last tick. Precondition: hasLast().
+  /// Whether it was lost in the last tick. Precondition: hasLast().
   [[nodiscard]] bool wasLost(JointId joint) const { return wasLost_[slotOf(joint)] != 0; }
-  /// A joint that was lost is tracked again: the target has not moved there.
+  /// Whether a joint that was lost is tracked again: the target has not moved there.
   [[nodiscard]] bool hasFound() const { return hasFound_; }
   /// The last target. Precondition: hasLast().
   [[nodiscard]] const Pose& last() const { return last_; }
@@ -45,7 +45,7 @@ class TargetPose {
   [[nodiscard]] bool hasLast() const { return hasLast_; }
   /// How the tracked joints were seen to turn.
   [[nodiscard]] const JointRanges& ranges() const { return ranges_; }
-  /// The same person was seen before. Precondition: by the same joints.
+  /// Takes what was seen of the same person before. Precondition: by the same joints.
   void remember(const JointRanges& ranges) { ranges_ = ranges; }
 
  private:
@@ -55,7 +55,7 @@ class TargetPose {
   std::vector<std::uint8_t> isLost_, wasLost_;
   std::vector<LinkState> states_, lastStates_;
   bool isAny_ = false, hasLast_ = false, hasFound_ = false;
-  bool arePlaced_ = false, areLastPlaced_ = false;  // states, found when somebody asks
+  bool arePlaced_ = false, areLastPlaced_ = false;  // states, found when first asked for
 };
 
 }  // namespace foretouch::internal

@@ -7,7 +7,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of the way to the rest pose, per try: a joint that is bent by a right angle turns by 6 degrees.
+/// Tries on the way to the rest pose: a joint bent by a right angle turns by 6 degrees in each.
 constexpr int kTries = 16;
 
 }  // namespace
@@ -21,7 +21,7 @@ bool Unfolding::unfold(const Pose& asked, Certifier& certifier, Pose& posture) {
     const OwnTouch touch = certifier.ownTouchAt(posture);
     if (!touch.isAnswered) return false;
     if (!touch.touches) return true;
-    // Whoever touches first now is loosened as far as the others are.
+    // What touches first now is loosened as far as the others are.
     const bool isNew = loosenBetween(touch.link, touch.other);
     if (tried == 0 || !isNew) ++tried;
     if (tried > kTries) return false;

@@ -10,9 +10,9 @@ namespace foretouch::internal {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/// Of an LSS that is a point or a line, and has no area (m^2).
+/// What counts for an LSS that is a point or a line, and has no area (m^2).
 constexpr double kLeastArea = 1e-6;
-/// Of joints without a surface (m^2 per rad^2): far below what counts, far above rounding.
+/// For joints without a surface (m^2 per rad^2): far below what counts, far above rounding.
 constexpr double kLeastStiffness = 1e-6;
 
 double areaOf(const Lss& lss) {

@@ -9,8 +9,8 @@
 namespace foretouch::internal {
 namespace {
 
-/// A target that has moved farther than this (m) is another one; of one that goes on, than this
-/// share of its distance, and so is a begin that has moved farther than this (m).
+/// A target that has moved farther than this (m) is another one; one that goes on, farther than
+/// this share of its distance; and so is a begin that has moved farther than this (m).
 constexpr double kSameTarget = 0.05, kSameShare = 0.25, kSameStart = 0.01;
 /// Poses of the trail are so far apart at first (m), and twice as far where they become too many.
 constexpr double kSpacing = 1e-3;
@@ -18,16 +18,16 @@ constexpr std::size_t kMostTrail = 128;
 /// Before it: poses where it is tracked, so far apart (m), looked at so rarely (s), and so many.
 constexpr double kFreeSpacing = 0.05, kFreeEveryS = 0.05;
 constexpr std::size_t kMostFree = 32;
-/// Of trials: those that grow straight towards the other tree.
+/// The share of trials that grow straight towards the other tree.
 constexpr double kStraight = 0.2;
 /// How far a joint turns from where it is shown or tracked (rad), nearest the trunk and farther
 /// out.
 constexpr double kTurnOfFirst = 2.0, kTurnOfOthers = 1.2;
 /// How far the whole body moves aside (m), where it is the body that looks for a way.
 constexpr double kFarthestAside = 0.6;
-/// Joints of a limb whose turn is tried: of fingers and toes it changes little.
+/// Joints of a limb whose turn is tried: turns of fingers and toes change little.
 constexpr int kMostJoints = 4;
-/// Of what is seen of the avatar: more belongs to the trunk.
+/// A limb's largest share of what is seen of the avatar: more belongs to the trunk.
 constexpr double kShareOfLimb = 0.25;
 /// Nodes of one tree.
 constexpr std::size_t kMostNodes = 400;
@@ -133,7 +133,7 @@ void WayAround::begin(const VisualBody& body, const Pose& shown, const Pose& tar
   far_ = VisualBody::farthest(trees_[0].nodes[0].places, wanted);
 }
 
-/// The joints that lead to the farthest link, up to the trunk; of the trunk itself: the root.
+/// The joints that lead to the farthest link, up to the trunk; for the trunk itself: the root.
 void WayAround::chooseLimb(const VisualBody& body, LinkId farthest) {
   const std::vector<JointId>& parents = skeleton_.parents();
   std::vector<double> below(parents.size(), 0.0);
@@ -182,7 +182,7 @@ void WayAround::sample(const Pose& shown, const Pose& target) {
   }
 }
 
-/// Not of the trail between its ends: what is beside it was tried, as a rule.
+/// Never one of the trail between its ends: what is beside it was tried, as a rule.
 std::size_t WayAround::nearest(const Tree& tree) const {
   const std::size_t first = &tree == &trees_[0] ? std::max<std::size_t>(tip_, 1) : 1;
   std::size_t best = 0;
@@ -196,7 +196,7 @@ std::size_t WayAround::nearest(const Tree& tree) const {
   return best;
 }
 
-/// From what was sampled (m^2, of all points).
+/// How far it is from what was sampled (m^2, of all points).
 double WayAround::distanceOf(const Node& node) const {
   double sum = 0.0;
   for (std::size_t k = 0; k < sampledPlaces_.size(); ++k) {
@@ -240,8 +240,8 @@ void WayAround::search(const VisualBody& body, const Pose& shown, const Pose& ta
   }
 }
 
-/// Back along the trail, in longer steps as long as they are free; true: from there the way to the
-/// target is.
+/// Goes back along the trail, in longer steps as long as they are free; true: from there the way to
+/// the target is free.
 bool WayAround::goBack(const VisualBody& body, Certifier& certifier) {
   Tree& tree = trees_[0];
   const std::size_t step = std::min(stride_, trailLeft_);
@@ -260,7 +260,7 @@ bool WayAround::goBack(const VisualBody& body, Certifier& certifier) {
   return true;
 }
 
-/// One tree towards the sample, the other towards what the first one has reached; true: they met.
+/// Grows one tree to the sample, the other to what the first one has reached; true: they met.
 bool WayAround::grow(const VisualBody& body, Certifier& certifier) {
   Tree &one = trees_[turn_], &other = trees_[1 - turn_];
   const auto extend = [&](Tree& tree, std::size_t from, const Pose& to, bool& isThere) {

@@ -15,7 +15,7 @@
 
 namespace foretouch::internal {
 
-/// Of a tick, in evaluations in lanes: a search is spread over ticks.
+/// What a search may spend in a tick, in evaluations in lanes: it is spread over ticks.
 inline constexpr std::uint64_t kSearchWork = 12'000;
 
 /// For one thread; keeps its memory.
@@ -25,13 +25,13 @@ class WayAround {
 
   /// Forgets the search and the way.
   void reset();
-  /// After a tick in which it was as tracked, and touched nothing.
+  /// To be called after a tick in which it was as tracked, and touched nothing.
   void rememberFree(const VisualBody& body, const Pose& shown, double dtS);
-  /// Where a tick begins that something holds; `isFree`: as tracked.
+  /// Remembers where a tick begins that something holds; `isFree`: as tracked.
   void rememberBegin(const VisualBody& body, const Pose& shown, bool isFree);
-  /// On its way in this tick.
+  /// Remembers a place on its way in this tick.
   void remember(const VisualBody& body, const Pose& shown);
-  /// What the last tick remembered after its begin was not shown.
+  /// Drops what the last tick remembered after its begin: it was not shown.
   void takeBack() { trail_.shorten(std::min(trail_.size(), atTick_)); }
   void forgetTrail();
   /// A way is found, and not yet walked to its end.
@@ -40,7 +40,7 @@ class WayAround {
   [[nodiscard]] bool isSearching() const { return isBegun_ && !hasFailed_ && way_.empty(); }
   /// The search for this target has spent all it may.
   [[nodiscard]] bool hasFailed() const { return hasFailed_; }
-  /// A search, or a way, is no longer about where the points of the body are shown and wanted.
+  /// Whether a search, or a way, is no longer about where the body's points are shown and wanted.
   [[nodiscard]] bool isStale(const std::vector<Eigen::Vector3d>& places,
                              const std::vector<Eigen::Vector3d>& wanted) const;
 
@@ -98,13 +98,13 @@ class WayAround {
   PoseList way_, short_;
   Pose cornerIn_, cornerOut_;
   std::size_t next_ = 0;
-  // Of the search's begin: where the target has the points, and how far that is.
+  // At the search's begin: where the target has the points, and how far that is.
   std::vector<Eigen::Vector3d> wanted_;
   double far_ = 0.0;
   /// Where the avatar has been: as tracked, and since then, `spacing_` apart (m).
   PoseList free_, trail_;
   double sinceFreeS_ = 0.0, spacing_ = 0.0;
-  std::size_t atTick_ = 0;  // of the trail, when the tick began
+  std::size_t atTick_ = 0;  // the trail's size when the tick began
   // Poses of it that are not asked yet; the last one's node; how many to go back at once.
   std::size_t trailLeft_ = 0, tip_ = 0, stride_ = 1;
   std::uint32_t spent_ = 0;

@@ -19,12 +19,12 @@
 
 namespace foretouch::internal {
 
-/// What touches of a body, on the chain of the body and of whoever carries it.
+/// What of a body touches, on the chain of the body and of all that carry it.
 struct AroundKind {
-  std::int32_t number = 0;  ///< Of all kinds of one world.
+  std::int32_t number = 0;  ///< Among all kinds of one world.
   Skeleton skeleton;        ///< Carriers first.
-  JointId first = 0;        ///< Of the body's own joints.
-  /// Per joint of the chain; of a mesh, LSS that contain it, on joint `first`.
+  JointId first = 0;        ///< The first of the body's own joints.
+  /// Per joint of the chain; for a mesh, LSS that contain it, on joint `first`.
   std::vector<std::vector<Lss>> volumes;
   std::optional<Scene> mesh;  ///< In the frame of joint `first`.
   double rho = 0.0;           ///< No point of the volumes is farther from its link's origin.
@@ -53,7 +53,7 @@ class AroundBody {
   void settle();
   [[nodiscard]] std::size_t numLegs() const { return count_; }
   [[nodiscard]] const AroundLeg& leg(std::size_t i) const { return legs_[i]; }
-  /// Of everything that it sweeps in the tick.
+  /// The box of everything that it sweeps in the tick.
   [[nodiscard]] const Eigen::AlignedBox3d& box() const { return box_; }
 
   /// The leg that the instant is in, the earlier one where two meet; null if the body is not there.

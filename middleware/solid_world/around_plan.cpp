@@ -13,7 +13,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// As the solid avatar's own questions: whoever is apart by any gap gets a true answer.
+/// As the solid avatar's own questions: what is apart by any gap gets a true answer.
 constexpr double kStartShare = 0.5;
 /// Poses off by more than this share of what is proven prove nothing.
 constexpr double kMostOff = 0.25;
@@ -139,7 +139,7 @@ PairAnswer AroundPlan::answerOf(const StepContacts& step, double off) const {
     if (contact.verdict == Verdict::Clear) return;
     isClear = false;
     const bool isInside = contact.verdict == Verdict::StartsInContact;
-    // Of those that are first together: one that touches, the deepest.
+    // Among those that are first together: one that touches, the deepest.
     const bool isBetter = contact.verdict != Verdict::Undecided &&
                           (!isTouch || (isInside && contact.penetration > answer.penetration));
     if (contact.freeUntil > answer.share || (contact.freeUntil == answer.share && !isBetter)) {

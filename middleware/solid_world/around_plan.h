@@ -18,7 +18,7 @@ namespace foretouch::internal {
 
 struct PairAnswer {
   bool isClear = false;
-  double share = 0.0;      ///< Of the motion: free until then.
+  double share = 0.0;      ///< Share of the motion: free until then.
   bool isInside = false;   ///< They touch at its begin.
   double clearance = 0.0;  ///< Proven lower bound on the separation over the share.
   LinkId link = 0;         ///< The avatar's that meets first, or is deepest inside.
@@ -44,7 +44,7 @@ class AroundPlan {
   /// the poses may be from the truth (m). Allocates nothing once the scratch has grown.
   [[nodiscard]] PairAnswer ask(const Pose& from, const Pose& to, const Pose& otherFrom,
                                const Pose& otherTo, double off, AroundScratch& scratch) const;
-  /// Of a mesh: what the avatar is near to, in its frame.
+  /// For a mesh: what the avatar is near to, in its frame.
   [[nodiscard]] const NearQuery& near() const { return *near_; }
 
  private:
@@ -59,10 +59,10 @@ class AroundPlan {
 
   Skeleton skeleton_, otherSkeleton_;
   JointId frame_;  // the mesh's joint, on the other's chain
-  // Of LSS: the avatar, the other one, and all pairs of the two.
+  // For LSS: the avatar, the other one, and all pairs of the two.
   std::shared_ptr<const SidePlan> one_, other_;
   PairsAsked asked_;
-  // Of a mesh, all of the avatar, seen from it.
+  // For a mesh, all of the avatar, seen from it.
   std::shared_ptr<const QueryPlan> plan_;
   std::optional<RelativeChain> seen_;
   std::vector<LinkId> linkOf_;  // per link there, the avatar's

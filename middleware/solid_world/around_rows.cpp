@@ -72,7 +72,7 @@ void AroundRows::append(PassageProver& prover, const Surroundings& around, std::
     }
   }
   for (const AroundBody* const body : around.bodies) {
-    // The body's box is of all that it sweeps.
+    // The body's box holds all that it sweeps.
     if (!box.intersects(body->box())) continue;
     const Placed& at = place(*body, beginUs, endUs);
     if (at.atBegin == nullptr) continue;

@@ -15,12 +15,12 @@ namespace foretouch::internal {
 /// What a row is about, beyond what the row says.
 struct AroundFeature {
   const AroundBody* body = nullptr;
-  JointId joint = 0;         ///< Of the leg's chain at the begin.
-  JointId jointAtEnd = 0;    ///< Of that at the end, where another one may carry it.
-  std::int32_t lss = -1;     ///< Of that joint; -1: a mesh.
-  TriangleId triangle = -1;  ///< Of the mesh.
+  JointId joint = 0;         ///< On the leg's chain at the begin.
+  JointId jointAtEnd = 0;    ///< On that at the end, where another one may carry it.
+  std::int32_t lss = -1;     ///< On that joint; -1: a mesh.
+  TriangleId triangle = -1;  ///< In the mesh.
   double comes = 0.0;        ///< How far its surface comes along the row's normal (m).
-  Eigen::Vector3d velocity_W = Eigen::Vector3d::Zero();  ///< Of its surface in the window, m/s.
+  Eigen::Vector3d velocity_W = Eigen::Vector3d::Zero();  ///< Its surface's in the window, m/s.
 };
 
 /// For one thread; keeps its memory.
@@ -32,7 +32,7 @@ class AroundRows {
   void append(PassageProver& prover, const Surroundings& around, std::int64_t beginUs,
               std::int64_t endUs, const std::vector<LinkState>& states,
               const std::vector<double>& reach, std::vector<ContactRow>& rows);
-  /// Of the rows appended, in order.
+  /// Those of the rows appended, in order.
   [[nodiscard]] const std::vector<AroundFeature>& features() const { return features_; }
   /// The gap of a row's pair at the window's end, with the avatar's links at `states`: a lower
   /// bound.

@@ -1,5 +1,5 @@
 // middleware/solid_world/held_tools.h: what the hands of a solid avatar hold, as part of its body:
-// LSS more on the links that carry it. Metres. Not installed.
+// more LSS on the links that carry it. Metres. Not installed.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct HeldTool {
   [[nodiscard]] bool operator==(const HeldTool& other) const;
 };
 
-/// Whom a body hangs on at an instant.
+/// What a body hangs on at an instant.
 struct Holder {
   BodyId body = kStillScene;  ///< The solid avatar; kStillScene: none.
   LinkId link = 0;

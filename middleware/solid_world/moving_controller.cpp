@@ -14,7 +14,7 @@
 namespace foretouch::internal {
 namespace {
 
-// Of this room (solid_world.md 5); what is not here is as in a still scene (near_rows.h).
+// For this room (solid_world.md 5); what is not here is as in a still scene (near_rows.h).
 constexpr int kCorrections = 3;
 /// A tick has so many windows that no body near the avatar moves farther than this in one (m).
 constexpr double kMostMove = 0.015;
@@ -23,7 +23,7 @@ constexpr int kMostWindows = 8;
 constexpr int kMostPieces = 32;
 /// A motion that was cut is worth showing at once if it has this share of its window.
 constexpr std::int64_t kWorthInverse = 4;
-/// A surface that comes less than this (m) in a window pushes nobody.
+/// A surface that comes less than this (m) in a window does not push.
 constexpr double kComes = 1e-7;
 
 }  // namespace
@@ -72,7 +72,7 @@ void MovingController::run(const YieldRequest& request, PassageProver& prover, S
   }
 }
 
-/// Shows one piece, or finds who crushes the avatar.
+/// Shows one piece, or finds what crushes the avatar.
 void MovingController::step(Run& run) {
   bestUs_ = run.atUs;
   blocker_ = nullptr;
@@ -133,7 +133,7 @@ void MovingController::setBounds(bool mayPushBack) {
   }
 }
 
-/// Who has to get out of the way bends as he must, and puts a thigh into the other.
+/// An avatar that has to get out of the way bends as it must, and puts a thigh into the other.
 void MovingController::letGoOfWishes() {
   const auto isWish = [](const ContactRow& row) { return row.isSoft; };
   const auto still = rows_.begin() + static_cast<std::ptrdiff_t>(numStill_);
@@ -157,8 +157,8 @@ bool MovingController::propose(Run& run) {
   return findNearer(run);
 }
 
-/// Solves for the step; what the surfaces' curvature takes of the gaps at its end, the next
-/// solution keeps away from. What still comes too near at the last one's end, the certificate cuts.
+/// Solves for the step; the next solution keeps away from what the surfaces' curvature takes of the
+/// gaps at its end. The certificate cuts what still comes too near at the last one's end.
 void MovingController::solveAndCorrect(Run& run) {
   step_.begin();
   for (int attempt = 0;; ++attempt) {
@@ -195,7 +195,7 @@ double MovingController::gapThere(const Run& run, std::size_t i) const {
   return gapOf(run.prover.certifier().plan(), row, there_.states);
 }
 
-/// Something comes, and the step goes out of its way: then it may lead away from the target.
+/// Whether something comes, and the step goes out of its way: it may lead away from the target.
 bool MovingController::isPushed() const {
   for (std::size_t i = numStill_; i < rows_.size(); ++i) {
     if (!(rows_[i].push > 0.0)) continue;
@@ -204,7 +204,7 @@ bool MovingController::isPushed() const {
   return false;
 }
 
-/// Something near comes.
+/// Whether something near comes.
 bool MovingController::isApproached() const {
   const std::vector<AroundFeature>& features = around_.features();
   for (std::size_t i = 0; i < features.size(); ++i) {
@@ -231,7 +231,7 @@ bool MovingController::findNearer(Run& run) {
   return false;
 }
 
-/// The whole avatar as if it were fixed to who is in its way: tried_.
+/// Moves the whole avatar as if it were fixed to what is in its way: tried_.
 bool MovingController::ride(Run& run) {
   const AroundRows::Placed* const at = blocker_ == nullptr ? nullptr : around_.placed(blocker_);
   if (at == nullptr) return false;
@@ -282,10 +282,10 @@ void MovingController::show(Run& run, const Pose& to, std::int64_t untilUs, doub
   run.around.fallback = run.shown;  // the proof of the motion was one of this, too
 }
 
-/// Not even staying is proven: from here on, nothing is claimed of the avatar and who is in its
+/// Not even staying is proven: from here on, nothing is claimed of the avatar and what is in its
 /// way.
 void MovingController::beCrushed(Run& run) {
-  // Whoever stays is blocked by a body alone.
+  // An avatar that stays is blocked by a body alone.
   FORETOUCH_ASSERT(blocker_ != nullptr);
   run.crushers.push_back({blocker_->body, blocked_, run.atUs});
   run.around.passed.push_back(blocker_->body);

@@ -42,8 +42,8 @@ class MovingController {
                                         const SolidOptions& options, PassageProver& prover);
 
   /// Moves `shown` from the tick's begin to its end. Appends the way to the tick, with the instants
-  /// at which its pieces end. Whoever leaves no proven motion is appended to `crushers`, and to
-  /// those that `around` passes. Precondition: prover.prepare(around).
+  /// at which its pieces end. A body that leaves no proven motion is added to `crushers`, and
+  /// to those that `around` passes. Precondition: prover.prepare(around).
   void run(const YieldRequest& request, PassageProver& prover, Surroundings& around, Pose& shown,
            SolidTick& tick, std::vector<std::int64_t>& endsUs, std::vector<Crusher>& crushers);
 
@@ -68,7 +68,7 @@ class MovingController {
     SolidTick& tick;
     std::vector<std::int64_t>& endsUs;
     std::vector<Crusher>& crushers;
-    std::int64_t atUs, untilUs;  // of the window at hand
+    std::int64_t atUs, untilUs;  // the window at hand
   };
   void step(Run& run);
   void gather(Run& run);
@@ -102,11 +102,11 @@ class MovingController {
   Pose tried_, reached_, best_;
   double trust_ = 0.0, left_ = 0.0, pulled_ = 0.0;
   std::int64_t windowUs_ = 0;
-  double moves_ = 0.0;  // of bodies near the avatar, in a window
-  // Of the step at hand.
+  double moves_ = 0.0;  // how far bodies near the avatar go in a window
+  // For the step at hand.
   std::int64_t bestUs_ = 0;
   double bestClearance_ = 0.0;
-  const AroundBody* blocker_ = nullptr;  // of the last motion that was asked
+  const AroundBody* blocker_ = nullptr;  // that of the last motion that was asked
   LinkId blocked_ = 0;
   JointId blockedBy_ = 0;
 };

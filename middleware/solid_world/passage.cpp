@@ -11,7 +11,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of what is proven free, a cut motion keeps this share: the rest is room for the next one.
+/// A cut motion keeps this share of what is proven free: the rest is room for the next one.
 constexpr double kCutShare = 0.9;
 
 std::int64_t instantAt(const TimedMotion& motion, double share) {
@@ -80,7 +80,7 @@ Passage PassageProver::ask(const TimedMotion& motion, const Surroundings& around
   Passage passage;
   passage.isClear = true;
   passage.freeUntilUs = motion.endUs;
-  // Whoever stays touches nothing that stays.
+  // An avatar that stays touches nothing that stays.
   if (!isSamePose(motion.from, motion.to)) askScene(motion, passage);
   askBodies(motion, around, passage);
   if (passage.isClear && motion.endUs < around.endUs) askToStay(motion, around, passage);
@@ -155,7 +155,7 @@ void PassageProver::askLeg(const TimedMotion& motion, const AroundBody& body, co
   passage.isInside = answer.isInside && beginUs == motion.beginUs;
 }
 
-/// Other solid avatars have counted on whoever they saw standing to be able to stay.
+/// Other solid avatars have counted on those that they saw standing to be able to stay.
 void PassageProver::askToStay(const TimedMotion& motion, const Surroundings& around,
                               Passage& passage) {
   if (isSamePose(motion.to, around.fallback)) return;
@@ -174,7 +174,7 @@ void PassageProver::askToStay(const TimedMotion& motion, const Surroundings& aro
     }
   }
   if (staying.isClear) {
-    // Nobody asks again about who stays there.
+    // No one asks again about an avatar that stays there.
     passage.clearance = std::min(passage.clearance, staying.clearance);
     return;
   }

@@ -26,9 +26,9 @@ struct Passage {
   bool isClear = false;
   std::int64_t freeUntilUs = 0;                                ///< Proven until here.
   double clearance = std::numeric_limits<double>::infinity();  ///< Until there.
-  const AroundBody* blocker = nullptr;  ///< Whom it meets first; null: the scene, or own links.
+  const AroundBody* blocker = nullptr;  ///< What it meets first; null: the scene, or own links.
   LinkId link = 0;
-  JointId other = 0;      ///< Of the blocker's chain.
+  JointId other = 0;      ///< On the blocker's chain.
   bool isInside = false;  ///< It touches the blocker at its begin.
   bool isOverBudget = false;
 };
@@ -37,14 +37,14 @@ struct Passage {
 struct Surroundings {
   std::vector<const AroundBody*> bodies;  ///< By body.
   std::vector<BodyId> passed;             ///< Those that are not asked: they crush it already.
-  std::int64_t endUs = 0;                 ///< Of the tick.
+  std::int64_t endUs = 0;                 ///< The tick's end.
   /// Where it may stay until then: no solid avatar that moves meets it there, which is proven.
   Pose fallback;
 
   [[nodiscard]] bool isPassed(BodyId body) const;
 };
 
-/// Of one avatar. For one thread; keeps its memory.
+/// For one avatar and one thread; keeps its memory.
 class PassageProver {
  public:
   static Result<PassageProver> build(const Avatar& avatar, const Scene& scene,
@@ -55,25 +55,25 @@ class PassageProver {
   [[nodiscard]] Certifier& certifier() { return *certifier_; }
   /// What is asked about bodies of the kind. Makes it where it is not known yet.
   Result<const AroundPlan*> planOf(const AroundKind& kind);
-  /// What is known of the kind is not needed any more.
+  /// Drops what is known of the kind: it is not needed any more.
   void forget(std::int32_t kindNumber);
   /// Makes the plans for all legs of the bodies, so that ask() need not. Errors: as AroundPlan.
   Result<Done> prepare(const Surroundings& around);
 
-  /// Asks the scene, then the bodies. Beyond the motion itself, whoever ends it before the tick
-  /// does must be able to stay there without another solid avatar meeting him. Preconditions:
+  /// Asks the scene, then the bodies. Beyond the motion itself, an avatar that ends it before the
+  /// tick ends must be able to stay there without another solid avatar meeting it. Preconditions:
   /// prepare() was called; validated poses.
   [[nodiscard]] Passage ask(const TimedMotion& motion, const Surroundings& around);
-  /// Of a part of a way that is shown as a whole or not at all, and that the scene leaves free.
+  /// For a part of a way that is shown as a whole or not at all, and that the scene leaves free.
   [[nodiscard]] Passage askPart(const TimedMotion& motion, const Surroundings& around);
   /// As ask(). If it is not clear, goes as far as is proven, with room to what it meets: `reached`
   /// then is a pose of the motion, `reachedUs` its instant, and the motion until there is proven.
   /// reachedUs is the motion's begin if nothing is. Precondition: `reached` is neither pose.
   Passage advance(const TimedMotion& motion, const Surroundings& around, Pose& reached,
                   std::int64_t& reachedUs);
-  /// At one instant: of the avatar and a body. isClear: they are apart.
+  /// The answer for the avatar and a body at one instant. isClear: they are apart.
   [[nodiscard]] PairAnswer at(const Pose& place, const AroundBody& body, std::int64_t us);
-  /// About bodies, since beginTick().
+  /// Those about bodies, since beginTick().
   [[nodiscard]] std::uint32_t questions() const { return questions_; }
   /// Per link.
   [[nodiscard]] const std::vector<std::vector<Lss>>& volumes() const { return volumes_; }

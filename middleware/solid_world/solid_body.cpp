@@ -22,7 +22,7 @@ bool isAmong(const std::vector<HeldTool>& tools, BodyId body) {
                      [body](const HeldTool& tool) { return tool.body == body; });
 }
 
-/// Of whoever would stand at a place for a whole tick.
+/// Judges a place for an avatar that would stand there for a whole tick.
 class StandingJudge final : public PlaceJudge {
  public:
   StandingJudge(PassageProver& prover, const Surroundings& around, std::int64_t fromUs,
@@ -33,7 +33,7 @@ class StandingJudge final : public PlaceJudge {
     clearance_ = passage.clearance;
     return passage.isClear;
   }
-  /// Of the last place.
+  /// The clearance of the last place.
   [[nodiscard]] double clearance() const { return clearance_; }
 
  private:
@@ -154,7 +154,7 @@ void SolidBody::putOn(std::unique_ptr<Outfit> outfit) {
   outfit_ = std::move(outfit);
 }
 
-/// With the tool as part of it, it would touch nothing where it is shown.
+/// Whether, with the tool as part of it, it would touch nothing where it is shown.
 Result<bool> SolidBody::mayWear(const HeldTool& tool, const Surroundings& around, std::int64_t us,
                                 KindNumbers& numbers) {
   if (!next_ || !(tried_ == tool)) {
@@ -239,7 +239,7 @@ void SolidBody::move(std::int64_t fromUs, std::int64_t toUs, Surroundings& aroun
   prover.beginTick(options_.workBudget);
   around.passed.clear();
   around.endUs = toUs;
-  // Those who have moved have proven that they meet nobody who stays.
+  // Those that have moved have proven that they meet none that stays.
   if (isPlaced_) around.fallback = shown_;
   if (!isPlaced_) around.fallback.rotations.clear();
   partFromLetGo(around, fromUs);
@@ -255,7 +255,7 @@ void SolidBody::move(std::int64_t fromUs, std::int64_t toUs, Surroundings& aroun
   placeLinks(avatar_.skeleton(), outfit_->solid.target(), targetStates_);
   outfit_->controller.body().place(targetStates_, wanted_);
   const bool isElsewhere = !isPlaced_ && appear(fromUs, toUs, around, tick.tick);
-  if (isPlaced_) around.fallback = shown_;  // whoever has just appeared may stay, too
+  if (isPlaced_) around.fallback = shown_;  // one that has just appeared may stay, too
   if (!isPlaced_) {
     stayUnplaced(tick.tick);
   } else if (isElsewhere || !crushers_.empty() || !takeWay(fromUs, toUs, around, tick.tick)) {

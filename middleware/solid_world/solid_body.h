@@ -1,5 +1,5 @@
 // middleware/solid_world/solid_body.h: one solid avatar of a SolidWorld: with the tools in its
-// hands, its way of the tick at hand, and who crushes it. Metres in W, world time in microseconds.
+// hands, its way of the tick at hand, and what crushes it. Metres in W, world time in microseconds.
 // Not installed.
 #pragma once
 
@@ -27,7 +27,7 @@ class SolidBody {
   [[nodiscard]] BodyId id() const { return id_; }
   [[nodiscard]] bool hasTarget() const { return hasTarget_; }
   [[nodiscard]] bool isPlaced() const { return isPlaced_; }
-  /// A copy, validated; else as SolidAvatar::follow() refuses it, and nothing has changed.
+  /// Keeps a validated copy; else as SolidAvatar::follow() refuses it, and nothing has changed.
   Result<Done> checkTarget(const SolidBodyTarget& target);
   /// The target that was checked last is that of the next ticks.
   void takeTarget();
@@ -42,7 +42,7 @@ class SolidBody {
 
   /// Makes all that is asked about these bodies known. Errors: chains that are too deep.
   Result<Done> prepare(const Surroundings& around) { return outfit_->prover.prepare(around); }
-  /// The same of another solid avatar, which may yet appear.
+  /// The same for another solid avatar, which may yet appear.
   Result<Done> prepare(const SolidBody& other) {
     const auto plan = outfit_->prover.planOf(other.outfit_->kind);
     if (!plan.ok()) return plan.error();
@@ -50,7 +50,7 @@ class SolidBody {
   }
   /// The number of what others see of it: another one where it has other tools.
   [[nodiscard]] std::int32_t kindNumber() const { return outfit_->kind.number; }
-  /// Nobody looks like that any more.
+  /// Forgets a kind that no body is of any more.
   void forget(std::int32_t kindNumber) { outfit_->prover.forget(kindNumber); }
   /// Stands where it is shown, for all of the tick.
   void stand(std::int64_t fromUs, std::int64_t toUs);
@@ -58,7 +58,7 @@ class SolidBody {
   void move(std::int64_t fromUs, std::int64_t toUs, Surroundings& around, SolidBodyTick& tick);
   /// As others see it: standing, or since move() its way.
   [[nodiscard]] const AroundBody& trace() const { return trace_; }
-  /// Of the last move(): the clearance from everything that was asked and does not crush it.
+  /// The last move()'s clearance from everything that was asked and does not crush it.
   [[nodiscard]] double proven() const { return proven_; }
   /// Where its way's pieces end.
   [[nodiscard]] const std::vector<std::int64_t>& endsUs() const { return endsUs_; }

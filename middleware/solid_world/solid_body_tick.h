@@ -50,7 +50,7 @@ struct SolidCrush {
 
 struct SolidBodyTick {
   BodyId body = 0;
-  /// As of an avatar in a still scene. Its `contacts` are those with the scene and with own links;
+  /// As for an avatar in a still scene. Its `contacts` are those with the scene and with own links;
   /// `times` are those of the world's poses: whole microseconds. `isCertified` and `clearance` are
   /// about moving bodies, too: false and 0 while something crushes it.
   SolidTick tick;

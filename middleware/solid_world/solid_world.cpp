@@ -26,7 +26,7 @@ Error ofBody(BodyId body, ErrorCode code, const std::string& what) {
   return error;
 }
 
-/// Of a target that was refused: whose it is.
+/// The error for a target that was refused, with its body.
 Error ofTarget(BodyId body, Error error) {
   error.message = "body " + std::to_string(body) + ": " + error.message;
   if (error.file.empty()) error.file = "target";
@@ -143,7 +143,7 @@ class SolidWorld::Parts {
     return Done{};
   }
 
-  /// Who is a solid avatar, who is held by one, and who moves by himself.
+  /// Finds what is a solid avatar, what one holds, and what moves by itself.
   void sortBodies() {
     const auto n = countOf(world_.numBodies());
     isSolid_.assign(n, 0);
@@ -192,7 +192,7 @@ class SolidWorld::Parts {
     return Done{};
   }
 
-  /// Nobody takes or lets go of anything within a tick, and what is held is held fast.
+  /// No hand takes or lets go of anything within a tick, and what is held is held fast.
   Result<Done> checkedHolder(BodyId id, std::int64_t utimeUs) const {
     if (parts().body(id).options.isVolume) return Done{};
     const internal::Holder& holder = holders_[slotOf(id)];
@@ -249,7 +249,7 @@ class SolidWorld::Parts {
     }
   }
 
-  /// Whom the solid avatar may meet, by body.
+  /// Finds what the solid avatar may meet, by body.
   void lookAround(const internal::SolidBody& solid) {
     around_.bodies.clear();
     for (const internal::AroundBody& body : movers_.bodies()) {
@@ -264,7 +264,7 @@ class SolidWorld::Parts {
               [](const auto* x, const auto* y) { return x->body < y->body; });
   }
 
-  /// Who moves comes nearer to those who saw him standing, and to those who count on him to have
+  /// What moves comes nearer to those that saw it standing, and to those that count on it to have
   /// proven that they may stay: what either has proven of the two counts for both.
   void shareClearances(std::vector<SolidBodyTick>& ticks) const {
     for (SolidBodyTick& tick : ticks) {

@@ -59,13 +59,13 @@ class SolidWorld {
   /// Where the last tick ended.
   [[nodiscard]] std::int64_t utimeUs() const;
 
-  /// One tick, to `utimeUs`. One without a target in it keeps its last one. Moves what is not a
-  /// solid avatar as the world knows it; then each solid avatar, by body: it certifies its motion
+  /// One tick, to `utimeUs`. An avatar without a target in it keeps its last one. Moves what is not
+  /// a solid avatar as the world knows it; then each solid avatar, by body: it certifies its motion
   /// against everything that moves before it, and against those after it as they stand. Its way is
   /// pushed into the world. `ticks`: one per solid avatar that has had a target, by body.
   /// Errors, of which each names its body, and which change nothing: an instant that is not 1 us to
-  /// 10 s after the last one; a target that is none (as SolidAvatar::follow()), of no solid avatar,
-  /// or two of one; a body that waits for its poses (WhenSilent::Wait) and is not known until
+  /// 10 s after the last one; a bad target (as SolidAvatar::follow()), one for no solid avatar, or
+  /// two for one; a body that waits for its poses (WhenSilent::Wait) and is not known until
   /// then; a solid avatar that is carried; what moves in its hand (Carrier::movesInFrame), or
   /// changes hands within the tick; a tick that begins before what the world has forgotten.
   /// Allocates nothing once memory has grown, as long as no hand takes or lets go.
@@ -74,9 +74,9 @@ class SolidWorld {
 
   /// What has happened from where the last call ended until the last tick's end: which body meets
   /// which, from enter to leave, at the instants at which the shown motions do (world_follower.h).
-  /// A solid avatar enters what it comes as near as its skin, and the world's tolerance; its points
-  /// are those of its skin. What presses on it meanwhile, and how hard, is in the ticks. To be
-  /// called before World::forgetBefore(). Errors: as WorldFollower::follow().
+  /// A solid avatar enters what it comes as near to as its skin and the world's tolerance; its
+  /// points are those of its skin. What presses on it meanwhile, and how hard, is in the ticks.
+  /// To be called before World::forgetBefore(). Errors: as WorldFollower::follow().
   Result<Done> follow(WorldEvents& events);
   /// For what bodies weigh, and what is open now.
   [[nodiscard]] WorldFollower& follower();

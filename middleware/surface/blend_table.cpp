@@ -15,14 +15,14 @@ namespace {
 using Eigen::Vector3d;
 
 /// Triangles of a cluster and of a part, at most. Smaller clusters mean more LSS to cull, larger
-/// ones more parts for each that comes near; likewise parts and their triangles. Only speed depends
+/// ones more parts for each that comes near; so it is for parts and triangles. Only speed depends
 /// on it.
 constexpr std::ptrdiff_t kTrianglesOfCluster = 64, kTrianglesOfPart = 8;
 
-/// Of a merged point, relative to its coordinates; an LSS's ends are as far as its points.
+/// A merged point's rounding, relative to its coordinates; an LSS's ends are as far as its points.
 constexpr double kMergeRounding = 64.0 * kUnitRoundoff;
 
-/// Of sums of weights, and of their means over the vertices of a cluster, in double.
+/// The rounding of sums of weights, and of their means over the vertices of a cluster, in double.
 constexpr double kWeightRounding = 256.0 * kUnitRoundoff;
 
 /// Both are for so many shares of a vertex; more cost in proportion.
@@ -105,7 +105,7 @@ class BlendTableBuilder {
       off = std::max(off, std::abs(sumOf(vertex) - 1.0));
       vertices_.push_back(std::move(merged));
     }
-    // Of the vertices' sums, and of the clusters', each against 1.
+    // For the vertices' sums, and for the clusters', each against 1.
     made_.sumError_ = 4.0 * (off + crowd_ * kWeightRounding);
   }
 
@@ -187,7 +187,7 @@ class BlendTableBuilder {
     made_.parts_.push_back(part);
   }
 
-  /// At the median of the triangles' middles along their longest extent; returns it.
+  /// Cuts at the median of the triangles' middles along their longest extent; returns it.
   std::ptrdiff_t halve(LinkId link, std::ptrdiff_t first, std::ptrdiff_t last) {
     Eigen::AlignedBox3d extent;
     for (std::ptrdiff_t i = first; i < last; ++i) {

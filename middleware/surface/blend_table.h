@@ -30,7 +30,7 @@ struct BlendShare {
 /// first share and |y_0| measured from W's origin.
 struct BlendedLss {
   std::int32_t firstShare, numShares;
-  std::int32_t first, last;  ///< Of a cluster's parts, or of a part's triangles; else none.
+  std::int32_t first, last;  ///< A cluster's parts, or a part's triangles; else none.
   double radius;
   bool isPoint;  ///< Both ends are one.
 };

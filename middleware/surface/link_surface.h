@@ -52,15 +52,15 @@ class LinkSurface {
   [[nodiscard]] const LssHierarchy& hierarchy(std::int32_t lss) const;
   void prepare() const;
   /// A corner of each connected piece: triangles are connected by corners at the same place. Built
-  /// likewise.
+  /// in the same way.
   [[nodiscard]] const std::vector<Eigen::Vector3d>& cornerOfPieces() const;
-  /// Of each triangle: the number of its piece, in the same order.
+  /// Per triangle: the number of its piece, in the same order.
   [[nodiscard]] const std::vector<std::int32_t>& pieceOf() const;
-  /// Of all its triangles as one object. Built likewise.
+  /// The room of all its triangles as one object. Built in the same way.
   [[nodiscard]] const ObjectRoom& room() const;
-  /// As prepare(), for wideNode() as well.
+  /// As prepare(), also for wideNode().
   void prepareWide() const;
-  /// Of an LSS with triangles. Preconditions: prepareWide() was called; as WideNodes::at().
+  /// For an LSS with triangles. Preconditions: prepareWide() was called; as WideNodes::at().
   [[nodiscard]] const WideNode& wideNode(std::int32_t lss, HierarchyChild node) const {
     return wideNodes_[slotOf(lss)]->at(node);
   }

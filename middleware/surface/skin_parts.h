@@ -20,9 +20,9 @@ struct SkinParts {
   // The vertices in the form for lanes: vertex v has the shares [firstShare[v], firstShare[v+1]).
   std::vector<LaneShare> shares;
   std::vector<std::int32_t> firstShare;
-  std::size_t mostShares = 0;                // of any vertex
-  std::uint64_t avatarIdentity = 0;          // of the avatar that it was built for
-  std::shared_ptr<const BlendTable> blends;  // of that avatar
+  std::size_t mostShares = 0;                // that any vertex has
+  std::uint64_t avatarIdentity = 0;          // that of the avatar that it was built for
+  std::shared_ptr<const BlendTable> blends;  // that avatar's
 
   [[nodiscard]] std::int32_t numTriangles(LinkId link) const {
     const auto l = slotOf(link);

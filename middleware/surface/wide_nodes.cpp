@@ -38,7 +38,7 @@ WideNodes::WideNodes(const LssHierarchy& hierarchy, const std::vector<LanePart>&
   if (root.isTriangle()) return;
   const auto numNodes = static_cast<std::int32_t>(hierarchy.numNodes());
   places_.assign(hierarchy.numNodes(), -1);
-  // Whoever is below a node comes after it.
+  // What is below a node comes after it.
   std::vector<std::int32_t> counts(hierarchy.numNodes());
   const auto countIn = [&counts](HierarchyChild part) {
     return part.isTriangle() ? 1 : counts[slotOf(part.index())];

@@ -25,7 +25,7 @@ class WideNodes {
   /// `triangles`: all of the link's, by index.
   WideNodes(const LssHierarchy& hierarchy, const std::vector<LanePart>& triangles);
 
-  /// Of the hierarchy's root, or of a node that is below another one here.
+  /// What is below the hierarchy's root, or below a node that is below another one here.
   [[nodiscard]] const WideNode& at(HierarchyChild node) const {
     return nodes_[slotOf(places_[slotOf(node.index())])];
   }

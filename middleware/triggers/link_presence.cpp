@@ -84,7 +84,7 @@ void LinkPresence::appendLink(const TriggerPair& pair, LinkId link,
   keep({pair.trigger, pair.body, link}, spans, first, isTouching);
 }
 
-/// The link's own parts, and those of the whole body, in `touching_`.
+/// Adds the link's own parts, and those of the whole body, to `touching_`.
 void LinkPresence::appendParts(const TriggerPair& pair, LinkId link) {
   touching_.clear();
   for (const WorldPart& part : pair.parts) {
@@ -100,7 +100,7 @@ void LinkPresence::appendParts(const TriggerPair& pair, LinkId link) {
   });
 }
 
-/// What `touching_` leaves of the time in which both are there, cut where they are known anew.
+/// Finds what `touching_` leaves of the time in which both are there, cut where known anew.
 void LinkPresence::findGaps(const TriggerPair& pair) {
   gaps_.clear();
   const std::int64_t thereUs = std::max({stretch_.fromUs, appearsUs(world_->body(pair.body)),
@@ -127,7 +127,7 @@ void LinkPresence::findGaps(const TriggerPair& pair) {
 
 LinkPresence::Decided LinkPresence::presenceIn(const TriggerPair& pair, LinkId link,
                                                const Gap& gap) {
-  if (!pair.volume->mesh) return {};  // who does not touch what is solid is outside
+  if (!pair.volume->mesh) return {};  // what does not touch what is solid is outside
   if (!gap.isNew && gap.from == atUs(stretch_.fromUs)) {
     // Nothing has touched the surface since the stretch before.
     const auto kept = ends_.find({pair.trigger, pair.body, link});

@@ -22,8 +22,8 @@ struct Stretch {
   std::int64_t fromUs = 0, toUs = 0;
 };
 
-/// Who carries whom, and who is there, changes at these instants of the stretch: what is known of
-/// before says nothing of after. Appends those of a body and of all that carry it there, in order.
+/// At these instants of the stretch a carrier changes, or a body appears: what is known of before
+/// says nothing of after. Appends those of a body and of all that carry it there, in order.
 /// `chain`: memory.
 void appendCuts(const WorldParts& world, BodyId body, const Stretch& stretch,
                 std::vector<BodyId>& chain, std::vector<std::int64_t>& cuts);
@@ -56,7 +56,7 @@ class LinkPresence {
   /// A time in which nothing touches.
   struct Gap {
     WorldTime from, to;
-    bool isNew = false;  // at its begin one of the two changes who carries it, or is there first
+    bool isNew = false;  // at its begin one of the two changes its carrier, or is there first
   };
   struct Decided {
     Presence presence = Presence::Outside;
@@ -77,7 +77,7 @@ class LinkPresence {
   Stretch stretch_;
   std::map<Key, End> ends_;
   TriggerCounters counters_;
-  std::vector<PresenceSpan> touching_;  // of one link, by time
+  std::vector<PresenceSpan> touching_;  // one link's, by time
   std::vector<Gap> gaps_;
   BodyPlaces bodies_;
   std::vector<LinkPlace> ofTrigger_, ofBody_;

@@ -27,7 +27,7 @@ void uniteAlike(std::vector<PresenceSpan>& spans) {
   spans.resize(kept);
 }
 
-/// Of `unresolved`, what no span of `inside` covers; both united.
+/// Appends what no span of `inside` covers of `unresolved`; both are united.
 void appendUncovered(const std::vector<PresenceSpan>& unresolved,
                      const std::vector<PresenceSpan>& inside, std::vector<PresenceSpan>& all) {
   for (const PresenceSpan& span : unresolved) {

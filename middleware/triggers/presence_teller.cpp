@@ -14,7 +14,7 @@ int rankOf(const TriggerEvent& event) {
 
 std::optional<ToldOpen> PresenceTeller::tell(std::optional<ToldOpen> open,
                                              const std::vector<PresenceSpan>& spans) {
-  WorldTime until = from_;  // of what is open
+  WorldTime until = from_;  // the end of what is open
   for (const PresenceSpan& span : spans) {
     const bool goesOn = open && open->presence == span.presence && !(until < span.from);
     if (!goesOn) {
@@ -41,7 +41,7 @@ ToldOpen PresenceTeller::begin(const PresenceSpan& span, bool wasUnresolved) {
   return {span.presence, span.from, span.isAssumed, span.link};
 }
 
-/// What becomes unresolved says by that that it has ended.
+/// An event that it becomes unresolved also says that it has ended.
 void PresenceTeller::end(const ToldOpen& open, const WorldTime& time, bool becomesUnresolved) {
   if (open.presence == Presence::Unresolved) {
     add(EventKind::UnresolvedTo, time, open.since, open.isAssumed, open.link);

@@ -1,5 +1,5 @@
-// middleware/triggers/presence_teller.h: what is told of someone in a trigger: the events that
-// follow from what he does in it. Not installed.
+// middleware/triggers/presence_teller.h: what is reported of a body or link in a trigger: the
+// events that follow from what it does in it. Not installed.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace foretouch::internal {
 
-/// Whom a stretch tells of.
+/// What a stretch reports on.
 using ToldKey = std::tuple<TriggerId, BodyId, LinkId>;
 
 /// What has begun and not ended.
@@ -20,7 +20,7 @@ struct ToldOpen {
   Presence presence = Presence::Inside;
   WorldTime since;
   bool isAssumed = false;
-  LinkId link = 0;  // that made it begin
+  LinkId link = 0;  // the one that made it begin
 };
 
 /// The events of one key in a stretch.

@@ -1,4 +1,4 @@
-// middleware/triggers/trigger_event.h: what triggers tell: who enters, who leaves, and who is
+// middleware/triggers/trigger_event.h: what triggers report: what enters, what leaves, and what is
 // inside. World time in microseconds. The promise: docs/guarantees.md 19.
 #pragma once
 
@@ -13,22 +13,22 @@ namespace foretouch {
 using TriggerId = std::int32_t;
 
 /// A body is inside if a point of its volume is in the trigger's, as far as is known: see
-/// TriggerEvent.
+/// TriggerEvent::time.
 struct TriggerEvent {
   EventKind kind = EventKind::Enter;
   TriggerId trigger = 0;
   BodyId body = 0;
   /// Which link enters or leaves, also where the body counts as one; kEveryLink: none by itself.
   LinkId link = kEveryLink;
-  /// Sound: no body is inside, at any instant, that is not reported so, or as unresolved: an Enter
-  /// is never later than it is, a Leave never earlier. Tight: a body reported inside is, but for
-  /// twice the world's tolerance, and enters from within once of it.
+  /// Sound: a body that is inside, at any instant, is reported so, or as unresolved: its Enter is
+  /// never late, its Leave never early. Tight: a body reported inside is inside, but for twice the
+  /// world's tolerance, and enters from within once of it.
   WorldTime time;
-  WorldTime since;  ///< Of Leave and UnresolvedTo: when that began which ends here. Else `time`.
+  WorldTime since;         ///< For Leave and UnresolvedTo: when what ends here began. Else `time`.
   bool isAssumed = false;  ///< As WorldContact::isAssumed.
 };
 
-/// Who is inside, or may be.
+/// A body or link that is inside, or may be.
 struct Occupant {
   TriggerId trigger = 0;
   BodyId body = 0;
@@ -38,7 +38,7 @@ struct Occupant {
 };
 
 struct TriggerCounters {
-  std::uint64_t pairs = 0;    ///< Of a trigger and a link that were asked about.
+  std::uint64_t pairs = 0;    ///< Pairs of a trigger and a link that were asked about.
   std::uint64_t decided = 0;  ///< Times that a link and a closed mesh were asked, at one instant,
                               ///< whether it is inside.
 };

@@ -40,7 +40,7 @@ struct Record {
 }  // namespace
 
 struct Triggers::Parts {
-  std::uint64_t world = 0;  // whose they are; 0: nobody's yet
+  std::uint64_t world = 0;  // the one that they are in; 0: none yet
   std::vector<Record> records;
   std::vector<TriggerId> triggerOf;  // by body
   bool hasBegun = false;
@@ -123,7 +123,7 @@ bool isWatched(const Record& record, BodyId body, LinkId link) {
 
 }  // namespace
 
-/// Who is silent altogether is so for every trigger; a trigger, for everybody.
+/// A whole body that is silent is so for every trigger; a trigger, for every body.
 void Triggers::Parts::sortParts(const WorldParts& of, const std::vector<WorldPart>& given) {
   parts.clear();
   for (const WorldPart& part : given) {
@@ -212,7 +212,7 @@ void Triggers::Parts::ask(const WorldParts& of, TriggerId trigger, BodyId body,
   tell(trigger, body, stretch, events);
 }
 
-/// Of the body as one, or of its links.
+/// Reports on the body as one, or on its links.
 void Triggers::Parts::tell(TriggerId trigger, BodyId body, const Stretch& stretch,
                            std::vector<TriggerEvent>& events) {
   if (!records[slotOf(trigger)].options.byLink) {

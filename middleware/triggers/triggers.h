@@ -1,6 +1,6 @@
-// middleware/triggers/triggers.h: volumes that tell who is in them. A trigger is a body of a world:
-// it may stand, move, and be carried. What a WorldFollower tells of contacts becomes who enters and
-// who leaves, and who is inside: also of those that pass between two poses, and of those that are
+// middleware/triggers/triggers.h: volumes that report what is in them. A trigger is a body of a
+// world: it may stand, move, and be carried. What a WorldFollower reports of contacts becomes what
+// enters, leaves and is inside: also of bodies that pass between two poses, and of those that are
 // inside altogether, and touch nothing. World time in microseconds. The promise: docs/guarantees.md
 // 19; how it is kept: triggers.md.
 #pragma once
@@ -30,11 +30,11 @@ struct VolumeParts;
 class TriggerVolume {
  public:
   /// A box around the origin of its frame, along its axes. Errors: an extent that is not above 0
-  /// and below kMaxCoordinate.
+  /// and at most kMaxCoordinate.
   static Result<TriggerVolume> box(const Eigen::Vector3d& halfExtents);
-  /// Around the origin. Errors: as above.
+  /// A sphere around the origin. Errors: as above.
   static Result<TriggerVolume> sphere(double radius);
-  /// Solid LSS, all of which are one volume. Errors: none, or as Avatar::build().
+  /// Solid LSS, all of which are one volume. Errors: no LSS, or as Avatar::build().
   static Result<TriggerVolume> lss(std::vector<Lss> lss);
   /// What is inside some object of the scene. The triangles may be turned any way, and in any
   /// order, but each object must be closed: every edge, by its exact coordinates, belongs to two of
@@ -51,7 +51,7 @@ class TriggerVolume {
   std::shared_ptr<const internal::VolumeParts> parts_;
 };
 
-/// The group of triggers, unless they are given another: they meet everybody else.
+/// The group of triggers, unless they are given another: they meet all others.
 inline constexpr BodyGroup kTriggerGroup = kNumBodyGroups - 1;
 
 /// What a trigger looks at: a body, or a link of it.
@@ -64,14 +64,14 @@ struct TriggerOptions {
   BodyGroup group = kTriggerGroup;
   /// By default a trigger without a new pose stays where it was, and nothing waits for it.
   WhenSilent whenSilent = WhenSilent::HoldStill;
-  /// Empty: everybody but other triggers.
+  /// Empty: every body but other triggers.
   std::vector<Watched> watched;
   /// False: a body is inside as long as any of its links is, and enters and leaves as one. True:
   /// each link by itself.
   bool byLink = false;
 };
 
-/// For one thread. Keeps who is inside from window to window.
+/// For one thread. Keeps what is inside from window to window.
 class Triggers {
  public:
   Triggers();
@@ -82,7 +82,7 @@ class Triggers {
   /// Makes it a body of the world, which it is for ever: push its poses, attach and detach it as
   /// any other's (body()). It is there from its first pose on. Triggers of one group do not meet
   /// each other, nor any the static scene. A mesh watches what is made of LSS, as two meshes are
-  /// not asked. Errors: as World::add(), and one who is watched and is no body or link yet
+  /// not asked. Errors: as World::add(), and a watched one that is not a body or link yet
   /// (UnknownName).
   Result<TriggerId> add(World& world, const TriggerVolume& volume,
                         const TriggerOptions& options = {});
@@ -103,11 +103,11 @@ class Triggers {
   /// What the events of the next stretch of time mean for the triggers. Call it for every answer of
   /// one WorldFollower of that world, in turn, before the world changes or forgets. Errors
   /// (Mismatch): another world; a stretch that does not begin where the last one ended; then
-  /// nothing has changed. O(parts + who is inside + bodies that appear or change their carrier,
+  /// nothing has changed. O(parts + what is inside + bodies that appear or change their carrier,
   /// times triggers).
   Result<Done> update(const World& world, const WorldEvents& events, TriggerEvents& answer);
 
-  /// Forgets who is inside: the next update may begin anywhere, with another follower, and who is
+  /// Forgets what is inside: the next update may begin anywhere, with another follower, and what is
   /// inside there starts inside.
   void beginAnew();
 

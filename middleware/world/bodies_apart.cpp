@@ -13,7 +13,7 @@ constexpr int kNodesOfPlanes[] = {3, 0, 7};
 /// Past the rounding of a sum in double, and of the kernel's product or sum with it in float.
 constexpr double kReachInflation = 1.0 + 0x1p-21;
 
-/// In W, where planes rest.
+/// The frame W, in which planes rest.
 NodeFrame worldFrame() {
   NodeFrame frame;
   for (int k = 0; k < 9; ++k) std::fill_n(frame.R[k], kNodes, k % 4 == 0 ? 1.0F : 0.0F);
@@ -21,7 +21,7 @@ NodeFrame worldFrame() {
 }
 const NodeFrame kWorldFrame = worldFrame();
 
-/// Per h^2/8 of a piece between two nodes of a whole motion, rounded up.
+/// The h^2/8 of the pieces between two nodes of a whole motion, rounded up.
 struct Sagittas {
   float at[kNodes] = {};
   Sagittas() {
@@ -66,7 +66,7 @@ Apart BodiesApart::prove(const SpanSweep& one, const SpanSweep& other, std::int6
   return pairs_.empty() ? Apart::ByPlanes : Apart::Unproven;
 }
 
-/// As BodyBox::movedBy(), of all LSS at once.
+/// As BodyBox::movedBy(), for all LSS at once.
 void BodiesApart::moveRows(const SpanSweep& one, const Eigen::Vector3d& shift) {
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t count = one.lower[k].size();

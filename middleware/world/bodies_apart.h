@@ -42,7 +42,7 @@ class BodiesApart {
   void closeAtNodes(const SpanSweep& one, const SpanSweep& other, QueryCounters& counters);
   void dropClosed();
 
-  std::array<std::vector<float>, 3> lower_, upper_;  // of one body, relative to the other's origin
+  std::array<std::vector<float>, 3> lower_, upper_;  // one body's, relative to the other's origin
   std::vector<LssBox> boxes_;
   MeetingPairs meeting_;
   NodePlanes planes_{};

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kRowBlock = SweptBoxes::kPadding;
 
-/// Of a multiple of kRowBlock floats, that many at once.
+/// The best of a multiple of kRowBlock floats, that many at once.
 template <typename Better>
 float bestOf(const std::vector<float>& row, const Better& better) {
   float best[kRowBlock];

@@ -26,8 +26,8 @@ namespace foretouch::internal {
 struct SpanSweep {
   std::int64_t beginUs = 0, endUs = 0;
   std::int64_t episodeUs = 0;                        ///< When the body's episode began.
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< In W; of the boxes and of the ends' own.
-  /// Around all of the body, and per LSS; grown by each side's share of the tolerance (world.md 3).
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< In W: the boxes', and the ends' own.
+  /// Around the whole body, and per LSS; grown by each side's share of the tolerance (world.md 3).
   BodyBox box;
   std::int32_t numLss = 0;
   std::array<std::vector<float>, 3> lower, upper;  ///< Empty boxes beyond the last LSS.
@@ -35,17 +35,17 @@ struct SpanSweep {
   // Per LSS, rounded up. How its ends' paths bend in W (m per span squared), and what it takes away
   // from the distance of its axis: its radius, and all uncertainty (m).
   std::vector<float> bends, reaches;
-  float turn = 0.0F;           ///< Of the first LSS' link in W, at most (radians). No bound.
+  float turn = 0.0F;           ///< The most the first LSS' link turns in W (radians). No bound.
   float widestSagitta = 0.0F;  ///< h^2/8 of the longest time between two nodes. Rounded up.
   /// First contacts with the static scene and of own links, over the whole span.
   std::vector<WorldContact> own;
   QueryCounters counters;                           ///< What all of this took.
-  SystemQuestion question = SystemQuestion::Boxes;  ///< That `own` answers.
+  SystemQuestion question = SystemQuestion::Boxes;  ///< The one that `own` answers.
   bool isWhole = false;      ///< A piece of the body's track, whatever the window.
-  std::uint64_t window = 0;  ///< That used it last.
+  std::uint64_t window = 0;  ///< The one that used it last.
 
-  /// Of what a slab has of the motion's whole [0,1], relative to `from` in W; takes the slab's ends
-  /// away. No place is off by more than `cut` because the span is part of a piece (m).
+  /// Fills it with what a slab has of the motion's whole [0,1], relative to `from` in W; takes the
+  /// slab's ends. No place is off by more than `cut` because the span is part of a piece (m).
   void fill(const LssTable& table, const ChainMotion& motion, SlabScratch& slab,
             const Eigen::Vector3d& from, double cut);
   /// For ends of any body of so many LSS: spans and slabs exchange their memory.
@@ -58,12 +58,12 @@ struct SpanPart {
   std::size_t sweep;  ///< Place in BodySweep::spans.
 };
 
-/// Of one body.
+/// The sweep of one body.
 struct BodySweep {
-  BodyBox whole;         ///< Of all parts, relative to the window's origin.
+  BodyBox whole;         ///< Around all parts, relative to the window's origin.
   bool isRough = false;  ///< There is nothing else: the body is far from all that it may meet.
   std::vector<SpanPart> parts;
-  /// Those of the window and earlier ones: most windows begin where the last one ended, often
+  /// The spans of the window and earlier ones: most windows begin where the last one ended, often
   /// within a span.
   std::vector<SpanSweep> spans;
 

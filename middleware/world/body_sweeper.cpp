@@ -91,7 +91,7 @@ bool BodySweeper::sweepRoughly(BodyId body, BodySweep& sweep) {
   return true;
 }
 
-/// It stays farther than the tolerance from all that never moves.
+/// Whether it stays farther than the tolerance from all that never moves.
 bool BodySweeper::isFarFromScene(const TrackPiece& piece, double rho) const {
   Aabb box;
   box.add(piece.from->translations[0]);
@@ -103,7 +103,7 @@ bool BodySweeper::isFarFromScene(const TrackPiece& piece, double rho) const {
   return !world_.still->parts().bvh.meetsLeaf(box, visited);
 }
 
-/// Around both ends, relative to the window's origin, rounded outward.
+/// The box around both ends, relative to the window's origin, rounded outward.
 BodyBox BodySweeper::boxAround(const TrackPiece& piece, double reach) const {
   const Eigen::Vector3d &from = piece.from->translations[0], &to = piece.to->translations[0];
   const double inflated = reach * kInflation;
@@ -120,7 +120,7 @@ BodyBox BodySweeper::boxAround(const TrackPiece& piece, double reach) const {
   return box;
 }
 
-/// Of the span that the scratch's spans are at.
+/// Fills in the span that the scratch's spans are at.
 Result<Done> BodySweeper::fill(BodyId body, SystemQuestion question, SpanSweep& span) {
   span.beginUs = scratch_.spans.beginUs();
   span.endUs = scratch_.spans.endUs();
@@ -153,8 +153,8 @@ Result<Done> BodySweeper::fill(BodyId body, SystemQuestion question, SpanSweep& 
   return Done{};
 }
 
-/// What the span's answers say of its part in the window. Who met before that part begins is asked
-/// again, from there on.
+/// Keeps what the span's answers say of its part in the window. What met before that part begins is
+/// asked again, from there on.
 Result<Done> BodySweeper::keepOwn(BodyId body, SystemQuestion question, const SpanPart& part,
                                   const SpanSweep& span, std::size_t first,
                                   std::vector<WorldContact>& found, WorldCounters& counters) {
@@ -190,7 +190,7 @@ Result<Done> BodySweeper::keepOwn(BodyId body, SystemQuestion question, const Sp
   return Done{};
 }
 
-/// Those who met before the part begins.
+/// Asks again about what met before the part begins.
 Result<Done> BodySweeper::askAgain(BodyId body, SystemQuestion question, const SpanPart& part,
                                    const SpanSweep& span, std::size_t first,
                                    std::vector<WorldContact>& found, WorldCounters& counters) {
@@ -201,7 +201,7 @@ Result<Done> BodySweeper::askAgain(BodyId body, SystemQuestion question, const S
   std::copy_if(span.own.begin(), span.own.end(), std::back_inserter(met),
                [&](const WorldContact& contact) { return contact.time < begin; });
   if (question == SystemQuestion::Self) {
-    // The motion in which they met, from that instant on.
+    // Asks about the motion in which they met, from that instant on.
     FORETOUCH_TRY(const SystemPlan* const whole, query_.prepare(question, body, kStillScene));
     if (query_.isResolved() &&
         query_.askAgainFrom(part.beginUs, *whole, body, met, 0, again, counters.queries)) {

@@ -18,8 +18,8 @@ struct Window {
   std::int64_t fromUs, toUs;
   std::uint64_t number;
   Eigen::Vector3d origin;  ///< Near the bodies, so that floats resolve them.
-  /// Who met before it, in a motion that it is part of, is told from its begin on, and not asked
-  /// again.
+  /// What met before it, in a motion that it is part of, is reported from its begin on, and not
+  /// asked again.
   bool isFollowed = false;
 };
 
@@ -36,9 +36,9 @@ class BodySweeper {
   Result<Done> sweep(BodyId body, BodySweep& sweep, std::vector<WorldContact>& found,
                      WorldCounters& counters);
 
-  /// Of a rigid body that nobody carries, and that is far from the static scene or not asked about
+  /// For a rigid body that is not carried, and that is far from the static scene or not asked about
   /// it: a box around all ways in which it could turn, and nothing else. False: another body, or
-  /// somebody carries it. O(1) per span, and a descent into the scene: a tenth of what sweep()
+  /// it is carried. O(1) per span, and a descent into the scene: a tenth of what sweep()
   /// takes.
   [[nodiscard]] bool sweepRoughly(BodyId body, BodySweep& sweep);
 

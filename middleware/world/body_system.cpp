@@ -18,7 +18,7 @@ double armsOf(const TrackPiece& piece) {
   return sum;
 }
 
-/// As numbers: many times as fast as one by one.
+/// Appends them as numbers: many times as fast as one by one.
 void append(const Pose& part, Pose& all) {
   const std::size_t first = all.rotations.size(), count = part.rotations.size();
   if (count == 0) return;
@@ -73,7 +73,7 @@ bool SystemSpans::next() {
     beginUs_ = spanUs_ = nextUs_;
     members_.clear();
     if (addMember(a_) && (b_ == kStillScene || addMember(b_))) return findEnd();
-    // Whoever is not there yet appears with his first episode.
+    // A body that is not there yet appears with its first episode.
     nextUs_ = toUs_;
     for (const BodyId body : {a_, b_}) {
       if (body == kStillScene || world_->body(body).episodeAt(beginUs_) != nullptr) continue;
@@ -102,7 +102,7 @@ bool SystemSpans::widenToPieces(std::int64_t mostUs) {
   return widenTo(begin, end, mostUs);
 }
 
-/// Parts of that length, from `begin` on; the last one may be shorter.
+/// Widens to a part of that length, from `begin` on; the last one may be shorter.
 bool SystemSpans::widenTo(std::int64_t begin, std::int64_t end, std::int64_t partUs) {
   FORETOUCH_ASSERT(begin <= beginUs_ && end >= endUs_);
   const std::int64_t from = begin + (beginUs_ - begin) / partUs * partUs;
@@ -118,8 +118,8 @@ void SystemSpans::narrow() {
   endUs_ = nextUs_;
 }
 
-/// Behind those who carry it. False: one of them is not there at the span's begin. Whoever carries
-/// is there before he does.
+/// Adds it behind those that carry it. False: one of them is not there at the span's begin. What
+/// carries a body is there before it does.
 bool SystemSpans::addMember(BodyId body) {
   world_->chainAt(body, beginUs_, chain_);
   for (; !chain_.empty(); chain_.pop_back()) {
@@ -140,7 +140,7 @@ bool SystemSpans::addMember(BodyId body) {
   return true;
 }
 
-/// False: one of them is undecided from the span's begin on.
+/// Finds the span's end. False: one of them is undecided from the span's begin on.
 bool SystemSpans::findEnd() {
   endUs_ = toUs_;
   isAssumed_ = false;
@@ -166,7 +166,7 @@ std::int32_t SystemSpans::placeOf(BodyId body) const {
   return -1;
 }
 
-/// No point of those that are carried is farther from the links that they hang on.
+/// How far, at most, points of those that are carried are from the links that they hang on.
 double SystemSpans::reachOfCarried() const {
   double reach = 0.0;
   for (const SystemMember& member : members_) {

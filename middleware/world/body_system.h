@@ -1,6 +1,6 @@
 // middleware/world/body_system.h: the bodies that a question depends on (one or two that are asked,
-// and whoever carries them) as one chain, or as two that nothing joins, span by span: in each
-// nobody has a knot, and nobody changes his carrier. Proof of what a span's motion is:
+// and all that carry them) as one chain, or as two that nothing joins, span by span: inside a span
+// no body has a knot, and none changes its carrier. Proof of what a span's motion is:
 // middleware/world/world.md 1. Not installed.
 #pragma once
 
@@ -21,10 +21,10 @@ struct SystemMember {
   BodyId body = 0;
   std::int32_t kind = 0;
   std::int32_t carrier = -1;  ///< Place among the members, before this one; -1: W.
-  LinkId link = kNoParent;    ///< The carrier's, that this one hangs on.
-  std::int32_t chain = 0;     ///< Whose root has none: the first of them, or the second.
+  LinkId link = kNoParent;    ///< The carrier's link that this one hangs on.
+  std::int32_t chain = 0;     ///< The first chain of the system, or the second.
   const Episode* episode = nullptr;
-  TrackPiece piece;  ///< Of the episode's track, that holds the span.
+  TrackPiece piece;  ///< The piece of the episode's track that holds the span.
 };
 
 /// The motions of the pieces that were cut last: several questions cut the same.
@@ -40,7 +40,7 @@ class PieceMotions {
   static constexpr std::size_t kKept = 8;
   struct Known {
     BodyId body = -1;
-    // Of two episodes, pieces may have the same ends.
+    // Pieces of two episodes may have the same ends.
     std::int64_t episodeUs = 0, beginUs = 0, endUs = 0;
     std::uint64_t lastUse = 0;
     ChainMotion motion;
@@ -54,7 +54,7 @@ struct ChainPoses {
   Pose from, to;
 };
 
-/// Of one chain that has all members, or of two.
+/// The poses of one chain that has all members, or of two.
 struct SystemPoses {
   std::array<ChainPoses, 2> chains;
   double rounding = 0.0;  ///< No point of what touches is farther from its true place (m).
@@ -91,10 +91,10 @@ class SystemSpans {
   /// Carriers come before those they carry.
   [[nodiscard]] const std::vector<SystemMember>& members() const { return members_; }
   [[nodiscard]] std::int32_t placeOf(BodyId body) const;
-  /// Somebody is silent and taken to hold still.
+  /// A member is silent and taken to hold still.
   [[nodiscard]] bool isAssumed() const { return isAssumed_; }
 
-  /// The roots in W are relative to `origin`. `isMerged`: everybody is on one chain. O(joints).
+  /// The roots in W are relative to `origin`. `isMerged`: all are on one chain. O(joints).
   void poses(const Eigen::Vector3d& origin, bool isMerged, PieceMotions& motions,
              SystemPoses& poses) const;
 

@@ -21,7 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr std::size_t kAbreast = 16;
 
 /// Appends every pair of places in the order whose boxes meet. `rows`: lower x, lower y, upper y,
-/// lower z, upper z; `boxes` likewise in that order.
+/// lower z, upper z; `boxes` in that order, too.
 void sweepRows(const float* const* rows, const BodyBox* boxes, const std::int32_t* order,
                std::size_t count, std::vector<MeetingBodies>& meeting) {
   const hn::CappedTag<float, kAbreast> d;
@@ -83,7 +83,7 @@ BodyBox BodyBox::movedBy(const Eigen::Vector3d& shift) const {
   return moved;
 }
 
-/// By the begin along x, then by number; empty boxes come last.
+/// Sorts by the begin along x, then by number; empty boxes come last.
 void BoxSweep::sort(const std::vector<BodyBox>& boxes) {
   if (order_.size() != boxes.size()) {
     order_.resize(boxes.size());
@@ -121,7 +121,7 @@ void BoxSweep::arrange(const std::vector<BodyBox>& boxes) {
   }
 }
 
-/// By a, then by b: in one pass, as who meets whom is spread over all bodies.
+/// Sorts by a, then by b: in one pass, as the pairs are spread over all bodies.
 void BoxSweep::sortMeeting(std::size_t numBodies, std::vector<MeetingBodies>& meeting) {
   ends_.assign(numBodies, 0);
   for (const MeetingBodies& pair : meeting) ++ends_[slotOf(pair.a)];

@@ -35,12 +35,12 @@ struct BodyBox {
   static constexpr float kNowhere = 3.0e38F;
 };
 
-/// Of one axis, as BodyBox::movedBy().
+/// As BodyBox::movedBy(), for one axis.
 struct MovedBounds {
   float lower, upper;
 };
 [[nodiscard]] inline MovedBounds movedBounds(float lower, float upper, double shift) {
-  // Of the shift, which is a difference of two places, and of the sum with it.
+  // Covers the shift, which is a difference of two places, and the sum with it.
   constexpr double kRoundingOfMove = 8.0 * kUnitRoundoff;
   const double low = static_cast<double>(lower), high = static_cast<double>(upper);
   const double slack =
@@ -65,11 +65,11 @@ class BoxSweep {
   void sortMeeting(std::size_t numBodies, std::vector<MeetingBodies>& meeting);
 
   std::vector<std::int32_t> order_;
-  // Of the boxes in that order, with room for a vector beyond: lower and upper along y and z, and
-  // lower along x.
+  // Bounds of the boxes in that order, with room for a vector beyond: lower and upper along y and
+  // z, and lower along x.
   std::vector<float> rows_[5];
   std::size_t count_ = 0;           // not empty
-  std::vector<std::int32_t> ends_;  // per a, of its pairs so far
+  std::vector<std::int32_t> ends_;  // per a: the end of its pairs so far
   std::vector<MeetingBodies> sorted_;
 };
 

@@ -47,7 +47,7 @@ SystemQuestion PairAsker::questionOf(BodyId a, BodyId b, std::int64_t utimeUs) c
   return isFrame ? SystemQuestion::Mesh : SystemQuestion::Pair;
 }
 
-/// Span by span, until nothing is known any more; false if the work was spent before.
+/// Asks span by span, until nothing is known any more; false if the work was spent before.
 Result<bool> PairAsker::askSpans(BodyId a, BodyId b) {
   const BodySweep &one = scratch_.sweeps[slotOf(a)], &other = scratch_.sweeps[slotOf(b)];
   const std::size_t first = worker_.contacts.size();
@@ -120,7 +120,7 @@ bool PairAsker::leaveOpen(BodyId a, BodyId b, std::size_t first, const SpanSweep
   return !open.empty();
 }
 
-/// Since when nobody carries it, if that and its being there last throughout the window.
+/// Since when it is not carried, if it is there and not carried throughout the window.
 std::optional<std::int64_t> PairAsker::freeSinceUs(BodyId id) const {
   const WorldBody& body = world_.body(id);
   const Episode* const episode = body.episodeAt(window_.fromUs);
@@ -130,7 +130,7 @@ std::optional<std::int64_t> PairAsker::freeSinceUs(BodyId id) const {
   return episode->beginUs;
 }
 
-/// Whoever follows them knows them throughout, unless they are not asked in between.
+/// Drops the pairs that the follower knows throughout, unless they are not asked in between.
 void PairAsker::leaveFollowed(BodyId a, BodyId b, std::vector<PlanePair>& open) const {
   if (followed_ == nullptr) return;
   const auto ofA = freeSinceUs(a), ofB = freeSinceUs(b);

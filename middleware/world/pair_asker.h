@@ -31,7 +31,7 @@ class PairAsker {
         worker_(worker),
         query_(world, scratch.plans, worker.system) {}
 
-  /// `work`: that it may cost. What remains undone is left apart with the pair's number.
+  /// `work`: what it may cost. What remains undone is left apart with the pair's number.
   Result<Done> ask(std::size_t pair, std::uint64_t work);
 
  private:
@@ -57,7 +57,7 @@ class PairAsker {
 
   void leaveFollowed(BodyId a, BodyId b, std::vector<PlanePair>& open) const;
 
-  /// What is free stays so far apart, as it does by the queries (m).
+  /// What is free stays so far apart (m), as it does in the queries.
   [[nodiscard]] double floor() const {
     return kFloorShare * kAskedShare * world_.options.tolerance;
   }

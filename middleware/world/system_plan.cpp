@@ -15,7 +15,7 @@ namespace {
 using Volumes = std::vector<std::vector<Lss>>;
 using LinkSurfacePtr = std::shared_ptr<const LinkSurface>;
 
-/// Of the members on one chain; of all, if that is kEveryChain.
+/// The skeleton of the members on one chain; of all, if that is kEveryChain.
 constexpr std::int32_t kEveryChain = -1;
 Result<Skeleton> skeletonOf(const WorldParts& world, const std::vector<SystemMember>& members,
                             std::int32_t chain, std::vector<JointId>& first) {
@@ -189,7 +189,7 @@ class PlanMaker {
     return Done{};
   }
 
-  /// From links of the system to those of the chain.
+  /// Goes from links of the system to those of the chain.
   void lookFromMesh() {
     const std::size_t count = countOf(plan_.seen->skeleton().numJoints());
     Volumes lss(count);
@@ -223,8 +223,8 @@ class PlanMaker {
     return std::optional<PairRules>(std::move(rules));
   }
 
-  /// Of what is carried, the links that are not asked about the link that carries it: all, if it is
-  /// held fast; its roots, if it moves there by itself.
+  /// Whether a carried body's link is not asked about the link that carries it: each, if the body
+  /// is held fast; its roots, if it moves there by itself.
   [[nodiscard]] bool isJoined(std::int32_t place, LinkId link) const {
     return member(place).episode->isHeldFast() || kind(place).skeleton.parent(link) == kNoParent;
   }
@@ -235,8 +235,8 @@ class PlanMaker {
     }
   }
 
-  /// Of the carried one's links and the link that carries them, if one of the two carries the
-  /// other.
+  /// The pairs of the carried one's links and the link that carries them, if one of the two carries
+  /// the other.
   [[nodiscard]] std::vector<LinksOfSides> leftOut(std::int32_t one, std::int32_t other) const {
     std::vector<LinksOfSides> pairs;
     const bool isOneCarried = member(one).carrier == other;
@@ -255,7 +255,7 @@ class PlanMaker {
   const std::vector<SystemMember>& members_;
   SystemPlan& plan_;
   Volumes lss_;                           // per joint of a chain, of those that are asked
-  std::vector<LinkSurfacePtr> surfaces_;  // likewise; null: by their LSS
+  std::vector<LinkSurfacePtr> surfaces_;  // the same; null: by their LSS
   QueryOptions options_;
 };
 
@@ -319,7 +319,7 @@ Result<const SystemPlan*> SystemPlans::planOf(const WorldParts& world, const Sys
   return plan;
 }
 
-/// Of those that any thread has asked for, or a new one.
+/// A plan that any thread has asked for, or a new one.
 Result<const SystemPlan*> SystemPlans::ofAll(const WorldParts& world, const SystemSpans& spans,
                                              SystemQuestion question,
                                              const std::vector<std::int64_t>& key) {
@@ -333,7 +333,7 @@ Result<const SystemPlan*> SystemPlans::ofAll(const WorldParts& world, const Syst
   made->key = key;
   FORETOUCH_CHECK(PlanMaker(world, spans, *made).make(question, placeOfA, placeOfB));
   const std::unique_lock<std::shared_mutex> lock(mutex_);
-  if (const SystemPlan* const known = find(key)) return known;  // somebody else was faster
+  if (const SystemPlan* const known = find(key)) return known;  // another thread was faster
   const auto place = std::lower_bound(plans_.begin(), plans_.end(), key, comesBeforeKey);
   return plans_.insert(place, std::move(made))->get();
 }

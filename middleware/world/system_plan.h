@@ -29,22 +29,22 @@ enum class SystemQuestion : std::uint8_t {
   Mesh,   ///< What the links of a meet of b, a mesh.
 };
 
-/// Of the world's tolerance, what is asked for; the rest is for parts of motions (world.md 2).
+/// The shares of the world's tolerance for questions and for parts of motions (world.md 2).
 inline constexpr double kAskedShare = 0.9375, kPartShare = 0.0625;
 
 struct SystemPlan {
   std::vector<std::int64_t> key;  // what it was made of
   std::vector<Skeleton> chains;   // one of all members, or two where nothing joins those of a Pair
-  std::vector<JointId> first;     // of each member's joints, on its chain
-  LssTable table;                 // of a, but for Pair and Mesh
+  std::vector<JointId> first;     // the first of each member's joints, on its chain
+  LssTable table;                 // a's, but for Pair and Mesh
   bool isEmpty = false;           // nothing can touch
-  // Of Self, a alone; of Pair, both: the one that is first among the members comes first.
+  // For Self, a alone; for Pair, both: the one that is first among the members comes first.
   std::optional<SidePlan> one, other;
   PairsAsked asked;
-  std::optional<Query> query;         // of Still and Mesh
-  std::optional<RelativeChain> seen;  // of Mesh: from b
+  std::optional<Query> query;         // for Still and Mesh
+  std::optional<RelativeChain> seen;  // for Mesh: from b
 
-  /// Precondition: of Self or Pair.
+  /// Precondition: the question is Self or Pair.
   [[nodiscard]] PairPlan pair() const { return {*one, other ? *other : *one, asked}; }
   [[nodiscard]] bool isMerged() const { return chains.size() == 1; }
 };
@@ -54,16 +54,16 @@ class LatePlans {
  private:
   friend class SystemPlans;
   static constexpr std::size_t kKept = 32;
-  std::uint64_t generation_ = 0;  // of those that it has them from
+  std::uint64_t generation_ = 0;  // of the SystemPlans that it has them from
   std::array<const SystemPlan*, kKept> plans_{};
 };
 
-/// Plans of one world, by what they are made of: kinds of bodies, who hangs on whom, and what is
+/// Plans of one world, by what they are made of: kinds of bodies, what hangs on what, and what is
 /// asked. Two avatars of the same two kinds share one. Any number of threads may ask for plans at
 /// once.
 class SystemPlans {
  public:
-  /// Precondition: the spans are at a span; `a` and, of Pair and Mesh, `b` are among the members.
+  /// Precondition: the spans are at a span; `a` and, for Pair and Mesh, `b` are among the members.
   /// `key`, `late`: the thread's own memory; `late` may be null. Errors: a chain that is too deep,
   /// or of too many joints. Allocates only what it has not.
   Result<const SystemPlan*> planOf(const WorldParts& world, const SystemSpans& spans,

@@ -160,7 +160,7 @@ bool SystemQuery::keepAll(const SystemPlan& plan, BodyId a, BodyId b, std::size_
   return false;
 }
 
-/// Of two bodies: thousands of links of a heap are told as one.
+/// Only of two bodies: thousands of links of a heap are reported as one.
 bool SystemQuery::isUndone(BodyId b, const LinkContact& contact) {
   const bool isSpent =
       contact.verdict == Verdict::Undecided && contact.reason == UndecidedReason::WorkBudget;
@@ -242,7 +242,7 @@ WorldContact SystemQuery::inSpan(const LinkContact& contact) const {
   return kept;
 }
 
-/// `link`: on its chain. One LSS around a mesh tells nothing.
+/// `link`: on its chain. The one LSS around a mesh is not reported.
 ContactSide SystemQuery::sideOf(const SystemPlan& plan, BodyId body, LinkId link, std::int32_t lss,
                                 std::int32_t triangle, const Eigen::Vector3d& p_W) const {
   const LinkId own = link - plan.first[slotOf(scratch_.spans.placeOf(body))];

@@ -28,7 +28,7 @@ struct SystemScratch {
   PieceMotions motions;
   SystemSpans spans;
   SystemPoses poses;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // of the poses' roots
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // that of the poses' roots
   Pose relativeFrom, relativeTo;
   ChainMotion motion, other;  // of the chains, or of what is seen from a mesh
   ChainMotion ofSystem;       // of the chain, where that is seen from a mesh
@@ -48,7 +48,7 @@ class SystemQuery {
   /// What each question from now on may cost; WorldOptions::workPerPair to begin with.
   void limit(std::uint64_t work) { work_ = work; }
   /// The plan of the question for the span that the scratch's spans are at, and the motions of its
-  /// chains there: scratch.motion and, of a second one, scratch.other; relative to scratch.origin.
+  /// chains there: scratch.motion and, for a second one, scratch.other; relative to scratch.origin.
   /// Null if nothing can touch. Errors: as
   /// SystemPlans::planOf().
   Result<const SystemPlan*> prepare(SystemQuestion question, BodyId a, BodyId b);
@@ -56,16 +56,16 @@ class SystemQuery {
   [[nodiscard]] bool isResolved() const;
   /// Appends to `found` what meets in the span, unless the two links are among those from `first`
   /// on. Precondition: as prepare() has left it; not Boxes. What two bodies have not got to when
-  /// the work is spent is told as one: nothing is known of the two from there on. False if it was.
+  /// the work is spent is one report: nothing is known of the two from there on. False if it was.
   bool ask(const SystemPlan& plan, BodyId a, BodyId b, std::size_t first,
            std::vector<WorldContact>& found, QueryCounters& counters);
   /// The same for those pairs of LSS of a and b (i of a's, j of b's) alone: everything else of the
-  /// two is proven apart. Pieces are those of the span's nodes. Precondition: a question of Pair.
+  /// two is proven apart. Pieces are those of the span's nodes. Precondition: the question is Pair.
   bool askAmong(const SystemPlan& plan, BodyId a, BodyId b, const MeetingPairs& meeting,
                 const std::vector<PlanePair>& open, std::size_t first,
                 std::vector<WorldContact>& found, QueryCounters& counters);
-  /// The same for all LSS of those of a's own links that `met` names. Precondition: a question of
-  /// Self.
+  /// The same for all LSS of those of a's own links that `met` names. Precondition: the question
+  /// is Self.
   void askAgain(const SystemPlan& plan, BodyId a, const std::vector<WorldContact>& met,
                 std::size_t first, std::vector<WorldContact>& found, QueryCounters& counters);
   /// The same from an instant within the span on; what meets does so then or later. False: cannot
@@ -77,8 +77,8 @@ class SystemQuery {
   void giveUp(BodyId a, BodyId b, std::vector<WorldContact>& found,
               UndecidedReason reason = UndecidedReason::Resolution) const;
 
-  /// Of Pair, the plan's first side is b; never of one body. Precondition: as prepare() has left
-  /// it.
+  /// Whether, for Pair, the plan's first side is b; never for one body. Precondition: as prepare()
+  /// has left it.
   [[nodiscard]] bool isTurned(BodyId a, BodyId b) const;
 
  private:
@@ -108,7 +108,7 @@ class SystemQuery {
   SystemPlans& plans_;
   SystemScratch& scratch_;
   std::uint64_t work_;
-  double undoneFrom_ = 1.0;  // of the two bodies that were asked last
+  double undoneFrom_ = 1.0;  // for the two bodies that were asked last
 };
 
 /// The same two links.

@@ -128,7 +128,7 @@ class WindowQuery {
     });
   }
 
-  /// Whoever may meet too many others is told once, and the pairs of such bodies are left out.
+  /// Reports each body that may meet too many others once, and leaves out pairs of such bodies.
   void leaveCrowds() {
     std::vector<std::uint32_t>& near = scratch_.numNear;
     scratch_.isCrowded.clear();
@@ -162,7 +162,7 @@ class WindowQuery {
                 pairs.end());
   }
 
-  /// Most props are far from everything: only of the others more than a rough box is needed.
+  /// Most props are far from everything: only the others need more than a rough box.
   Result<Done> sweepNear() {
     std::vector<BodyId>& near = scratch_.near;
     near.clear();
@@ -185,7 +185,7 @@ class WindowQuery {
     FORETOUCH_CHECK(forEach(scratch_.meeting.size(), [this](WindowWorker& worker, std::size_t i) {
       return askPair(worker, i);
     }));
-    // What nobody needed goes to those who need more, until that is not much more.
+    // What is left over goes to those that need more, until that is not much more.
     while (shareRest()) {
       FORETOUCH_CHECK(forEach(scratch_.undone.size(), [this](WindowWorker& worker, std::size_t i) {
         return askPair(worker, scratch_.undone[i]);
@@ -203,14 +203,14 @@ class WindowQuery {
     WorkShares& shares = scratch_.shares;
     shares.begin(world_.bodies.size());
     for (const MeetingBodies& pair : scratch_.meeting) {
-      // Who is not asked costs nothing, and takes nothing from others.
+      // A pair that is not asked costs nothing, and takes nothing from others.
       world_.isAsked(pair.a, pair.b) ? shares.add(pair.a, pair.b) : shares.addNobody();
     }
     shares.share(world_.options.workPerWindow, world_.options.workPerPair);
   }
 
-  /// False if there is nobody who gets more. All threads together have spent the same, whichever
-  /// did what.
+  /// Shares out what is left; false if none gets more. All threads together have spent the same,
+  /// whichever did what.
   bool shareRest() {
     std::uint64_t spent = 0;
     std::vector<std::size_t>& undone = scratch_.undone;

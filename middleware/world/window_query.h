@@ -17,8 +17,8 @@ void addCounters(const WorldCounters& more, WorldCounters& sum);
 /// The window can be asked about. Errors: as World::contacts().
 Result<Done> checkedWindow(const World& world, std::int64_t fromUs, std::int64_t toUs);
 
-/// As World::contacts(). `pool`: null, or who shares the work; the answer is the same.
-/// `followed`: null, or what need not be told. Errors besides: on several threads, memory ran out
+/// As World::contacts(). `pool`: null, or threads to share the work; the answer is the same.
+/// `followed`: null, or what need not be reported. More errors: on several threads, memory ran out
 /// (DeviceFailed).
 Result<Done> askWindow(const World& world, std::int64_t fromUs, std::int64_t toUs, WorkerPool* pool,
                        WorldMemory& scratch, WorldContacts& answer,

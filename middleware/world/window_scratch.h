@@ -30,7 +30,7 @@ struct alignas(128) WindowWorker {
   BodiesApart apart;
   std::vector<WorldContact> contacts;
   std::vector<UndonePair> undone;
-  std::uint64_t spent = 0;  // on pairs
+  std::uint64_t spent = 0;  // work done on pairs
   WorldCounters counters;
   FirstFailure failure{"window"};
 };
@@ -49,29 +49,29 @@ struct ContactPlace {
 struct KnownLinks {
   BodyId a = 0, b = 0;
   LinkId linkOfA = 0, linkOfB = 0;
-  /// Of motions that begin later he knows nothing: those of a body that has changed its carrier.
+  /// Motions that begin later are not known: those of a body that has changed its carrier.
   std::int64_t sinceUs = 0;
 };
 
-/// What whoever asks window after window knows by himself. Of those who met by themselves (own
-/// links, the static scene) before the window, in a motion that it is part of, he wants to hear
+/// What a caller that asks window after window knows already. Of what a body met by itself (own
+/// links, the static scene) before the window, in a motion that it is part of, it needs to hear
 /// that they may meet from its begin on, and nothing else.
 struct FollowedLinks {
-  std::vector<KnownLinks> pairs;  ///< He knows all of them in the window. By bodies.
+  std::vector<KnownLinks> pairs;  ///< All are known in the window. By bodies.
 };
 
 struct WorldMemory : ScratchPart {
   static constexpr ScratchKind kKind = ScratchKind::World;
 
-  std::uint64_t world = 0;    // whose this is
-  std::uint64_t windows = 0;  // asked so far
+  std::uint64_t world = 0;    // the identity of the world that this is about
+  std::uint64_t windows = 0;  // how many were asked so far
   SystemPlans plans;
   std::vector<BodySweep> sweeps;  // per body
   std::vector<BodyBox> boxes;     // per body, of the whole window
   BoxSweep broad;
   std::vector<MeetingBodies> meeting;
-  std::vector<std::uint32_t> numNear;  // per body, whom it may meet
-  std::vector<bool> isCrowded;         // per body; empty: nobody is
+  std::vector<std::uint32_t> numNear;  // per body, how many it may meet
+  std::vector<bool> isCrowded;         // per body; empty: none is
   WorkShares shares;
   std::vector<std::size_t> undone;  // places of pairs, in order
   std::vector<BodyId> near;         // known roughly so far, though something may be near

@@ -23,9 +23,9 @@ class WorkShares {
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
   void begin(std::size_t numBodies);
-  /// The next pair: of two bodies, or of one and what it meets by itself (`b` below 0, or `a`).
+  /// Adds the next pair: two bodies, or one and what it meets by itself (`b` below 0, or `a`).
   void add(BodyId a, BodyId b);
-  /// The next pair, which has nothing to do.
+  /// Adds the next pair, which has nothing to do.
   void addNobody() { pairs_.push_back({-1, -1}); }
   /// Each pair's weight is one over the number of pairs of that one of its two bodies that has
   /// more; its share is that part of `total`, and not above `most`.
@@ -33,8 +33,8 @@ class WorkShares {
   [[nodiscard]] std::uint64_t of(std::size_t pair) const { return shares_[pair]; }
 
   /// Gives what the `pairs`, which are not done, may spend instead, if that is at least twice as
-  /// much as they had: `total` is what all the others have left. They are in order; who gets no
-  /// more is taken out.
+  /// much as they had: `total` is what all the others have left. They are in order; any that get no
+  /// more are taken out.
   void shareAgain(std::uint64_t total, std::uint64_t most, std::vector<std::size_t>& pairs);
 
  private:
@@ -45,7 +45,7 @@ class WorkShares {
   [[nodiscard]] std::uint64_t partOf(std::uint64_t total, std::uint64_t most, double part) const;
 
   std::vector<Bodies> pairs_;
-  std::vector<std::uint32_t> countOf_;  // per body, of its pairs
+  std::vector<std::uint32_t> countOf_;  // per body, how many pairs it has
   std::vector<std::uint64_t> shares_;
 };
 

@@ -63,7 +63,7 @@ std::int32_t placeOfRules(WorldParts& parts, const PairRules& own) {
   return place;
 }
 
-/// What is known of the body ends; a body that is held fast, or taken to be somewhere, has no end.
+/// When what is known of the body ends; never, if it is held fast or taken to be somewhere.
 std::int64_t knownUntil(const WorldBody& body) {
   if (body.episodes.empty() || body.options.whenSilent != WhenSilent::Wait) return kNever;
   const Episode& last = body.episodes.back();

@@ -48,7 +48,7 @@ class World {
   /// A rigid prop: the triangles touch, in its own frame. It meets avatars; two meshes are asked
   /// whether they meet, and a mesh and the static scene, where WorldOptions::askMeshes says so.
   /// O(n log n) for each new mesh of n triangles: 30 ms for 10,000.
-  /// Errors: as above, and own links, which it has none of, and a surface besides; a mesh that is
+  /// Errors: as above; own links, of which it has none, a surface, or a skin; a mesh that is
   /// so large that the LSS around it leaves kMaxCoordinate (OutOfRange).
   Result<BodyId> add(const Scene& mesh, const BodyOptions& options = {});
   [[nodiscard]] std::int32_t numBodies() const;
@@ -56,7 +56,7 @@ class World {
   /// The body's next pose: in W, or in the frame of what carries it and lets it move. Errors: as
   /// Track::push(), an unknown body (Error::index), and a body that is carried and held fast.
   Result<Done> push(BodyId body, std::int64_t utimeUs, const Pose& pose);
-  /// The same of a body of one joint, as every mesh is.
+  /// The same for a body of one joint, as every mesh is.
   Result<Done> push(BodyId body, std::int64_t utimeUs, const RigidPose& pose);
 
   /// From `utimeUs` on, the body is carried; `pose` is its pose there in the frame of the carrier's
@@ -76,7 +76,7 @@ class World {
   /// Whether bodies of two groups are asked if they meet; everything is, to begin with. Errors: a
   /// group out of range.
   Result<Done> ask(BodyGroup a, BodyGroup b, bool isAsked);
-  /// The same of bodies of a group and the static scene.
+  /// The same for bodies of a group and the static scene.
   Result<Done> askStill(BodyGroup group, bool isAsked);
 
   /// All is known, or taken to be, until here: the earliest last pose of the bodies that wait for
@@ -90,7 +90,7 @@ class World {
   /// for these. Depends on the poses alone, not on the order in which they came, nor on how many
   /// threads share the work. Allocates nothing once the scratch and the answer have grown, as long
   /// as no body is added or carried in another way. The promise: docs/guarantees.md 15. Errors,
-  /// which name who or what: a window without length, that begins where it has forgotten, or
+  /// which name what is wrong: a window without length, that begins where it has forgotten, or
   /// ends after knownUntilUs(); carriers whose chains are too deep together; on a pool, memory ran
   /// out (DeviceFailed): the answer then means nothing. The world must not change meanwhile.
   Result<Done> contacts(std::int64_t fromUs, std::int64_t toUs, Scratch& scratch,
@@ -109,22 +109,22 @@ class World {
   [[nodiscard]] Result<WorldDepth> depth(const WorldTime& time, const DepthQuestion& question,
                                          Scratch& scratch) const;
 
-  /// Lets go of what no window from `utimeUs` on needs, nor a body that is put elsewhere there, to
-  /// say where it was. Poses at or before it are refused from now on, and so are windows that
+  /// Lets go of what no window from `utimeUs` on needs, but for where a body was that is put
+  /// elsewhere there. Poses at or before it are refused from now on, and so are windows that
   /// begin before it.
   void forgetBefore(std::int64_t utimeUs);
   /// The same by memory: lets go of the oldest poses of all until poseBytes() is at most `bytes`,
   /// or nothing is left before knownUntilUs(). Returns the instant before which it has forgotten.
   std::int64_t forgetBeyond(std::size_t bytes);
-  /// What the poses that are kept take: of a pose of n joints 56 n + 256, an allocator's share
+  /// The bytes that the kept poses take: a pose of n joints takes 56 n + 256, an allocator's share
   /// included. O(bodies).
   [[nodiscard]] std::size_t poseBytes() const;
 
   /// Lets go of poses before `utimeUs` between others that say nearly the same: no point of any
   /// body, of what it carries included, is ever farther than `metres` from where all poses that
-  /// were pushed have it, however often this is called (world.md 7). What is answered about
-  /// instants from `utimeUs` on is the same, to the bit; about earlier ones, from now on, what is
-  /// true of the motion that is left. First and last poses are kept, and those at which a carrier
+  /// were pushed have it, however often this is called (world.md 7). Answers about instants from
+  /// `utimeUs` on stay the same, to the bit; those about earlier ones are, from now on, true of the
+  /// motion that is left. First and last poses are kept, and those at which a carrier
   /// changes. Bodies can no longer be attached before `utimeUs`. Errors: metres that are not
   /// finite, or below 0. O(joints) per pose that is new since the last call.
   Result<Done> thinBefore(std::int64_t utimeUs, double metres);

@@ -84,13 +84,13 @@ struct SilentBody {
 };
 
 struct WorldCounters {
-  std::uint64_t bodies = 0;     ///< Whose swept boxes were found.
+  std::uint64_t bodies = 0;     ///< Bodies whose swept boxes were found.
   std::uint64_t pairs = 0;      ///< Pairs of bodies, asked, whose boxes meet.
   std::uint64_t nearPairs = 0;  ///< Those with two LSS whose boxes meet.
-  std::uint64_t spans = 0;      ///< Asked of a pair or of a body alone, from knot to knot.
+  std::uint64_t spans = 0;      ///< Spans asked of a pair or of a body alone, from knot to knot.
   QueryCounters queries;        ///< What all of these took.
-  /// What this answer took, in the units of WorldOptions::workPerWindow: the others count what an
-  /// earlier window has found out as well, and this does not.
+  /// What this answer took, in the units of WorldOptions::workPerWindow: unlike the others, it does
+  /// not count what an earlier window has found out.
   std::uint64_t work = 0;
 };
 

@@ -16,7 +16,7 @@ using internal::Episode;
 using internal::WorldBody;
 using internal::WorldParts;
 
-/// Of a pose of n joints: 32 of a rotation and 24 of a translation each; the rest is the knot's
+/// A pose of n joints has 32 for a rotation and 24 for a translation each; the rest is the knot's
 /// own, in a ring that may be half empty, and an allocator's. AskHistory.* hold it.
 constexpr std::size_t kBytesPerJoint = 56, kBytesPerPose = 256;
 
@@ -60,7 +60,7 @@ struct Stay {
   [[nodiscard]] int moves() const { return episode->isHeldFast() ? 0 : 1; }
 };
 
-/// Who hangs on whom, and when. Nobody hangs on himself at one instant, so what asks along chains
+/// What hangs on what, and when. No body hangs on itself at an instant, so a search along chains
 /// of stays that share one ends.
 class Hanging {
  public:
@@ -102,7 +102,7 @@ class Hanging {
     return reach;
   }
 
-  /// How many bodies of a chain through this one have motions of their own, of the longest chain.
+  /// How many bodies of the longest chain through this one have motions of their own.
   [[nodiscard]] int levels(const Stay& stay) const {
     return above(stay) + stay.moves() + below(stay);
   }
@@ -118,7 +118,7 @@ class Hanging {
       if (!shared.isEmpty()) take(shared);
     }
   }
-  /// From the frame that it hangs in, to the farthest point of it and of what hangs on it (m).
+  /// How far it and what hangs on it reach from the frame that it hangs in (m).
   [[nodiscard]] double extentOf(const Stay& stay) const {
     const Track& track = stay.episode->track;
     const std::vector<double> reach = reachOf(stay);
@@ -156,7 +156,7 @@ class Hanging {
 
   const WorldParts& world_;
   std::int64_t untilUs_;
-  std::vector<Stay> carried_;  // by who carries them
+  std::vector<Stay> carried_;  // by their carriers
 };
 
 }  // namespace
@@ -164,7 +164,7 @@ class Hanging {
 void World::forgetBefore(std::int64_t utimeUs) {
   ++parts_->changes;
   parts_->forgottenUs = std::max(parts_->forgottenUs, utimeUs);
-  // The motions that end there, too: of who is put elsewhere there, the last place is told.
+  // Keeps the motions that end there, too: a body put elsewhere there has its last place reported.
   const std::int64_t keptUs = std::max(utimeUs, -kMostUtimeUs) - 1;
   for (WorldBody& body : parts_->bodies) {
     std::vector<Episode>& episodes = body.episodes;

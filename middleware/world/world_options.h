@@ -37,9 +37,9 @@ struct WorldOptions {
   /// thousandth of it; a mesh of many kilometres that turns takes more than any budget.
   std::uint64_t workPerPair = kDefaultWorkPerPair;
   /// Work that all pairs of bodies of one window may cost together; without a bound unless set.
-  /// Each pair has a share: one part of it per body, and of a body that is near many others, one
-  /// part for all its pairs. So a heap of bodies leaves those beside it their answers. What some
-  /// leave over goes to those who need more. Who follows the world (WorldFollower) may spend as
+  /// Each pair has a share: one part of it per body; a body that is near many others has one part
+  /// for all its pairs. So a heap of bodies leaves those beside it their answers. What some
+  /// leave over goes to those that need more. What follows the world (WorldFollower) may spend as
   /// much again. With thousands of pairs and a small budget, most are undecided without a look.
   std::uint64_t workPerWindow = std::numeric_limits<std::uint64_t>::max();
   /// A body that may meet more than so many others in a window is crowded; without a bound unless
@@ -53,12 +53,12 @@ inline constexpr double kMinWorldTolerance = 1e-8;
 struct BodyOptions {
   BodyGroup group = 0;
   WhenSilent whenSilent = WhenSilent::Wait;
-  /// Asks whether own links touch each other. Of the same avatar.
+  /// Asks whether own links touch each other. The same avatar's.
   std::optional<PairRules> self;
   /// The avatar touches by these triangles (exact fidelity), whatever it meets, and so do its own
   /// links; an LSS that holds none of its link's triangles is its own surface. Nothing: by its LSS.
   std::optional<AvatarSurface> surface;
-  /// Of the same avatar: what questions at an instant (askWorld()) meet of the links that have
+  /// The same avatar's: what questions at an instant (askWorld()) meet of the links that have
   /// triangles of it, bent as it is then. First contacts, events and depths go by the LSS or the
   /// surface, as if there were no skin.
   std::optional<SkinnedSurface> skin;
@@ -66,7 +66,7 @@ struct BodyOptions {
   bool isVolume = false;
 };
 
-/// Who moves a body.
+/// What moves a body.
 struct Carrier {
   BodyId body = 0;
   LinkId link = 0;

@@ -16,7 +16,7 @@
 namespace foretouch::internal {
 namespace {
 
-/// Of the axes of clusters and parts.
+/// The reach of the axes of clusters and parts.
 double reachOfAxes(const BlendTable& blends) {
   double reach = 0.0;
   const auto take = [&](const BlendedLss& blend) {
@@ -37,7 +37,7 @@ void measure(BodyKind& kind) {
   for (const std::vector<Lss>& link : kind.carried) kind.rho = std::max(kind.rho, reachOf(link));
 }
 
-/// Of one link, whose one LSS holds the triangles that `held` names.
+/// The surface of one link, whose one LSS holds the triangles that `held` names.
 AvatarSurface surfaceOf(std::vector<Triangle> triangles, std::vector<std::int32_t> held) {
   auto parts = std::make_shared<SurfaceParts>();
   parts->numTriangles = triangles.size();
@@ -47,7 +47,7 @@ AvatarSurface surfaceOf(std::vector<Triangle> triangles, std::vector<std::int32_
   return AvatarSurface(std::move(parts));
 }
 
-/// The first one that begins after the instant.
+/// The first episode that begins after the instant.
 std::vector<Episode>::const_iterator episodeAfter(const std::vector<Episode>& episodes,
                                                   std::int64_t utimeUs) {
   return std::upper_bound(
@@ -110,7 +110,7 @@ Result<BodyKind> bodyKindOf(const Scene& mesh, bool meetsMeshes) {
     finite.push_back(static_cast<std::int32_t>(i));
   }
   kind.volumes = {{fitLss(points)}};
-  // Chains are made of it later, where nobody could be told.
+  // Chains are made of it later, where no error could be returned.
   if (!Avatar::build(kind.skeleton, kind.volumes).ok()) {
     return Error::in("mesh", ErrorCode::OutOfRange,
                      "the LSS around the mesh has a coordinate or radius beyond 1e7 m; expected a "

@@ -23,10 +23,10 @@ struct BodyKind {
   std::optional<Avatar> avatar;
   std::optional<Scene> mesh;              // where there is no avatar
   std::vector<std::vector<Lss>> volumes;  // per link: contain what touches
-  // Of an avatar that brings one, and of a mesh that is a link with triangles; else nothing.
+  // For an avatar that brings one, and for a mesh that is a link with triangles; else nothing.
   std::optional<AvatarSurface> surface;
-  std::vector<LinkId> linkOf;  // of each of them
-  // Of an avatar that brings one; and, per link, what it carries of it (BlendTable::carried()).
+  std::vector<LinkId> linkOf;  // the link of each of them
+  // For an avatar that brings one; and, per link, what it carries of it (BlendTable::carried()).
   std::optional<SkinnedSurface> skin;
   std::vector<std::vector<Lss>> carried;
   double rho = 0.0;  // no point of all these is farther from its link's origin
@@ -50,7 +50,7 @@ inline constexpr std::size_t kMostSpinningTriangles = 100'000;
 /// The triangles by which a link touches; null: by its LSS.
 [[nodiscard]] const LinkSurface* surfaceOf(const BodyKind& kind, LinkId link);
 
-/// Of an avatar, by its LSS or by its surface; and of a mesh.
+/// The kind of an avatar, which touches by its LSS or by its surface; and of a mesh.
 [[nodiscard]] BodyKind bodyKindOf(const Avatar& avatar, const BodyOptions& options);
 /// Error (OutOfRange): the LSS around the mesh, which is larger than the mesh, leaves the limit.
 Result<BodyKind> bodyKindOf(const Scene& mesh, bool meetsMeshes);
@@ -60,7 +60,7 @@ struct Episode {
   std::int64_t beginUs = 0;
   std::optional<Carrier> carrier;
   Track track;  // in the frame of the carrier's link; the first knot is at beginUs
-  /// It keeps its place in the carrier's frame.
+  /// Whether it keeps its place in the carrier's frame.
   [[nodiscard]] bool isHeldFast() const { return carrier && !carrier->movesInFrame; }
 };
 
@@ -83,7 +83,7 @@ struct WorldParts {
   WorldOptions options;
   std::vector<BodyKind> kinds;
   std::size_t mostLss = 0;       // of any kind
-  std::vector<PairRules> rules;  // of own links, no two alike
+  std::vector<PairRules> rules;  // for own links, no two alike
   std::vector<WorldBody> bodies;
   std::array<std::uint32_t, kNumBodyGroups> asked{};  // bit b of row a
   std::uint32_t askedStill = 0;
@@ -94,16 +94,16 @@ struct WorldParts {
 
   [[nodiscard]] const WorldBody& body(BodyId id) const { return bodies[slotOf(id)]; }
   [[nodiscard]] const BodyKind& kindOf(BodyId id) const { return kinds[slotOf(body(id).kind)]; }
-  /// The body, who carries it at the instant, who carries him, and so on up; they replace `chain`.
-  /// Whoever is not there is the last one. Never a circle: World::attach() refuses those.
+  /// The body, its carrier at the instant, that one's carrier, and so on up; they replace `chain`.
+  /// One that is not there is the last one. Never a circle: World::attach() refuses those.
   void chainAt(BodyId id, std::int64_t utimeUs, std::vector<BodyId>& chain) const;
   /// Until when the chain of the instant is the same: one of it appears, or changes its carrier,
   /// there. INT64_MAX if none does.
   [[nodiscard]] std::int64_t chainEndUs(const std::vector<BodyId>& chain,
                                         std::int64_t utimeUs) const;
-  /// Of two different bodies, by their groups and by what they are made of.
+  /// Whether two different bodies are asked, by their groups and by what they are made of.
   [[nodiscard]] bool isAsked(BodyId a, BodyId b) const;
-  /// Of a body and the static scene, likewise.
+  /// The same for a body and the static scene.
   [[nodiscard]] bool isStillAsked(BodyId id) const;
 };
 
