@@ -89,8 +89,8 @@ struct PathAnswer {
 /// scratch of its own.
 class EdgeQuery {
  public:
-  /// Errors: as Query::build(), also of a prop and its scene; a clearance that is negative or not
-  /// finite; those of place() (Error::index is the prop).
+  /// Errors: as Query::build(), also of a prop and its scene; a clearance that is not from 0 to
+  /// 1e7 m; those of place() (Error::index is the prop).
   static Result<EdgeQuery> build(const Robot& robot, const Scene& scene,
                                  const EdgeOptions& options = {});
 

@@ -21,7 +21,7 @@ struct FollowOptions {
   /// microseconds, up to kMostCutUs: less work for many bodies with clocks of their own; what is
   /// after the last multiple waits. One call follows at most kMostCuts of them.
   std::int64_t cutUs = 0;
-  /// At most so many windows per call: the last one takes all that is left. Above 0.
+  /// At most so many windows per call: the last one takes all that is left.
   std::uint64_t mostWindows = std::numeric_limits<std::uint64_t>::max();
   /// In [1, kMaxPoolThreads] (worker_pool.h), the calling one among them.
   int threads = 1;

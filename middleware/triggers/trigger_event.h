@@ -44,7 +44,7 @@ struct TriggerCounters {
 };
 
 struct TriggerEvents {
-  /// Earliest first; at one instant what ends before what begins, then by trigger, body and link.
+  /// Earliest first; at one instant: ends, begins, then ends of what began there; then by trigger.
   std::vector<TriggerEvent> events;
   TriggerCounters counters;
 };
