@@ -232,7 +232,7 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--count", type=int, default=40, help="mutants drawn; those that cannot be compiled in are left out")
     arguments.add_argument("--seed", type=int, default=1)
-    arguments.add_argument("--folders", default="lss,articulated,tessellation,verify")
+    arguments.add_argument("--folders", default=",".join(FOLDERS))
     arguments.add_argument("--programs", default="", help="these test programs alone")
     arguments.add_argument("--jobs", type=int, default=os.cpu_count(), help="tests that run at a time")
     arguments.add_argument("--patience", type=float, default=120, help="seconds of tests per mutant, at most")
