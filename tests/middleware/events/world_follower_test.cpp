@@ -110,6 +110,28 @@ TEST(WorldFollower, TellsWhenWhereAndHowHardTwoMeet) {
   EXPECT_TRUE(follower.open().empty());
 }
 
+// The same ball twice is twice the pairs, looked at in the same instants.
+TEST(WorldFollower, CountsInstantsAndNotThePairsLookedAtInThem) {
+  const auto countersOf = [](const Avatar& standing) {
+    World world = worldOf();
+    const BodyId one = world.add(ball(0.1)).value(), other = world.add(standing).value();
+    for (const int i : {0, 1, 2}) {
+      EXPECT_TRUE(world.push(one, 100'000 * i, at(i == 1 ? 2.0 : 0.0, 0.05)).ok());
+      EXPECT_TRUE(world.push(other, 100'000 * i, at(1.0)).ok());
+    }
+    WorldFollower follower = followerFrom(0);
+    const WorldEvents answer = followed(follower, world, 200'000);
+    EXPECT_EQ(kindsOf(answer), "enter leave enter leave ");
+    return answer.counters;
+  };
+  const Lss lss{Vector3d::Zero(), Vector3d::Zero(), 0.1};
+  const EventCounters once = countersOf(bodyOf({lss})), twice = countersOf(bodyOf({lss, lss}));
+  EXPECT_EQ(twice.freeLooks, once.freeLooks);
+  EXPECT_EQ(twice.contactLooks, once.contactLooks);
+  EXPECT_GT(twice.pairs, once.pairs);
+  EXPECT_GT(once.freeLooks, 2u);
+}
+
 // A ball passes them within one motion, and each of them is entered and left.
 TEST(WorldFollower, TellsEveryThinSheet) {
   const std::vector<double> places = {0.1, 0.2, 0.3, 0.4, 0.5};
