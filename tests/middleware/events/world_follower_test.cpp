@@ -398,6 +398,30 @@ TEST(WorldFollower, LeavesUnresolvedWhatCostsTooMuch) {
   }
 }
 
+// Along a row of balls, which it touches to the end: where the work ends, the contact is lost.
+TEST(WorldFollower, AContactThatIsLostIsNotLeft) {
+  std::vector<Lss> row;
+  for (int i = 0; i < 40; ++i) {
+    row.push_back({Vector3d(0.1 * i, 0, 0), Vector3d(0.1 * i, 0, 0), 0.1});
+  }
+  int lost = 0;
+  for (double work = 1.0; work < 1e6; work *= 1.2) {
+    WorldOptions options;
+    options.workPerPair = static_cast<std::uint64_t>(work);
+    World world = World::build(std::nullopt, options).value();
+    const BodyId one = world.add(ball(0.1)).value(), other = world.add(bodyOf(row)).value();
+    for (const int i : {0, 1}) {
+      ASSERT_TRUE(world.push(one, 100'000 * i, at(-1.0 + 4.0 * i, 0.15)).ok());
+      ASSERT_TRUE(world.push(other, 100'000 * i, at(0.0)).ok());
+    }
+    WorldFollower follower = followerFrom(0);
+    const std::string kinds = kindsOf(followed(follower, world, 100'000));
+    EXPECT_EQ(kinds.find("leave"), std::string::npos) << work << ": " << kinds;
+    lost += kinds == "enter unresolved_from " ? 1 : 0;
+  }
+  EXPECT_GT(lost, 0);
+}
+
 // With a few units of work nobody is looked at; when the budget is for more, what touches starts
 // inside: nobody saw it enter.
 TEST(WorldFollower, FindsInsideWhomItHadGivenUp) {
@@ -627,6 +651,17 @@ TEST(WorldFollower, RefusesMoreCutsThanItCouldEverFollow) {
   WorldFollower whole = WorldFollower::start(-kMostUtimeUs).value();
   ASSERT_TRUE(whole.follow(world, kMostUtimeUs, answer).ok());  // nothing is cut
   EXPECT_EQ(answer.counters.windows, 1u);
+}
+
+TEST(WorldFollower, CutsWhereABodyAppears) {
+  World world = worldOf();
+  const BodyId there = world.add(ball(0.1)).value(), late = world.add(ball(0.1)).value();
+  ASSERT_TRUE(world.push(there, 0, at(0.0)).ok());
+  ASSERT_TRUE(world.push(there, 100'000, at(1.0)).ok());
+  ASSERT_TRUE(world.push(late, 30'000, at(5.0)).ok());
+  ASSERT_TRUE(world.push(late, 100'000, at(5.0)).ok());
+  WorldFollower follower = followerFrom(0);
+  EXPECT_EQ(followed(follower, world, 100'000).counters.windows, 2u);
 }
 
 TEST(WorldFollower, CutsAtTheEndsOfTimeToo) {
