@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "tests/middleware/ask/asked.h"
+#include "tests/support/random_geometry.h"
 
 namespace foretouch {
 namespace {
@@ -105,6 +107,32 @@ TEST(Ask, FarAwayNothingIsMissedEither) {
     ASSERT_FALSE(rod.hits.empty()) << i;
     EXPECT_EQ(rod.hits.front().what.body, body);
     EXPECT_LT(rod.hits.front().distance, (onAxis - from).norm() - 0.09);
+  }
+}
+
+// Beside an edge of a kilometre, in its triangle's plane: the nearest points tell where to, but to
+// so few digits that a plane across their difference cuts the edge.
+TEST(Ask, BesideALongEdgeNothingIsHitThatIsNotTouched) {
+  for (int i = 0; i < 100; ++i) {
+    SCOPED_TRACE(i);
+    test::Random random(static_cast<std::uint64_t>(i));
+    const Eigen::Matrix3d R = random.rotation().toRotationMatrix();
+    const Vector3d along = R.col(0), outward = R.col(1);
+    const double gap = random.magnitude(1e-7, 1e-3);
+    const Vector3d corners[3] = {-500.0 * along, 500.0 * along, -300.0 * outward};
+    RawScene raw;
+    raw.objectNames = {"flag"};
+    raw.triangles = {{{corners[i % 3], corners[(i + 1) % 3], corners[(i + 2) % 3]}}};
+    raw.objectOf = {0};
+    const World world = World::build(Scene::build(std::move(raw)).value()).value();
+    const Vector3d beside = gap * outward + random.uniform(-400.0, 400.0) * along;
+    WorldQuestion question;
+    question.what = AskWhat::Nearest;
+    question.shape = {beside, beside, 0.0};
+    question.reach = gap - 1e-9;
+    EXPECT_EQ(ask(world, question).verdict(), AskVerdict::Clear);
+    question.reach = gap + 1e-9;
+    EXPECT_EQ(ask(world, question).verdict(), AskVerdict::Hit);
   }
 }
 
@@ -224,7 +252,9 @@ TEST(Ask, RefusesByName) {
   EXPECT_NE(with([&](Q& q) { q.shape.radius = -1e-9; }).find("radius"), std::string::npos);
   EXPECT_NE(with([&](Q& q) { q.reach = infinite; }).find("finite reach"), std::string::npos);
   EXPECT_NE(with([&](Q& q) { q.reach = 0.0; }).find("reach"), std::string::npos);
-  EXPECT_NE(with([&](Q& q) { q.reach = 2e8; }).find("1e8"), std::string::npos);
+  EXPECT_EQ(with([&](Q& q) { q.reach = kMostAskReach; }), "");
+  const double tooFar = std::nextafter(kMostAskReach, infinite);
+  EXPECT_NE(with([&](Q& q) { q.reach = tooFar; }).find("1e8"), std::string::npos);
   EXPECT_NE(with([&](Q& q) { q.time.fraction = 1.0; }).find("fraction"), std::string::npos);
   EXPECT_NE(with([&](Q& q) { q.without = {{7}}; }).find("body 7"), std::string::npos);
   EXPECT_NE(with([&](Q& q) { q.only = {{body, 3}}; }).find("found 3"), std::string::npos);

@@ -178,6 +178,60 @@ TEST_F(BallOverPlate, AShrunkRadiusBelowZeroIsCertainOfAPassageAlone) {
   EXPECT_EQ(ask(0.0, 0.0, bound).verdict, BracketVerdict::Certain);
 }
 
+// The ball dips: y(t) = y0 - 4 dip t (1 - t), which pieces of a constant rate cut across.
+TEST_F(BallOverPlate, WhatPiecesCutOffADipIsNotLost) {
+  constexpr double kMost = 0.02, kError = 0.002, kNear = 1e-3;
+  LinkBound bound;
+  bound.acceleration = 8.0 * kMost / (kStepS * kStepS);
+  bound.error = kError;
+  for (const double dip : {0.001, 0.004, 0.01, 0.03, 0.1}) {
+    for (const bool isTouched : {false, true}) {
+      SCOPED_TRACE(testing::Message() << dip << ", " << isTouched);
+      const double y0 = kRadius + dip + kMost + kError + (isTouched ? -kNear : kNear);
+      const Pose around = poseAt(y0 + 8.0 * dip), at = poseAt(y0);
+      const PosedStep step{&around, &at, &at, &around, kStepS, kStepS, kStepS};
+      ASSERT_TRUE(query_.answer(step, MotionModel::CubicLate, {bound}, scratch_, brackets_).ok());
+      const LinkBracket& bracket = brackets_.links.front();
+      if (!isTouched) {
+        EXPECT_EQ(bracket.verdict, BracketVerdict::Excluded);
+        continue;
+      }
+      ASSERT_EQ(bracket.verdict, BracketVerdict::Possible);
+      // gap(t) = y0 - error - radius - 4 (dip + most) t (1 - t) = 0
+      const double share = 1.0 - kNear / (dip + kMost);
+      const double first = 0.5 - 0.5 * std::sqrt(1.0 - share);
+      EXPECT_LE(bracket.possibleFrom, first);
+      EXPECT_GE(bracket.possibleUntil, 1.0 - first);
+    }
+  }
+}
+
+// The ball goes y(t) = 0.3 - t/2 - 0.3 t^2 + t^3/5, which bends: a few pieces stand for it.
+TEST_F(BallOverPlate, APassageIsToldByInstantsThatItSurelyLiesBetween) {
+  const Pose before = poseAt(0.7), from = poseAt(0.3), to = poseAt(-0.3), after = poseAt(-0.7);
+  const PosedStep step{&before, &from, &to, &after, kStepS, kStepS, kStepS};
+  const auto height = [](double t) { return 0.3 - t * (0.5 + t * (0.3 - 0.2 * t)); };
+  constexpr double kParts = 2.0 / 16.0;  // one, and what pieces stray meanwhile
+  for (const double most : {0.02, 0.05, 0.1}) {
+    for (const double error : {1.01 * kRadius, 0.15, 0.2}) {
+      SCOPED_TRACE(testing::Message() << most << ", " << error);
+      LinkBound bound;
+      bound.acceleration = 8.0 * most / (kStepS * kStepS);
+      bound.error = error;
+      ASSERT_TRUE(query_.answer(step, MotionModel::CubicLate, {bound}, scratch_, brackets_).ok());
+      const LinkBracket& bracket = brackets_.links.front();
+      ASSERT_EQ(bracket.verdict, BracketVerdict::Certain);
+      const auto rho = [&](double t) { return rhoAt(most, error, t); };
+      const double front = firstRoot([&](double t) { return height(t) - rho(t); });
+      const double behind = firstRoot([&](double t) { return height(t) + rho(t); });
+      EXPECT_LE(bracket.certainUntil, front) << "it may touch sooner";
+      EXPECT_GE(bracket.certainUntil, front - kParts);
+      EXPECT_GE(bracket.certainFrom, behind) << "it may touch later";
+      EXPECT_LE(bracket.certainFrom, behind + kParts);
+    }
+  }
+}
+
 TEST_F(BallOverPlate, WithoutABoundNothingIsClaimed) {
   EXPECT_EQ(ask(5.0, 5.0, {}).verdict, BracketVerdict::Unclaimed);
   LinkBound bound;

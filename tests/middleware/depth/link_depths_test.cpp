@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -287,6 +290,89 @@ TEST(LinkDepths, OfACapsuleWithoutAMeshInABox) {
   EXPECT_NEAR(depth.upper, 0.05, 1e-9);
   EXPECT_NEAR(depth.lower, 0.05, 1e-6);
   EXPECT_LE(depth.lower, 0.05);
+}
+
+/// Two cubes of a metre, one 0.8 m over the other at the end of a long arm, which many joints turn
+/// by a whole turn, or nearly.
+struct CubeOnLongArm {
+  static constexpr int kTurns = 240;
+  static constexpr double kArm = 1e5, kOver = 0.8;
+  Quaternion turn;
+  Avatar avatar;
+  Pose pose;
+
+  explicit CubeOnLongArm(int wholeTurns) : turn(turnOf(wholeTurns)), avatar(build()) {
+    pose = restPose(avatar.skeleton());
+    for (int i = 0; i < kTurns; ++i) pose.rotations[slotOf(i + 2)] = turn;
+    pose = validatedPose(avatar.skeleton(), pose).value();
+    turn = pose.rotations[2];
+  }
+  /// By which the last joint is higher than its rest has it.
+  [[nodiscard]] long double rise() const {
+    const long double angle = 2.0L * std::atan2(static_cast<long double>(turn.z()), turn.w());
+    return kArm * std::sin(kTurns * angle) + kOver * (std::cos(kTurns * angle) - 1.0L);
+  }
+
+ private:
+  static Quaternion turnOf(int wholeTurns) {
+    const double half = test::kPi * wholeTurns / kTurns;
+    return {std::cos(half), 0.0, 0.0, std::sin(half)};
+  }
+  static Avatar build() {
+    RawSkeleton raw;
+    raw.joints = {{"cube", kNoParent, Vector3d::Zero(), Quaternion::Identity()},
+                  {"arm", 0, Vector3d(-kArm, 0.0, 0.0), Quaternion::Identity()}};
+    for (int i = 0; i < kTurns; ++i) {
+      raw.joints.push_back({"turn " + std::to_string(i),
+                            static_cast<JointId>(raw.joints.size()) - 1, Vector3d::Zero(),
+                            Quaternion::Identity()});
+    }
+    raw.joints.push_back({"over", kTurns + 1, Vector3d(kArm, kOver, 0.0), Quaternion::Identity()});
+    std::vector<std::vector<Lss>> lss(raw.joints.size());
+    lss.front() = lss.back() = {{Vector3d::Zero(), Vector3d::Zero(), 1.0}};
+    return Avatar::build(Skeleton::build(raw).value(), lss).value();
+  }
+};
+
+TEST(LinkDepths, HoldWhatALongChainRounds) {
+  const Mesh cube = box(-0.5 * Vector3d::Ones(), 0.5 * Vector3d::Ones());
+  int far = 0;
+  for (int wholeTurns = 1; wholeTurns < 40; ++wholeTurns) {
+    SCOPED_TRACE(wholeTurns);
+    const CubeOnLongArm arm(wholeTurns);
+    const LinkId last = arm.avatar.numLinks() - 1;
+    std::vector<Mesh> meshes(countOf(arm.avatar.numLinks()));
+    meshes.front() = meshes.back() = cube;
+    const AvatarSurface surface = AvatarSurface::build(arm.avatar, meshes).value();
+    const ChainMotion motion(arm.avatar.skeleton(), arm.pose, arm.pose);
+    const double over = motion.stateAt(last, 0.0).p_WL.y();
+    const auto truth = static_cast<double>(1.0L - CubeOnLongArm::kOver - arm.rise());
+    // More than what the cubes' own sizes round.
+    far += std::abs(1.0 - over - truth) > 1e-9 ? 1 : 0;
+    for (const auto& [a, b] : {std::pair{LinkId{0}, last}, std::pair{last, LinkId{0}}}) {
+      const LinkDepth depth = LinkDepths(arm.avatar, surface).at(motion, 0.0, a, b);
+      EXPECT_LE(depth.lower, truth);
+      EXPECT_GE(depth.upper, truth);
+      EXPECT_NEAR(depth.lower, depth.upper, 1e-5);
+    }
+  }
+  EXPECT_GT(far, 10);
+}
+
+TEST(LinkDepths, OfABallWithoutAMeshInTheLegOfAnAngle) {
+  RawSkeleton raw;
+  raw.joints = {{"angle", kNoParent, Vector3d::Zero(), Quaternion::Identity()},
+                {"ball", 0, Vector3d(0.3, 0.05, 0.1), Quaternion::Identity()}};
+  const Lss large{Vector3d::Zero(), Vector3d::Zero(), 10.0};
+  const Lss ball{Vector3d::Zero(), Vector3d::Zero(), 0.03};
+  const Avatar avatar = Avatar::build(Skeleton::build(raw).value(), {{large}, {ball}}).value();
+  const AvatarSurface surface = AvatarSurface::build(avatar, {angled(), {}}).value();
+  const Pose rest = restPose(avatar.skeleton());
+  const LinkDepth depth =
+      LinkDepths(avatar, surface).at(ChainMotion(avatar.skeleton(), rest, rest), 0.0, 0, 1);
+  // Out of the leg's middle, on either side.
+  EXPECT_LE(depth.lower, 0.05 + 0.03);
+  EXPECT_GE(depth.lower, 0.95 * (0.05 + 0.03));
 }
 
 }  // namespace

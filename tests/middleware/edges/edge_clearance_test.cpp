@@ -168,6 +168,30 @@ TEST(EdgeClearance, SeesPropsWhereTheyAre) {
   EXPECT_NEAR(clearance.p_WScene.x(), 1.25, 0.01);
 }
 
+// The arm points straight at a wire, two metres from its base.
+TEST(EdgeClearance, OfAPropIsNeverMoreThanItIs) {
+  const Place far = wires({{5.0, 5.0}}), wire = wires({{0.0, 0.0}});
+  constexpr double kTruth = 2.0 - 3 * 0.4 - 0.03, kRounding = 1e-12;
+  EdgeOptions options;
+  options.clearanceTolerance = 1e-8;
+  options.props = {{wire.scene, std::nullopt, {}}};
+  auto edges = EdgeQuery::build(arm(), far.scene, options).value();
+  Scratch scratch;
+  for (int i = 0; i < 20; ++i) {
+    const double angle = 0.3 * i - 3.0;
+    const Eigen::Vector3d place(2.0 * std::cos(angle), 2.0 * std::sin(angle), 0.0);
+    const Quaternion turn(std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle));
+    ASSERT_TRUE(edges.place(0, RigidPose{turn, place}).ok());
+    const double from[3] = {angle, 0.0, 0.0}, away[3] = {angle + 0.01, 0.0, 0.0};
+    for (const double* const to : {from, away}) {
+      const EdgeClearance clearance = edges.clearance(from, to, 3, scratch).value();
+      EXPECT_LE(clearance.lower, kTruth + kRounding) << angle;
+      EXPECT_GE(clearance.upper, kTruth - kRounding) << angle;
+      EXPECT_NEAR(clearance.lower, clearance.upper, 1.1e-8) << angle;
+    }
+  }
+}
+
 TEST(EdgeClearance, LooksNoFartherThanItIsTold) {
   const Place place = wires({{3.0, 0.0}});
   EdgeOptions options;

@@ -239,6 +239,11 @@ TEST(EdgeQuery, AnswersAPropAsTheSameTrianglesOfTheScene) {
   EXPECT_NEAR(one.freeUntil, other.freeUntil, 1e-6);
   EXPECT_EQ(other.prop, 0);
   EXPECT_EQ(other.contact.other, -1);
+  // Of two that are met at once, the first.
+  EdgeOptions twice = options;
+  twice.props.push_back(twice.props[0]);
+  const auto both = EdgeQuery::build(robot, far.scene, twice).value();
+  EXPECT_EQ(both.answer(q0, q1, scratch).value().prop, 0);
   // Out of the way, or not there; a copy keeps its own places.
   ASSERT_TRUE(posed.place(0, RigidPose{Quaternion::Identity(), {5.0, 0.0, 0.0}}).ok());
   EXPECT_EQ(posed.answer(q0, q1, scratch).value().verdict, Verdict::Clear);

@@ -110,6 +110,28 @@ TEST(WorldFollower, TellsWhenWhereAndHowHardTwoMeet) {
   EXPECT_TRUE(follower.open().empty());
 }
 
+// The same ball twice is twice the pairs, looked at in the same instants.
+TEST(WorldFollower, CountsInstantsAndNotThePairsLookedAtInThem) {
+  const auto countersOf = [](const Avatar& standing) {
+    World world = worldOf();
+    const BodyId one = world.add(ball(0.1)).value(), other = world.add(standing).value();
+    for (const int i : {0, 1, 2}) {
+      EXPECT_TRUE(world.push(one, 100'000 * i, at(i == 1 ? 2.0 : 0.0, 0.05)).ok());
+      EXPECT_TRUE(world.push(other, 100'000 * i, at(1.0)).ok());
+    }
+    WorldFollower follower = followerFrom(0);
+    const WorldEvents answer = followed(follower, world, 200'000);
+    EXPECT_EQ(kindsOf(answer), "enter leave enter leave ");
+    return answer.counters;
+  };
+  const Lss lss{Vector3d::Zero(), Vector3d::Zero(), 0.1};
+  const EventCounters once = countersOf(bodyOf({lss})), twice = countersOf(bodyOf({lss, lss}));
+  EXPECT_EQ(twice.freeLooks, once.freeLooks);
+  EXPECT_EQ(twice.contactLooks, once.contactLooks);
+  EXPECT_GT(twice.pairs, once.pairs);
+  EXPECT_GT(once.freeLooks, 2u);
+}
+
 // A ball passes them within one motion, and each of them is entered and left.
 TEST(WorldFollower, TellsEveryThinSheet) {
   const std::vector<double> places = {0.1, 0.2, 0.3, 0.4, 0.5};
@@ -376,6 +398,30 @@ TEST(WorldFollower, LeavesUnresolvedWhatCostsTooMuch) {
   }
 }
 
+// Along a row of balls, which it touches to the end: where the work ends, the contact is lost.
+TEST(WorldFollower, AContactThatIsLostIsNotLeft) {
+  std::vector<Lss> row;
+  for (int i = 0; i < 40; ++i) {
+    row.push_back({Vector3d(0.1 * i, 0, 0), Vector3d(0.1 * i, 0, 0), 0.1});
+  }
+  int lost = 0;
+  for (double work = 1.0; work < 1e6; work *= 1.2) {
+    WorldOptions options;
+    options.workPerPair = static_cast<std::uint64_t>(work);
+    World world = World::build(std::nullopt, options).value();
+    const BodyId one = world.add(ball(0.1)).value(), other = world.add(bodyOf(row)).value();
+    for (const int i : {0, 1}) {
+      ASSERT_TRUE(world.push(one, 100'000 * i, at(-1.0 + 4.0 * i, 0.15)).ok());
+      ASSERT_TRUE(world.push(other, 100'000 * i, at(0.0)).ok());
+    }
+    WorldFollower follower = followerFrom(0);
+    const std::string kinds = kindsOf(followed(follower, world, 100'000));
+    EXPECT_EQ(kinds.find("leave"), std::string::npos) << work << ": " << kinds;
+    lost += kinds == "enter unresolved_from " ? 1 : 0;
+  }
+  EXPECT_GT(lost, 0);
+}
+
 // With a few units of work nobody is looked at; when the budget is for more, what touches starts
 // inside: nobody saw it enter.
 TEST(WorldFollower, FindsInsideWhomItHadGivenUp) {
@@ -605,6 +651,17 @@ TEST(WorldFollower, RefusesMoreCutsThanItCouldEverFollow) {
   WorldFollower whole = WorldFollower::start(-kMostUtimeUs).value();
   ASSERT_TRUE(whole.follow(world, kMostUtimeUs, answer).ok());  // nothing is cut
   EXPECT_EQ(answer.counters.windows, 1u);
+}
+
+TEST(WorldFollower, CutsWhereABodyAppears) {
+  World world = worldOf();
+  const BodyId there = world.add(ball(0.1)).value(), late = world.add(ball(0.1)).value();
+  ASSERT_TRUE(world.push(there, 0, at(0.0)).ok());
+  ASSERT_TRUE(world.push(there, 100'000, at(1.0)).ok());
+  ASSERT_TRUE(world.push(late, 30'000, at(5.0)).ok());
+  ASSERT_TRUE(world.push(late, 100'000, at(5.0)).ok());
+  WorldFollower follower = followerFrom(0);
+  EXPECT_EQ(followed(follower, world, 100'000).counters.windows, 2u);
 }
 
 TEST(WorldFollower, CutsAtTheEndsOfTimeToo) {

@@ -176,6 +176,23 @@ TEST(Triggers, WhoIsPutSomewhereElseIsDecidedAnew) {
   expectNoProblems(both);
 }
 
+TEST(Triggers, WhatEndsAtAnInstantIsToldBeforeWhatBegins) {
+  BothTriggers both(kTolerance, 0);
+  const BodyId body = both.both.add(hand(0.02)), carrier = both.both.add(hand(0.02));
+  const TriggerId there = both.add(test::plainBox(Vector3d(0.1, 0.1, 0.1)));
+  const TriggerId here = both.add(test::plainBox(Vector3d(0.1, 0.1, 0.1)));
+  both.stand(there, at(5.0));
+  both.stand(here, at(0));
+  for (const std::int64_t us : {0, 100'000}) both.both.push(carrier, us, at(4.0));
+  both.both.push(body, 0, at(0));
+  both.both.push(body, 30'000, at(0));
+  both.both.attach(body, {carrier, 0, false}, 30'000, at(1.0));
+  both.follow(100'000);
+  ASSERT_EQ(said(both.events), "starts_inside 1, leave 1, starts_inside 0");
+  EXPECT_EQ(both.events[1].time.us, 30'000);
+  EXPECT_EQ(both.events[2].time.us, 30'000);
+}
+
 // A man holds a chair; he puts it down and, at the same instant, sits on it; then a lift carries
 // the chair and him. At no instant does anybody carry himself, though over the whole time two do.
 TEST(Triggers, TwoCarryEachOtherOneAfterTheOther) {
@@ -248,6 +265,24 @@ TEST(Triggers, LooksAtThoseWhoAreWatched) {
   both.follow(100'000);
   ASSERT_EQ(said(both.events), "starts_inside 0");
   EXPECT_EQ(both.events[0].body, other);
+}
+
+TEST(Triggers, WhoIsAskedOnlyLaterStartsInsideThen) {
+  BothTriggers both(kTolerance, 0);
+  BodyOptions options;
+  options.group = 3;
+  const BodyId body = both.both.add(hand(0.02), options);
+  const TriggerId room = both.add(test::plainBox(Vector3d(0.5, 0.5, 0.5)));
+  both.stand(room, at(0));
+  for (const std::int64_t us : {0, 100'000}) both.both.push(body, us, at(0));
+  ASSERT_TRUE(both.both.world.ask(options.group, kTriggerGroup, false).ok());
+  both.follow(40'000);
+  EXPECT_EQ(said(both.events), "");
+  ASSERT_TRUE(both.both.world.ask(options.group, kTriggerGroup, true).ok());
+  both.follow(80'000);
+  ASSERT_EQ(said(both.events), "starts_inside 0");
+  EXPECT_EQ(both.events[0].time.us, 40'000);
+  ASSERT_EQ(both.triggers.occupants().size(), 1u);
 }
 
 // From outside to within nothing at all, and away: at most the tolerance early and late.

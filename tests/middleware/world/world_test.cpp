@@ -136,6 +136,33 @@ TEST(World, TellsTheStaticSceneAndOwnLinks) {
   EXPECT_EQ(answerOf(world, 1000, 2000).contacts.size(), 1u);
 }
 
+TEST(World, AsksEachBodyByItsOwnRadiiOfPairs) {
+  World world = emptyWorld();
+  // The first touches both others, which do not touch each other.
+  const auto ballAt = [](double x) { return Lss{Vector3d(x, 0, 0), Vector3d(x, 0, 0), 0.1}; };
+  const Avatar avatar =
+      Avatar::build(skeletonOf(3), {{ballAt(0.0)}, {ballAt(0.15)}, {ballAt(-0.15)}}).value();
+  const auto add = [&](const std::vector<PairRadius>& radii) {
+    BodyOptions options;
+    options.self = PairRules::leavingOut(avatar, {}, radii).value();
+    const BodyId body = world.add(avatar, options).value();
+    Pose pose = restPose(avatar.skeleton());
+    pose.translations[0].y() = body;
+    for (const int us : {0, 1000}) EXPECT_TRUE(world.push(body, us, pose).ok());
+    return body;
+  };
+  const BodyId both = add({}), other = add({{0, 0, 1, 0, 0.1}}), one = add({{0, 0, 2, 0, 0.1}});
+  const BodyId bothStill = add({{0, 0, 1, 0, 0.16}});
+  std::vector<std::pair<BodyId, LinkId>> found;
+  for (const WorldContact& contact : answerOf(world, 0, 1000).contacts) {
+    found.emplace_back(contact.a.body, contact.b.link);
+  }
+  std::sort(found.begin(), found.end());
+  const std::vector<std::pair<BodyId, LinkId>> expected{{both, 1}, {both, 2},      {other, 2},
+                                                        {one, 1},  {bothStill, 1}, {bothStill, 2}};
+  EXPECT_EQ(found, expected);
+}
+
 // Until a past is forgotten, somebody may still be said to have been carried in it: what a scratch
 // knows of a piece does not outlive that.
 TEST(World, BelievesWhatItIsToldOfThePast) {
