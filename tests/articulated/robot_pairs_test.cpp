@@ -14,6 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kPi = 3.14159265358979323846;
 constexpr LinkId kBase = 0, kArm = 1, kFold = 2, kCuff = 3;
 
 RobotJoint turning(RobotJointKind kind, double lower, double upper) {
@@ -151,6 +152,50 @@ TEST(PathAlong, TurnsEveryJointTheWayThatItsNumberSays) {
   EXPECT_FALSE(robot.pathAlong(q.data(), 0).ok());
   const std::vector<double> bad = {0.0, 2.0, 0.0, 0.0, 2.0, 2000.0};
   EXPECT_EQ(robot.pathAlong(bad.data(), 2).error().index, 2);
+}
+
+/// A mobile base whose rest frame stands a quarter turn about x: its plane is x and z of W.
+Robot mobileBase() {
+  RawSkeleton raw;
+  raw.joints = {{"base", kNoParent, Vector3d(0, 0, 0.5),
+                 Quaternion(Eigen::AngleAxisd(0.5 * kPi, Vector3d::UnitX()))},
+                {"arm", kBase, Vector3d(0.4, 0, 0)}};
+  const std::vector<Lss> ball{{Vector3d::Zero(), Vector3d::Zero(), 0.1}};
+  Avatar avatar = Avatar::build(Skeleton::build(raw).value(), {ball, ball}).value();
+  RobotJoint base;
+  base.kind = RobotJointKind::Planar;
+  return Robot::build(std::move(avatar), {base, turning(RobotJointKind::Continuous, 0, 0)}).value();
+}
+
+TEST(MobileBase, StandsAndMovesWhereItsNumbersSay) {
+  const Robot robot = mobileBase();
+  ASSERT_EQ(robot.numCoordinates(), 4u);
+  const std::array<double, 4> q{0.3, 0.7, 0.5 * kPi, 0.0};
+  Pose pose;
+  robot.poseAt(q.data(), pose);
+  const ChainMotion still(robot.avatar().skeleton(), pose, pose);
+  std::vector<LinkState> states;
+  still.statesAt(0.0, states);
+  EXPECT_LT((states[kBase].p_WL - Vector3d(0.3, 0, 1.2)).norm(), 1e-15);
+  // A quarter turn takes the arm from along the plane's x to along its y.
+  EXPECT_LT((states[kArm].p_WL - Vector3d(0.3, 0, 1.6)).norm(), 1e-15);
+  std::array<double, 4> slope{};
+  const Vector3d tip = states[kArm].p_WL + 0.2 * Vector3d::UnitZ(), along(2, 3, 5);
+  robot.slopeAt(q.data(), states, kArm, tip, along, slope.data());
+  EXPECT_NEAR(slope[0], 2.0, 1e-14);
+  EXPECT_NEAR(slope[1], 5.0, 1e-14);
+  EXPECT_NEAR(slope[2], -0.6 * 2.0, 1e-14);
+  EXPECT_NEAR(slope[3], -0.2 * 2.0, 1e-14);
+}
+
+TEST(MobileBase, TurnsAsFarAsItsAngleAndNotAsItsShiftsSay) {
+  const Robot robot = mobileBase();
+  const std::vector<double> q = {0.0, 0.0, 1.0, 0.0, 100.0, -50.0, 9.0, 2.0};
+  EXPECT_EQ(robot.largestTurn(q.data(), q.data() + 4), 8.0);
+  EXPECT_EQ(robot.largestTurn(q.data() + 4, q.data()), 8.0);
+  EXPECT_EQ(robot.partsBetween(q.data(), q.data() + 4, 4), 4);
+  EXPECT_EQ(robot.partsBetween(q.data(), q.data() + 4, 2), 0);
+  EXPECT_EQ(robot.pathAlong(q.data(), 2).value().poses.size(), 5u);
 }
 
 TEST(PairRulesAsking, AskOnlyWhatIsListedAndRefuseWhatMakesNoSense) {

@@ -153,6 +153,14 @@ TEST(BallPolytope, HoldsTheBallWithinTheExcess) {
   }
 }
 
+// The regular icosahedron's corners are 1.2584 times as far out as its facets; cut once, 1.0787
+// times.
+TEST(BallPolytope, IsTheIcosahedronWhereItWillDo) {
+  constexpr double kRadius = 1e6;
+  EXPECT_EQ(polytopeAround(kRadius, 0.2585 * kRadius).value().frequency, 1);
+  EXPECT_EQ(polytopeAround(kRadius, 0.2583 * kRadius).value().frequency, 2);
+}
+
 TEST(BallPolytope, RefusesMoreFacetsThanThereMayBe) {
   EXPECT_FALSE(polytopeAround(1e12, 4.0).ok());
 }

@@ -324,5 +324,48 @@ TEST(SweptSurface, TimesRunThroughTheSpans) {
   EXPECT_LT(*least, *most);
 }
 
+/// A joint that turns by `turn` about z, and an LSS on it.
+SweepCase turningCase(double turn, const Lss& lss, const SweptSpan& span) {
+  RawSkeleton raw;
+  raw.joints.push_back({"only", kNoParent, {0, 0, 0}, Quaternion::Identity()});
+  const Skeleton skeleton = Skeleton::build(raw).value();
+  Pose to = restPose(skeleton);
+  to.rotations[0] = Eigen::AngleAxisd(turn, Vector3d::UnitZ());
+  SweepCase c;
+  c.lss = lss;
+  c.motions.emplace_back(skeleton, restPose(skeleton), to);
+  c.spans.push_back(span);
+  return c;
+}
+
+TEST(SweptSurface, TimesOfASpanOfTheMotionAreThoseOfItsPlaces) {
+  constexpr double kRadius = 0.01, kTurn = 1.2;
+  const SweptSpan span{0.25, 0.75, 10.0, 12.0};
+  const SweepCase c = turningCase(kTurn, {{1, 0, 0}, {1, 0, 0}, kRadius}, span);
+  const SweptSurface surface = surfaceOf(c, {}).value();
+  for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
+    const Vector3d& v = surface.vertices[i];
+    const double t = 0.25 + 0.5 * (surface.timesS[i] - 10.0) / 2.0;
+    // Within the ball at that time, and a piece of the path.
+    EXPECT_NEAR(std::atan2(v.y(), v.x()), kTurn * t, 3.0 * kRadius + kTurn * 0.5 / 10.0);
+  }
+  const auto [least, most] = std::minmax_element(surface.timesS.begin(), surface.timesS.end());
+  EXPECT_EQ(*least, 10.0);
+  EXPECT_EQ(*most, 12.0);
+}
+
+// A stick that turns about its middle: its ends move apart, so a piece's hull is wider than its
+// sheet by half of an end's way. As many pieces as these need, and not a power of two of them.
+TEST(SweptSurface, CutsAStickThatTurnsIntoAsManyPiecesAsItsSheetNeeds) {
+  constexpr double kHalf = 0.5, kTurn = 1.5, kSheetShare = 0.46;
+  const SweepCase c = turningCase(kTurn, {{-kHalf, 0, 0}, {kHalf, 0, 0}, 0.1}, {});
+  SweptSurfaceOptions options;
+  options.error = kHalf / 21.5;
+  const double needed = 0.5 * kHalf * kTurn / (kSheetShare * options.error);
+  const SweptSurface surface = surfaceOf(c, options).value();
+  EXPECT_GE(static_cast<double>(surface.pieces), 0.9 * needed);
+  EXPECT_LE(static_cast<double>(surface.pieces), 1.3 * needed);
+}
+
 }  // namespace
 }  // namespace foretouch::test
