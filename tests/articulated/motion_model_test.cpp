@@ -94,6 +94,32 @@ TEST_P(SmoothMotionModel, IsSmoothAcrossPosesWhateverTheirTimes) {
   EXPECT_LT((speedBefore - speedAfter).norm(), kTolerance * speedAfter.norm());
 }
 
+// Poses of a constant rate lie on the curve, whatever the turn: where series are used, just beyond,
+// and near the largest.
+TEST(MotionModel, TurnsAtTheRateOfPosesThatDo) {
+  RawSkeleton raw;
+  raw.joints = {{"one", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
+  const Skeleton skeleton = Skeleton::build(raw).value();
+  const Eigen::Vector3d axis = Eigen::Vector3d(2, -3, 6) / 7.0;
+  const auto turned = [&](double angle) { return Quaternion(Eigen::AngleAxisd(angle, axis)); };
+  for (const double angle : {1e-4, 0.05, 0.19, 0.199, 0.201, 0.6, 1.9}) {
+    SCOPED_TRACE(angle);
+    Pose poses[4];
+    for (int k = 0; k < 4; ++k) {
+      poses[k] = restPose(skeleton);
+      poses[k].rotations[0] = turned((k - 1) * angle);
+    }
+    ModelMotion motion;
+    motion.assign(skeleton, {&poses[0], &poses[1], &poses[2], &poses[3], 0.1, 0.1, 0.1},
+                  MotionModel::CubicLate);
+    for (const double t : {0.1, 0.5, 0.99}) {
+      Pose pose;
+      motion.poseAt(t, pose);
+      EXPECT_LE(turnBetween(pose.rotations[0], turned(t * angle)), 3e-15);
+    }
+  }
+}
+
 TEST(MotionModel, NoJointOfAPieceStraysFartherThanSaid) {
   Random random(3);
   double tightest = 0.0;

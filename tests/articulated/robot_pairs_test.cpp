@@ -198,6 +198,44 @@ TEST(MobileBase, TurnsAsFarAsItsAngleAndNotAsItsShiftsSay) {
   EXPECT_EQ(robot.pathAlong(q.data(), 2).value().poses.size(), 5u);
 }
 
+/// Two joints of these kinds, a metre apart, and a ball a metre beyond the second.
+Robot twoJoints(RobotJointKind first, RobotJointKind second) {
+  RawSkeleton raw;
+  raw.joints = {{"first", kNoParent, Vector3d::Zero()}, {"second", 0, Vector3d(1, 0, 0)}};
+  Avatar avatar = Avatar::build(Skeleton::build(raw).value(),
+                                {{}, {{Vector3d(1, 0, 0), Vector3d(1, 0, 0), 0.1}}})
+                      .value();
+  RobotJoint of = turning(first, -1, 1), then = turning(second, -1, 1);
+  of.axis = then.axis = Vector3d(0, 0, 2);
+  return Robot::build(std::move(avatar), {of, then}).value();
+}
+
+TEST(Robot, AxesHaveALengthOfOneWhateverTheyWereGivenAs) {
+  const auto axisOf = [](RobotJointKind first, RobotJointKind second, std::size_t joint) {
+    return twoJoints(first, second).joints()[joint].axis;
+  };
+  constexpr auto kTurns = RobotJointKind::Revolute, kStays = RobotJointKind::Fixed;
+  EXPECT_EQ(axisOf(kTurns, kStays, 0), Vector3d::UnitZ());
+  EXPECT_EQ(axisOf(kStays, kTurns, 1), Vector3d::UnitZ());
+  EXPECT_EQ(axisOf(kTurns, RobotJointKind::Prismatic, 1), Vector3d::UnitZ());
+}
+
+// robot.md 2: of one joint that turns by up to 1000 rad, 1.4 (64 u + 7 u 1000) times the reach.
+TEST(Robot, RoundingOfPosesIsThatOfTheJointsThatMove) {
+  constexpr auto kTurns = RobotJointKind::Continuous, kStays = RobotJointKind::Fixed;
+  constexpr double kOneJoint = 1.4 * (64 + 7 * 1000) * 0x1p-53, kReach = 2.0;
+  EXPECT_EQ(twoJoints(kStays, kStays).poseRounding(), 0.0);
+  EXPECT_EQ(twoJoints(kStays, kStays).reach(), kReach);
+  EXPECT_EQ(twoJoints(kTurns, RobotJointKind::Revolute).reach(), kReach);
+  EXPECT_EQ(twoJoints(RobotJointKind::Prismatic, kTurns).reach(), kReach + 1.0) << "to its limit";
+  for (const auto& [first, second] : {std::pair{kTurns, kStays}, std::pair{kStays, kTurns}}) {
+    const double rounding = twoJoints(first, second).poseRounding();
+    EXPECT_GE(rounding, kOneJoint * kReach);
+    EXPECT_LE(rounding, 4.0 * kOneJoint * kReach);
+    EXPECT_EQ(twoJoints(kTurns, kTurns).poseRounding(), 2.0 * rounding);
+  }
+}
+
 TEST(PairRulesAsking, AskOnlyWhatIsListedAndRefuseWhatMakesNoSense) {
   const Avatar avatar = foldable().avatar();
   const PairRules rules = PairRules::asking(avatar, {{kCuff, kBase}, {kBase, kCuff}}).value();

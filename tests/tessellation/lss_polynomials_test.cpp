@@ -340,6 +340,10 @@ TEST(SlabsFor, IsTheLeastPowerOfTwoThatMeetsTheBound) {
     seen |= slabs;
   }
   EXPECT_EQ(seen, 31) << "every number of slabs should occur";
+  Random random(0);
+  const test::MovingBody body(random, 8);
+  const ChainMotion motion(body.avatar.skeleton(), body.motion.from, body.motion.to);
+  EXPECT_EQ(slabsFor(LssTable(body.avatar), motion, 0.0), 16) << "no number of slabs would do";
 }
 
 }  // namespace

@@ -152,6 +152,7 @@ TEST(SweptBoxes, LanesLeftOverAreEmpty) {
     sweptBoxes(table, motion, nodes, 0.0, boxes);
     ASSERT_EQ(boxes.capacity % SweptBoxes::kPadding, 0);
     ASSERT_GE(boxes.capacity, boxes.count);
+    ASSERT_LT(boxes.capacity, boxes.count + SweptBoxes::kPadding);
     for (std::int32_t k = 0; k < boxes.capacity; ++k) {
       for (int axis = 0; axis < 3; ++axis) {
         EXPECT_EQ(boxes.lower[axis][k] <= boxes.upper[axis][k], k < boxes.count);

@@ -153,6 +153,28 @@ TEST(BallPolytope, HoldsTheBallWithinTheExcess) {
   }
 }
 
+// Corners that differ along a facet are equally far along its normal, and products of this size are
+// no doubles: of these two the first counts, whatever rounding says.
+TEST(SweptSum, LabelsAreExactWhereDoublesAreNot) {
+  const BallPolytope ball = polytopeAround(1e8, 1e7).value();
+  SweptSum sum(ball);
+  SumFaces faces;
+  std::size_t rounded = 0;
+  for (std::size_t f = 0; f < ball.facets.size(); ++f) {
+    const BallPolytope::Facet& facet = ball.facets[f];
+    const auto corner = [&](std::size_t k) { return ball.corners[slotOf(facet.corners[k])]; };
+    const LatticePoint u = corner(1) - corner(0), v = corner(2) - corner(0);
+    const LatticePoint along{3 * u.x - 7 * v.x, 3 * u.y - 7 * v.y, 3 * u.z - 7 * v.z};
+    ASSERT_EQ(exactDot(facet.normal, along), 0);
+    rounded += asVector(facet.normal).dot(asVector(along)) != 0.0;
+    for (const LatticePoint& other : {along, LatticePoint{} - along}) {
+      sum.facesOf({LatticePoint{}, other}, faces);
+      ASSERT_EQ(faces.facetCorner[f], 0) << f;
+    }
+  }
+  EXPECT_GT(rounded, 10u);
+}
+
 // The regular icosahedron's corners are 1.2584 times as far out as its facets; cut once, 1.0787
 // times.
 TEST(BallPolytope, IsTheIcosahedronWhereItWillDo) {

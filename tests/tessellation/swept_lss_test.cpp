@@ -121,6 +121,32 @@ TEST(Aabb, GrowsOutwardPastRounding) {
   EXPECT_TRUE(box.contains(Vector3d(1e4, 1e4, 1e4)));
 }
 
+// In fifty digits; faces far larger and far smaller than the distance, and than each other.
+TEST(Aabb, GrowsEveryFaceByAtLeastTheDistanceAndLittleMore) {
+  for (int i = 0; i < 2000; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    Vector3d low, high;
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = random.magnitude(1e-12, 1e7) * (random.chance(0.5) ? 1.0 : -1.0);
+      high[axis] = low[axis] + random.magnitude(1e-12, 1e7);
+    }
+    Aabb box;
+    box.add(low);
+    box.add(high);
+    const double distance = random.magnitude(1e-12, 1e7);
+    box.grow(distance);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Real down = Real(low[axis]) - Real(box.min[axis]) - Real(distance);
+      const Real up = Real(box.max[axis]) - Real(high[axis]) - Real(distance);
+      ASSERT_GE(down, Real(0));
+      ASSERT_GE(up, Real(0));
+      ASSERT_LE(down, Real(0x1p-49) * Real(std::abs(low[axis]) + distance));
+      ASSERT_LE(up, Real(0x1p-49) * Real(std::abs(high[axis]) + distance));
+    }
+  }
+}
+
 TEST(Aabb, DistanceIsThatOfTheNearestPoints) {
   Aabb left, right;
   left.add(Vector3d(0, 0, 0));

@@ -79,6 +79,20 @@ Result<SweptSurface> surfaceOf(const SweepCase& c, const SweptSurfaceOptions& op
   return builder.value().finish();
 }
 
+/// A joint that turns by `turn` about z, and an LSS on it.
+SweepCase turningCase(double turn, const Lss& lss, const SweptSpan& span) {
+  RawSkeleton raw;
+  raw.joints.push_back({"only", kNoParent, {0, 0, 0}, Quaternion::Identity()});
+  const Skeleton skeleton = Skeleton::build(raw).value();
+  Pose to = restPose(skeleton);
+  to.rotations[0] = Eigen::AngleAxisd(turn, Vector3d::UnitZ());
+  SweepCase c;
+  c.lss = lss;
+  c.motions.emplace_back(skeleton, restPose(skeleton), to);
+  c.spans.push_back(span);
+  return c;
+}
+
 double errorFor(std::uint64_t seed) {
   return Random(seed + 77).magnitude(5e-4, 2e-2);
 }
@@ -279,6 +293,32 @@ TEST(SweptSurface, OfAStraightShiftHasTheVolumeOfThePrism) {
   }
 }
 
+// Of a ball that stands still on the lattice the surface is the polytope itself, and what its
+// corners and facets are off is exact in fifty digits. The certificate adds what the budget leaves
+// to chords, to the rounding of places and to the lattice (swept_surface.md 5).
+TEST(SweptSurface, CertifiesNoLessThanABallsOwnPolytopeNeeds) {
+  using Real = oracle::Precise;
+  constexpr double kRadius = 1.0;
+  const SweepCase c = turningCase(0.0, {{0, 0, 0}, {0, 0, 0}, kRadius}, {});
+  for (const SurfaceSide side : {SurfaceSide::Outer, SurfaceSide::Inner}) {
+    SweptSurfaceOptions options;
+    options.side = side;
+    const SweptSurface s = surfaceOf(c, options).value();
+    Real off = 0;
+    for (const auto& t : s.triangles) {
+      const oracle::Precise3 a(s.vertices[t[0]]), b(s.vertices[t[1]]), d(s.vertices[t[2]]);
+      const oracle::Precise3 normal = oracle::cross(b - a, d - a);
+      off = std::max(off, side == SurfaceSide::Outer
+                              ? oracle::norm(a) - Real(kRadius)
+                              : Real(kRadius) - oracle::dot(normal, a) / oracle::norm(normal));
+    }
+    const Real needed =
+        off + Real("0.105") * Real(options.error) + Real("0.8661") * Real(s.spacing);
+    EXPECT_GE(Real(s.certifiedError), needed);
+    EXPECT_LE(Real(s.certifiedError), needed + Real("1e-11"));
+  }
+}
+
 TEST(SweptSurface, CoordinatesFitFloatsWhereAskedTo) {
   const SweepCase c = sweepCase(3);
   SweptSurfaceOptions options;
@@ -322,20 +362,6 @@ TEST(SweptSurface, TimesRunThroughTheSpans) {
   EXPECT_GE(*least, c.spans.front().beginS);
   EXPECT_LE(*most, c.spans.back().endS);
   EXPECT_LT(*least, *most);
-}
-
-/// A joint that turns by `turn` about z, and an LSS on it.
-SweepCase turningCase(double turn, const Lss& lss, const SweptSpan& span) {
-  RawSkeleton raw;
-  raw.joints.push_back({"only", kNoParent, {0, 0, 0}, Quaternion::Identity()});
-  const Skeleton skeleton = Skeleton::build(raw).value();
-  Pose to = restPose(skeleton);
-  to.rotations[0] = Eigen::AngleAxisd(turn, Vector3d::UnitZ());
-  SweepCase c;
-  c.lss = lss;
-  c.motions.emplace_back(skeleton, restPose(skeleton), to);
-  c.spans.push_back(span);
-  return c;
 }
 
 TEST(SweptSurface, TimesOfASpanOfTheMotionAreThoseOfItsPlaces) {
