@@ -2,7 +2,6 @@
 #include "articulated/pair_rules.h"
 
 #include <cmath>
-
 #include <limits>
 
 #include <gtest/gtest.h>

@@ -125,6 +125,10 @@ TEST(CoverTriangles, SplitsWhereItPaysAndOnlyThere) {
   EXPECT_LT(totalVolume(two), 0.25 * totalVolume(one));
   EXPECT_EQ(outsideOf(two, knee), 0);
   EXPECT_EQ(coverTriangles(ellipsoid(12, 12, {1, 1, 1}, {0, 0, 0}), 4).size(), 1u);
+  const std::vector<Triangle> apart = {
+      {{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)}},
+      {{Vector3d(9, 9, 0), Vector3d(9, 10, 0), Vector3d(9, 9, 1)}}};
+  EXPECT_EQ(coverTriangles(apart, 4).size(), 2u);
 }
 
 TEST(CoverTriangles, LargeMeshesAreCoveredFromTheirExtremePoints) {
@@ -233,6 +237,15 @@ TEST(HullVolume, CountsTheOutermostOfManyPoints) {
       EXPECT_EQ(std::count(extremes.begin(), extremes.end(), end), 1);
     }
   }
+}
+
+TEST(HullVolume, OfNoMorePointsThanDirectionsIsThatOfAll) {
+  test::Random random(7);
+  std::vector<Vector3d> few;
+  for (int i = 0; i < 226; ++i) few.push_back(random.inBox(1.0));
+  EXPECT_EQ(extremePoints(few), few);
+  few.push_back(Vector3d::Zero());
+  EXPECT_LT(extremePoints(few).size(), few.size());
 }
 
 TEST(HullVolume, OfFlatPointsIsZero) {

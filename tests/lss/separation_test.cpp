@@ -173,6 +173,23 @@ TEST(SeparationOfEdges, ThatAreNearlyParallelIsTight) {
   }
 }
 
+/// As corners above faces: what proves edges apart that cross just above each other is the normal
+/// of both, on either side.
+TEST(SeparationOfEdges, ThatCrossJustAboveEachOtherIsProven) {
+  for (int i = 0; i < 2000; ++i) {
+    SCOPED_TRACE(i);
+    test::Random random(static_cast<std::uint64_t>(i));
+    const Vector3d n = random.direction(), u = n.unitOrthogonal(), v = n.cross(u);
+    const double height = random.magnitude(1e-10, 1e-5) * (random.chance(0.5) ? 1.0 : -1.0);
+    const double angle = random.uniform(0.2, 2.9);
+    const Vector3d across = std::cos(angle) * u + std::sin(angle) * v;
+    const double early = random.uniform(0.1, 1.0), late = random.uniform(0.1, 1.0);
+    const Hull one = Hull::segment(-early * u, late * u);
+    const Hull other = Hull::segment(height * n - late * across, height * n + early * across);
+    EXPECT_GT(separation(one, other).lower(), 0.99 * std::abs(height) - 1e-13);
+  }
+}
+
 TEST_P(Separations, SwappingTheSidesTurnsTheNormal) {
   for (int i = 0; i < 2000; ++i) {
     SCOPED_TRACE(i);

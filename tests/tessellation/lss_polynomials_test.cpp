@@ -313,6 +313,33 @@ TEST(LssTable, HoldsEveryLssInLinkOrder) {
   }
 }
 
+TEST(LssTable, AssignedAnewKeepsNothingOfBefore) {
+  Random random(4);
+  const test::MovingBody before(random, 9), after(random, 5);
+  const auto listsOf = [](const Avatar& avatar) {
+    std::vector<std::vector<Lss>> lists;
+    for (LinkId link = 0; link < avatar.numLinks(); ++link) lists.push_back(avatar.lss(link));
+    lists.front().clear();
+    return lists;
+  };
+  LssTable reused(before.avatar), fresh;
+  reused.assign(listsOf(after.avatar));
+  fresh.assign(listsOf(after.avatar));
+  ASSERT_EQ(reused.numLinks(), 5);
+  ASSERT_EQ(reused.size(), fresh.size());
+  EXPECT_EQ(reused.bareLinks(), fresh.bareLinks());
+  EXPECT_EQ(reused.largestRho(), fresh.largestRho());
+  EXPECT_EQ(reused.largestRadius(), fresh.largestRadius());
+  double largestRho = 0.0;
+  for (LinkId link = 0; link < 5; ++link) {
+    EXPECT_EQ(reused.rho(link), fresh.rho(link));
+    EXPECT_EQ(reused.first(link + 1), fresh.first(link + 1));
+    largestRho = std::max(largestRho, fresh.rho(link));
+  }
+  EXPECT_EQ(fresh.rho(0), 0.0);
+  EXPECT_EQ(fresh.largestRho(), largestRho);
+}
+
 TEST(SlabsFor, IsTheLeastPowerOfTwoThatMeetsTheBound) {
   int seen = 0;
   for (int i = 0; i < 200; ++i) {

@@ -195,6 +195,10 @@ TEST(LatticeSigns, OfProductsBeyondOneHundredTwentyEightBits) {
   EXPECT_EQ(signOfDifferenceOfProducts(big, big, big + 1, big - 1), 1);
   EXPECT_EQ(signOfDifferenceOfProducts(3, 5, 7, 2), 1);
   EXPECT_EQ(signOfDifferenceOfProducts(0, big, 1, 1), -1);
+  // (2^65 - 1)^2 is 2^66 - 1 below 2^130: carries out of all lower products.
+  const WideInteger power = static_cast<WideInteger>(1) << 65;
+  EXPECT_EQ(signOfDifferenceOfProducts(power - 1, power - 1, power, power), -1);
+  EXPECT_EQ(signOfDifferenceOfProducts(power - 1, power - 1, power >> 1, power - 4), 1);
 }
 
 }  // namespace

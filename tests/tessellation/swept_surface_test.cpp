@@ -375,6 +375,10 @@ TEST(SweptSurface, TimesOfASpanOfTheMotionAreThoseOfItsPlaces) {
     // Within the ball at that time, and a piece of the path.
     EXPECT_NEAR(std::atan2(v.y(), v.x()), kTurn * t, 3.0 * kRadius + kTurn * 0.5 / 10.0);
   }
+  // A chord of an arc of this length leaves it by a tenth of the error, and a hundredth for bounds.
+  const double needed = 0.5 * kTurn / std::sqrt(8.0 * 0.1 * SweptSurfaceOptions().error);
+  EXPECT_GE(static_cast<double>(surface.pieces), needed);
+  EXPECT_LE(static_cast<double>(surface.pieces), 1.01 * needed + 1.0);
   const auto [least, most] = std::minmax_element(surface.timesS.begin(), surface.timesS.end());
   EXPECT_EQ(*least, 10.0);
   EXPECT_EQ(*most, 12.0);
