@@ -116,6 +116,59 @@ TEST(SampledPoses, FillTheLimitsEvenlyAndAreTheSameForASeed) {
   EXPECT_NE(other[0].rotations[kFold].coeffs(), poses[0].rotations[kFold].coeffs());
 }
 
+/// Two joints of these kinds, a metre apart, and a ball a metre beyond the second.
+Robot twoJoints(RobotJointKind first, RobotJointKind second) {
+  RawSkeleton raw;
+  raw.joints = {{"first", kNoParent, Vector3d::Zero()}, {"second", 0, Vector3d(1, 0, 0)}};
+  Avatar avatar = Avatar::build(Skeleton::build(raw).value(),
+                                {{}, {{Vector3d(1, 0, 0), Vector3d(1, 0, 0), 0.1}}})
+                      .value();
+  RobotJoint of = turning(first, -1, 1), then = turning(second, -1, 1);
+  of.axis = then.axis = Vector3d(0, 0, 2);
+  return Robot::build(std::move(avatar), {of, then}).value();
+}
+
+/// The least and the largest of 2000 samples of a shift with these limits.
+std::pair<double, double> rangeOfShifts(double lower, double upper) {
+  const Robot of = twoJoints(RobotJointKind::Fixed, RobotJointKind::Prismatic);
+  std::vector<RobotJoint> joints = of.joints();
+  joints[1].lower = lower;
+  joints[1].upper = upper;
+  double least = 1e9, most = -1e9;
+  const Robot robot = Robot::build(of.avatar(), joints).value();
+  const std::vector<Pose> poses = robot.sampledPoses(2000, 3).value();
+  for (const Pose& pose : poses) {
+    least = std::min(least, pose.translations[1].z());
+    most = std::max(most, pose.translations[1].z());
+  }
+  return {least, most};
+}
+
+TEST(SampledPoses, FillAHalfTurnOrAMetreWhereALimitIsMissing) {
+  constexpr double kNone = RobotJoint::kUnlimited;
+  const auto expectRange = [](double lower, double upper, double least, double most) {
+    const auto [from, to] = rangeOfShifts(lower, upper);
+    EXPECT_GE(from, least);
+    EXPECT_LT(from, least + 0.01);
+    EXPECT_LE(to, most);
+    EXPECT_GT(to, most - 0.01);
+  };
+  expectRange(-kNone, kNone, -1.0, 1.0);
+  expectRange(5.0, kNone, 5.0, 6.0);
+  expectRange(-kNone, -5.0, -6.0, -5.0);
+  expectRange(-kNone, 0.5, -1.0, 0.5);
+  double least = 0.0, most = 0.0;
+  const std::vector<Pose> poses = foldable().sampledPoses(2000, 3).value();
+  for (const Pose& pose : poses) {
+    const Quaternion& turn = pose.rotations[kCuff];
+    const double angle = 2.0 * std::atan2(turn.z(), turn.w());
+    least = std::min(least, angle);
+    most = std::max(most, angle);
+  }
+  EXPECT_LT(least, 0.01 - kPi);
+  EXPECT_GT(most, kPi - 0.01);
+}
+
 TEST(SampledPoses, KeepTheLimitsOfJointsThatFollow) {
   const Robot of = foldable();
   std::vector<RobotJoint> joints = of.joints();
@@ -198,18 +251,6 @@ TEST(MobileBase, TurnsAsFarAsItsAngleAndNotAsItsShiftsSay) {
   EXPECT_EQ(robot.pathAlong(q.data(), 2).value().poses.size(), 5u);
 }
 
-/// Two joints of these kinds, a metre apart, and a ball a metre beyond the second.
-Robot twoJoints(RobotJointKind first, RobotJointKind second) {
-  RawSkeleton raw;
-  raw.joints = {{"first", kNoParent, Vector3d::Zero()}, {"second", 0, Vector3d(1, 0, 0)}};
-  Avatar avatar = Avatar::build(Skeleton::build(raw).value(),
-                                {{}, {{Vector3d(1, 0, 0), Vector3d(1, 0, 0), 0.1}}})
-                      .value();
-  RobotJoint of = turning(first, -1, 1), then = turning(second, -1, 1);
-  of.axis = then.axis = Vector3d(0, 0, 2);
-  return Robot::build(std::move(avatar), {of, then}).value();
-}
-
 TEST(Robot, AxesHaveALengthOfOneWhateverTheyWereGivenAs) {
   const auto axisOf = [](RobotJointKind first, RobotJointKind second, std::size_t joint) {
     return twoJoints(first, second).joints()[joint].axis;
@@ -234,6 +275,13 @@ TEST(Robot, RoundingOfPosesIsThatOfTheJointsThatMove) {
     EXPECT_LE(rounding, 4.0 * kOneJoint * kReach);
     EXPECT_EQ(twoJoints(kTurns, kTurns).poseRounding(), 2.0 * rounding);
   }
+  // One that follows turns by as much more as its factor says.
+  std::vector<RobotJoint> joints = twoJoints(kTurns, kTurns).joints();
+  joints[1].mimicOf = 0;
+  joints[1].mimicFactor = -5.0;
+  joints[1].mimicOffset = 500.0;
+  const Robot following = Robot::build(twoJoints(kTurns, kTurns).avatar(), joints).value();
+  EXPECT_GE(following.poseRounding(), 1.4 * (2 * 64 + 7 * (1000 + 5500)) * 0x1p-53 * kReach);
 }
 
 TEST(PairRulesAsking, AskOnlyWhatIsListedAndRefuseWhatMakesNoSense) {
