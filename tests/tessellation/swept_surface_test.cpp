@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tessellation/lattice.h"
 #include "tests/tessellation/surface_checks.h"
 
 namespace foretouch::test {
@@ -328,6 +329,25 @@ TEST(SweptSurface, CoordinatesFitFloatsWhereAskedTo) {
   for (const Vector3d& v : surface.value().vertices) {
     for (const double x : v) ASSERT_EQ(static_cast<double>(static_cast<float>(x)), x);
   }
+}
+
+TEST(SweptSurface, HasAsManyTrianglesAsItMayAndNoMore) {
+  const SweepCase c = turningCase(0.0, {{0, 0, 0}, {0, 0.5, 0}, 0.1}, {});
+  SweptSurfaceOptions options;
+  options.maxTriangles = surfaceOf(c, options).value().triangles.size();
+  EXPECT_TRUE(surfaceOf(c, options).ok());
+  --options.maxTriangles;
+  EXPECT_EQ(surfaceOf(c, options).error().code, ErrorCode::LimitExceeded);
+}
+
+// Farther out than a piece may be long, in spacings of the lattice.
+TEST(SweptSurface, OfAShortPieceFarOutIsNotRefused) {
+  SweptSurfaceOptions options;
+  options.error = 1e-3;
+  const Lss lss{{9e6, 0, 0}, {9e6, 0.5, 0}, 0.1};
+  const SweptSurface surface = surfaceOf(turningCase(0.0, lss, {}), options).value();
+  EXPECT_GT(9e6 / surface.spacing, static_cast<double>(kMaxLatticeDifference));
+  EXPECT_EQ(looseEdges(surface), 0u);
 }
 
 TEST(SweptSurface, RefusesWhatItCannotCertify) {
