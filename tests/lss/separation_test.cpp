@@ -162,7 +162,7 @@ TEST(SeparationOfEdges, ThatAreNearlyParallelIsTight) {
     test::Random random(static_cast<std::uint64_t>(i));
     const double size = random.magnitude(1e-3, 1e3);
     const Vector3d along = random.direction(), away = along.unitOrthogonal();
-    const double height = size * random.magnitude(1e-4, 1.0);
+    const double height = size * random.magnitude(1e-9, 1e-6);
     const Vector3d rise = random.magnitude(1e-9, 1e-7) * size * away;
     const Vector3d start = random.uniform(-0.3, 0.3) * size * along;
     const Hull one = Hull::segment(start, start + size * along);
