@@ -50,10 +50,10 @@ class ModelMotion {
   void assign(const Skeleton& skeleton, const PosedStep& step, MotionModel model);
   /// True: it is the constant rate, and one piece is all of it.
   [[nodiscard]] bool isConstantRate() const { return isConstantRate_; }
-  /// Goes on for `horizon` seconds as the step went, at a constant rate: in pieces of which each is
-  /// at most as long as all before it, and in which no joint turns by more than 1 rad. Fills in
-  /// their ends (s after `to`, and the poses). False: it would take more than `most` pieces, or
-  /// lead beyond kMaxCoordinate.
+  /// Goes on for `horizon` seconds as the step went, at a constant rate: in pieces of which the
+  /// first is at most a 32nd of it, each other at most as long as all before it, and in which no
+  /// joint turns by more than 1 rad. Fills in their ends (s after `to`, and the poses). False: it
+  /// would take more than `most` pieces, or lead beyond kMaxCoordinate.
   [[nodiscard]] static bool goOn(const PosedStep& step, double horizon, std::size_t most,
                                  std::vector<double>& seconds, std::vector<Pose>& ends);
   /// The pose at t in [0,1]; the given ones, bit for bit, at both ends. `pose` is resized. At a

@@ -165,6 +165,37 @@ TEST(ChainNodes, DependOnTheLastCallAlone) {
   }
 }
 
+// Poses are those of the motion; at its ends, those that are given, bit for bit, as quaternions
+// that may be turned round.
+TEST(ChainNodes, PosesAtInstantsAreThoseOfTheMotion) {
+  for (int i = 0; i < 200; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const RandomMotion m = test::randomMotion(random, 1 + random.below(12));
+    const ChainMotion motion(m.skeleton, m.from, m.to);
+    const double t = random.uniform(0.0, 1.0);
+    Pose from, to, early, late, truth;
+    ChainNodes::posesAt(motion, 0.0, t, from, early);
+    ChainNodes::posesAt(motion, t, 1.0, late, to);
+    motion.poseAt(t, truth);
+    for (std::size_t j = 0; j < truth.rotations.size(); ++j) {
+      const JointArc arc = motion.arc(static_cast<LinkId>(j));
+      const Quaternion start(arc.from[0], arc.from[1], arc.from[2], arc.from[3]);
+      const Quaternion end(arc.to[0], arc.to[1], arc.to[2], arc.to[3]);
+      ASSERT_EQ(from.rotations[j].coeffs(), start.coeffs());
+      ASSERT_EQ(to.rotations[j].coeffs(), end.coeffs());
+      ASSERT_EQ(from.translations[j], m.from.translations[j]);
+      ASSERT_EQ(early.rotations[j].coeffs(), late.rotations[j].coeffs());
+      ASSERT_NEAR(std::abs(early.rotations[j].dot(truth.rotations[j])), 1.0, 1e-14);
+      ASSERT_LE((early.translations[j] - truth.translations[j]).norm(),
+                1e-15 * truth.translations[j].norm());
+      Real square = 0;
+      for (const double q : early.rotations[j].coeffs()) square += Real(q) * Real(q);
+      ASSERT_LE(asDouble(abs(square - 1)), 6.0 * kUnitRoundoff);
+    }
+  }
+}
+
 // What MotionEvaluator keeps must not show.
 TEST(MotionEvaluator, GivesTheMotionsStatesBitForBit) {
   MotionEvaluator evaluator;

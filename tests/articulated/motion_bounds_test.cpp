@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "articulated/motion.h"
+#include "lss/index.h"
 #include "tests/support/random_motion.h"
 
 namespace foretouch {
@@ -138,6 +139,54 @@ TEST(MotionBounds, SpeedAndAccelerationBoundTheTrueMotion) {
   // A bound that nothing comes near would be useless.
   EXPECT_GT(tightestChord, 0.8);
   EXPECT_GT(tightestSpeed, 0.9);
+}
+
+/// Bounds on the rounding of one link's state, as motion_bounds.md 3 carries them down a chain.
+struct CarriedRounding {
+  double rotation = 0.0, origin = 0.0, spin = 0.0, velocity = 0.0;
+  double angularSpeed = 0.0, speed = 0.0, reach = 0.0;
+};
+
+CarriedRounding carried(const CarriedRounding& parent, const ChainMotion::JointBounds& joint) {
+  constexpr double kU = 0x1p-53, kJointRotation = 128 * kU, kJointRate = 64 * kU,
+                   kProduct = 16 * kU;
+  const double f = parent.rotation + kProduct;
+  CarriedRounding own;
+  own.angularSpeed = parent.angularSpeed + joint.turn;
+  own.speed = parent.speed + parent.angularSpeed * joint.length + joint.driftLength;
+  own.reach = parent.reach + joint.length;
+  own.rotation = parent.rotation + kJointRotation + kProduct;
+  own.origin = parent.origin + f * joint.length + 2 * kU * own.reach;
+  own.spin =
+      parent.spin + f * joint.turn + kJointRate * (1 + joint.turn) + 2 * kU * own.angularSpeed;
+  own.velocity = parent.velocity + (parent.spin + 2 * parent.angularSpeed * f) * joint.length +
+                 f * joint.driftLength + 4 * kU * own.speed;
+  return own;
+}
+
+TEST(MotionBounds, RoundingIsNeverBelowWhatIsCarriedDownTheChain) {
+  for (int i = 0; i < 500; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    const RandomMotion m = test::randomMotion(random, 1 + random.below(6));
+    const ChainMotion motion(m.skeleton, m.from, m.to);
+    std::vector<CarriedRounding> sums;
+    for (LinkId link = 0; link < motion.numLinks(); ++link) {
+      const JointId parent = motion.parent(link);
+      sums.push_back(carried(parent == kNoParent ? CarriedRounding() : sums[slotOf(parent)],
+                             motion.jointBounds(link)));
+      const CarriedRounding& least = sums.back();
+      const MotionBounds b = motion.bounds(link);
+      EXPECT_GE(b.rotationRounding, least.rotation);
+      EXPECT_GE(b.originRounding, least.origin);
+      EXPECT_GE(b.spinRounding, least.spin);
+      EXPECT_GE(b.velocityRounding, least.velocity);
+      if (parent != kNoParent) continue;  // of one joint they are the same
+      EXPECT_NEAR(b.rotationRounding / least.rotation, 1.0, 1e-11);
+      EXPECT_NEAR(b.originRounding / least.origin, 1.0, 1e-11);
+      EXPECT_NEAR(b.spinRounding / least.spin, 1.0, 1e-11);
+    }
+  }
 }
 
 // The angle is bounded by the chord: for turns of every size, and never by much more than the turn.

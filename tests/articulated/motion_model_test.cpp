@@ -55,8 +55,12 @@ TEST(MotionModel, MeetsTheGivenPosesBitForBit) {
   EXPECT_EQ(pose.translations[0], four.poses[2].translations[0]);
 }
 
-/// The rate before and after a pose, by differences.
-TEST(MotionModel, IsSmoothAcrossPosesWhateverTheirTimes) {
+/// The rate before and after a pose, by differences: where joints turn far in a step, and where
+/// they turn so little that series take over.
+class SmoothMotionModel : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Turns, SmoothMotionModel, testing::Values(0.4, 0.09));
+
+TEST_P(SmoothMotionModel, IsSmoothAcrossPosesWhateverTheirTimes) {
   Random random(2);
   RawSkeleton raw;
   raw.joints = {{"one", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
@@ -65,7 +69,7 @@ TEST(MotionModel, IsSmoothAcrossPosesWhateverTheirTimes) {
   for (int k = 0; k < 5; ++k) {
     poses[k] = restPose(skeleton);
     if (k > 0) {
-      poses[k].rotations[0] = (poses[k - 1].rotations[0] * random.turn(0.4)).normalized();
+      poses[k].rotations[0] = (poses[k - 1].rotations[0] * random.turn(GetParam())).normalized();
       poses[k].translations[0] = poses[k - 1].translations[0] + random.inBox(0.1);
     }
   }
@@ -77,17 +81,43 @@ TEST(MotionModel, IsSmoothAcrossPosesWhateverTheirTimes) {
   after.assign(skeleton,
                {&poses[1], &poses[2], &poses[3], &poses[4], seconds[1], seconds[2], seconds[3]},
                MotionModel::CubicLate);
-  constexpr double kDt = 1e-6;
+  constexpr double kDt = 1e-8, kTolerance = 2e-5;
   Pose early, late;
   before.poseAt(1.0 - kDt / seconds[1], early);
   after.poseAt(kDt / seconds[2], late);
   const Quaternion& at = poses[2].rotations[0];
   const Eigen::Vector3d rateBefore = 2.0 / kDt * (early.rotations[0].conjugate() * at).vec();
   const Eigen::Vector3d rateAfter = 2.0 / kDt * (at.conjugate() * late.rotations[0]).vec();
-  EXPECT_LT((rateBefore - rateAfter).norm(), 1e-3 * rateAfter.norm());
+  EXPECT_LT((rateBefore - rateAfter).norm(), kTolerance * rateAfter.norm());
   const Eigen::Vector3d speedBefore = (poses[2].translations[0] - early.translations[0]) / kDt;
   const Eigen::Vector3d speedAfter = (late.translations[0] - poses[2].translations[0]) / kDt;
-  EXPECT_LT((speedBefore - speedAfter).norm(), 1e-3 * speedAfter.norm());
+  EXPECT_LT((speedBefore - speedAfter).norm(), kTolerance * speedAfter.norm());
+}
+
+// Poses of a constant rate lie on the curve, whatever the turn: where series are used, just beyond,
+// and near the largest.
+TEST(MotionModel, TurnsAtTheRateOfPosesThatDo) {
+  RawSkeleton raw;
+  raw.joints = {{"one", kNoParent, Eigen::Vector3d::Zero(), Quaternion::Identity()}};
+  const Skeleton skeleton = Skeleton::build(raw).value();
+  const Eigen::Vector3d axis = Eigen::Vector3d(2, -3, 6) / 7.0;
+  const auto turned = [&](double angle) { return Quaternion(Eigen::AngleAxisd(angle, axis)); };
+  for (const double angle : {1e-4, 0.05, 0.19, 0.199, 0.201, 0.6, 1.9}) {
+    SCOPED_TRACE(angle);
+    Pose poses[4];
+    for (int k = 0; k < 4; ++k) {
+      poses[k] = restPose(skeleton);
+      poses[k].rotations[0] = turned((k - 1) * angle);
+    }
+    ModelMotion motion;
+    motion.assign(skeleton, {&poses[0], &poses[1], &poses[2], &poses[3], 0.1, 0.1, 0.1},
+                  MotionModel::CubicLate);
+    for (const double t : {0.1, 0.5, 0.99}) {
+      Pose pose;
+      motion.poseAt(t, pose);
+      EXPECT_LE(turnBetween(pose.rotations[0], turned(t * angle)), 3e-15);
+    }
+  }
 }
 
 TEST(MotionModel, NoJointOfAPieceStraysFartherThanSaid) {
@@ -161,6 +191,11 @@ TEST(MotionModel, GoesOnInPiecesThatDoubleUntilAJointTurnsTooFar) {
     last = &ends[k];
   }
   EXPECT_EQ(before, kHorizonS);
+  // However slow it is: what comes soon is asked in short pieces.
+  ASSERT_TRUE(
+      ModelMotion::goOn(fourPoses(random, 1e-6).step(0.1, 0.1, 0.1), kHorizonS, 32, seconds, ends));
+  EXPECT_EQ(seconds.front(), kHorizonS / 32.0);
+  EXPECT_EQ(seconds.size(), 6u);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "articulated/pair_rules.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -119,8 +120,10 @@ TEST(PairRules, RefuseWhatTheyCannotMean) {
   }
   EXPECT_NE(errorOf(options).find("found all 10 left out"), std::string::npos);
   options = {};
-  options.restSkin = std::nan("");
-  EXPECT_NE(errorOf(options).find("restSkin"), std::string::npos);
+  for (const double skin : {0.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    options.restSkin = skin;
+    EXPECT_NE(errorOf(options).find("restSkin"), std::string::npos) << skin;
+  }
   options = {};
   options.alwaysShare = 0.0;
   EXPECT_NE(errorOf(options).find("alwaysShare"), std::string::npos);

@@ -16,6 +16,12 @@ TEST(InDigits, AreThoseAskedForWithoutTrailingZeros) {
   EXPECT_EQ(inDigits(-std::numeric_limits<double>::denorm_min(), 17), "-4.9406564584124654e-324");
 }
 
+TEST(InQuotes, ShowsLettersOfEveryLanguageAndNoControlCharacters) {
+  EXPECT_EQ(inQuotes("a\xc2\xa0\xc3\xa9"), "'a\xc2\xa0\xc3\xa9'");
+  EXPECT_EQ(inQuotes("\xc2\x85"), R"('\xc2\x85')");
+  EXPECT_EQ(inQuotes("\xc3\xa9\xc2\x9f"), "'\xc3\xa9\\xc2\\x9f'");
+}
+
 TEST(InQuotes, ShowsWhatCannotBePrintedAndCutsWhatIsLong) {
   EXPECT_EQ(inQuotes("Hand"), "'Hand'");
   EXPECT_EQ(inQuotes("a\nb"), R"('a\x0ab')");

@@ -14,6 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kPi = 3.14159265358979323846;
 constexpr LinkId kBase = 0, kArm = 1, kFold = 2, kCuff = 3;
 
 RobotJoint turning(RobotJointKind kind, double lower, double upper) {
@@ -115,6 +116,59 @@ TEST(SampledPoses, FillTheLimitsEvenlyAndAreTheSameForASeed) {
   EXPECT_NE(other[0].rotations[kFold].coeffs(), poses[0].rotations[kFold].coeffs());
 }
 
+/// Two joints of these kinds, a metre apart, and a ball a metre beyond the second.
+Robot twoJoints(RobotJointKind first, RobotJointKind second) {
+  RawSkeleton raw;
+  raw.joints = {{"first", kNoParent, Vector3d::Zero()}, {"second", 0, Vector3d(1, 0, 0)}};
+  Avatar avatar = Avatar::build(Skeleton::build(raw).value(),
+                                {{}, {{Vector3d(1, 0, 0), Vector3d(1, 0, 0), 0.1}}})
+                      .value();
+  RobotJoint of = turning(first, -1, 1), then = turning(second, -1, 1);
+  of.axis = then.axis = Vector3d(0, 0, 2);
+  return Robot::build(std::move(avatar), {of, then}).value();
+}
+
+/// The least and the largest of 2000 samples of a shift with these limits.
+std::pair<double, double> rangeOfShifts(double lower, double upper) {
+  const Robot of = twoJoints(RobotJointKind::Fixed, RobotJointKind::Prismatic);
+  std::vector<RobotJoint> joints = of.joints();
+  joints[1].lower = lower;
+  joints[1].upper = upper;
+  double least = 1e9, most = -1e9;
+  const Robot robot = Robot::build(of.avatar(), joints).value();
+  const std::vector<Pose> poses = robot.sampledPoses(2000, 3).value();
+  for (const Pose& pose : poses) {
+    least = std::min(least, pose.translations[1].z());
+    most = std::max(most, pose.translations[1].z());
+  }
+  return {least, most};
+}
+
+TEST(SampledPoses, FillAHalfTurnOrAMetreWhereALimitIsMissing) {
+  constexpr double kNone = RobotJoint::kUnlimited;
+  const auto expectRange = [](double lower, double upper, double least, double most) {
+    const auto [from, to] = rangeOfShifts(lower, upper);
+    EXPECT_GE(from, least);
+    EXPECT_LT(from, least + 0.01);
+    EXPECT_LE(to, most);
+    EXPECT_GT(to, most - 0.01);
+  };
+  expectRange(-kNone, kNone, -1.0, 1.0);
+  expectRange(5.0, kNone, 5.0, 6.0);
+  expectRange(-kNone, -5.0, -6.0, -5.0);
+  expectRange(-kNone, 0.5, -1.0, 0.5);
+  double least = 0.0, most = 0.0;
+  const std::vector<Pose> poses = foldable().sampledPoses(2000, 3).value();
+  for (const Pose& pose : poses) {
+    const Quaternion& turn = pose.rotations[kCuff];
+    const double angle = 2.0 * std::atan2(turn.z(), turn.w());
+    least = std::min(least, angle);
+    most = std::max(most, angle);
+  }
+  EXPECT_LT(least, 0.01 - kPi);
+  EXPECT_GT(most, kPi - 0.01);
+}
+
 TEST(SampledPoses, KeepTheLimitsOfJointsThatFollow) {
   const Robot of = foldable();
   std::vector<RobotJoint> joints = of.joints();
@@ -151,6 +205,83 @@ TEST(PathAlong, TurnsEveryJointTheWayThatItsNumberSays) {
   EXPECT_FALSE(robot.pathAlong(q.data(), 0).ok());
   const std::vector<double> bad = {0.0, 2.0, 0.0, 0.0, 2.0, 2000.0};
   EXPECT_EQ(robot.pathAlong(bad.data(), 2).error().index, 2);
+}
+
+/// A mobile base whose rest frame stands a quarter turn about x: its plane is x and z of W.
+Robot mobileBase() {
+  RawSkeleton raw;
+  raw.joints = {{"base", kNoParent, Vector3d(0, 0, 0.5),
+                 Quaternion(Eigen::AngleAxisd(0.5 * kPi, Vector3d::UnitX()))},
+                {"arm", kBase, Vector3d(0.4, 0, 0)}};
+  const std::vector<Lss> ball{{Vector3d::Zero(), Vector3d::Zero(), 0.1}};
+  Avatar avatar = Avatar::build(Skeleton::build(raw).value(), {ball, ball}).value();
+  RobotJoint base;
+  base.kind = RobotJointKind::Planar;
+  return Robot::build(std::move(avatar), {base, turning(RobotJointKind::Continuous, 0, 0)}).value();
+}
+
+TEST(MobileBase, StandsAndMovesWhereItsNumbersSay) {
+  const Robot robot = mobileBase();
+  ASSERT_EQ(robot.numCoordinates(), 4u);
+  const std::array<double, 4> q{0.3, 0.7, 0.5 * kPi, 0.0};
+  Pose pose;
+  robot.poseAt(q.data(), pose);
+  const ChainMotion still(robot.avatar().skeleton(), pose, pose);
+  std::vector<LinkState> states;
+  still.statesAt(0.0, states);
+  EXPECT_LT((states[kBase].p_WL - Vector3d(0.3, 0, 1.2)).norm(), 1e-15);
+  // A quarter turn takes the arm from along the plane's x to along its y.
+  EXPECT_LT((states[kArm].p_WL - Vector3d(0.3, 0, 1.6)).norm(), 1e-15);
+  std::array<double, 4> slope{};
+  const Vector3d tip = states[kArm].p_WL + 0.2 * Vector3d::UnitZ(), along(2, 3, 5);
+  robot.slopeAt(q.data(), states, kArm, tip, along, slope.data());
+  EXPECT_NEAR(slope[0], 2.0, 1e-14);
+  EXPECT_NEAR(slope[1], 5.0, 1e-14);
+  EXPECT_NEAR(slope[2], -0.6 * 2.0, 1e-14);
+  EXPECT_NEAR(slope[3], -0.2 * 2.0, 1e-14);
+}
+
+TEST(MobileBase, TurnsAsFarAsItsAngleAndNotAsItsShiftsSay) {
+  const Robot robot = mobileBase();
+  const std::vector<double> q = {0.0, 0.0, 1.0, 0.0, 100.0, -50.0, 9.0, 2.0};
+  EXPECT_EQ(robot.largestTurn(q.data(), q.data() + 4), 8.0);
+  EXPECT_EQ(robot.largestTurn(q.data() + 4, q.data()), 8.0);
+  EXPECT_EQ(robot.partsBetween(q.data(), q.data() + 4, 4), 4);
+  EXPECT_EQ(robot.partsBetween(q.data(), q.data() + 4, 2), 0);
+  EXPECT_EQ(robot.pathAlong(q.data(), 2).value().poses.size(), 5u);
+}
+
+TEST(Robot, AxesHaveALengthOfOneWhateverTheyWereGivenAs) {
+  const auto axisOf = [](RobotJointKind first, RobotJointKind second, std::size_t joint) {
+    return twoJoints(first, second).joints()[joint].axis;
+  };
+  constexpr auto kTurns = RobotJointKind::Revolute, kStays = RobotJointKind::Fixed;
+  EXPECT_EQ(axisOf(kTurns, kStays, 0), Vector3d::UnitZ());
+  EXPECT_EQ(axisOf(kStays, kTurns, 1), Vector3d::UnitZ());
+  EXPECT_EQ(axisOf(kTurns, RobotJointKind::Prismatic, 1), Vector3d::UnitZ());
+}
+
+// robot.md 2: of one joint that turns by up to 1000 rad, 1.4 (64 u + 7 u 1000) times the reach.
+TEST(Robot, RoundingOfPosesIsThatOfTheJointsThatMove) {
+  constexpr auto kTurns = RobotJointKind::Continuous, kStays = RobotJointKind::Fixed;
+  constexpr double kOneJoint = 1.4 * (64 + 7 * 1000) * 0x1p-53, kReach = 2.0;
+  EXPECT_EQ(twoJoints(kStays, kStays).poseRounding(), 0.0);
+  EXPECT_EQ(twoJoints(kStays, kStays).reach(), kReach);
+  EXPECT_EQ(twoJoints(kTurns, RobotJointKind::Revolute).reach(), kReach);
+  EXPECT_EQ(twoJoints(RobotJointKind::Prismatic, kTurns).reach(), kReach + 1.0) << "to its limit";
+  for (const auto& [first, second] : {std::pair{kTurns, kStays}, std::pair{kStays, kTurns}}) {
+    const double rounding = twoJoints(first, second).poseRounding();
+    EXPECT_GE(rounding, kOneJoint * kReach);
+    EXPECT_LE(rounding, 4.0 * kOneJoint * kReach);
+    EXPECT_EQ(twoJoints(kTurns, kTurns).poseRounding(), 2.0 * rounding);
+  }
+  // One that follows turns by as much more as its factor says.
+  std::vector<RobotJoint> joints = twoJoints(kTurns, kTurns).joints();
+  joints[1].mimicOf = 0;
+  joints[1].mimicFactor = -5.0;
+  joints[1].mimicOffset = 500.0;
+  const Robot following = Robot::build(twoJoints(kTurns, kTurns).avatar(), joints).value();
+  EXPECT_GE(following.poseRounding(), 1.4 * (2 * 64 + 7 * (1000 + 5500)) * 0x1p-53 * kReach);
 }
 
 TEST(PairRulesAsking, AskOnlyWhatIsListedAndRefuseWhatMakesNoSense) {

@@ -75,6 +75,14 @@ TEST(FitLss, OfFewPointsIsHardlyLargerThanWhatTheyWereDrawnFrom) {
   EXPECT_LT(ratios / kClouds, 1.05);  // 1.044; a search that does not converge: 1.19
 }
 
+// Two metres by one, and so many points on a diagonal that it is the principal axis, and the
+// farthest pair, too.
+TEST(FitLss, FindsARectangleWhosePointsLieOnItsDiagonal) {
+  std::vector<Vector3d> points{{-1, 0.5, 0}, {1, -0.5, 0}};
+  for (int i = -50; i <= 50; ++i) points.emplace_back(0.02 * i, 0.01 * i, 0.0);
+  EXPECT_LT(volume(fitLss(points)), 1.05 * volume({{-1, 0, 0}, {1, 0, 0}, 0.5}));
+}
+
 TEST(Volume, OfACapsuleIsCylinderPlusBall) {
   EXPECT_NEAR(volume({Vector3d(0, 0, 0), Vector3d(0, 2, 0), 1.0}), 10.471975511965978, 1e-12);
 }

@@ -125,6 +125,10 @@ TEST(CoverTriangles, SplitsWhereItPaysAndOnlyThere) {
   EXPECT_LT(totalVolume(two), 0.25 * totalVolume(one));
   EXPECT_EQ(outsideOf(two, knee), 0);
   EXPECT_EQ(coverTriangles(ellipsoid(12, 12, {1, 1, 1}, {0, 0, 0}), 4).size(), 1u);
+  const std::vector<Triangle> apart = {
+      {{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)}},
+      {{Vector3d(9, 9, 0), Vector3d(9, 10, 0), Vector3d(9, 9, 1)}}};
+  EXPECT_EQ(coverTriangles(apart, 4).size(), 2u);
 }
 
 TEST(CoverTriangles, LargeMeshesAreCoveredFromTheirExtremePoints) {
@@ -150,18 +154,46 @@ TEST(CoverTriangles, SameTrianglesSameLss) {
   }
 }
 
+// Places are multiples of 2^-20 m, so a shift by whole metres changes none of their differences:
+// how triangles are split depends on these alone. Two rods side by side, which only a cut across
+// their own axes takes apart.
+TEST(CoverTriangles, CoverTheSameWayWhereverTheyAre) {
+  test::Random random(9);
+  std::vector<Triangle> rods, shifted;
+  for (int i = 0; i < 60; ++i) {
+    const Vector3d middle(4.0 * (i % 30) / 30.0, i < 30 ? 0.0 : 1.0, 0.0);
+    Triangle triangle;
+    for (Vector3d& v : triangle.vertices) {
+      for (int axis = 0; axis < 3; ++axis) {
+        v[axis] =
+            std::ldexp(std::round(std::ldexp(middle[axis] + random.uniform(-0.1, 0.1), 20)), -20);
+      }
+    }
+    rods.push_back(triangle);
+    for (Vector3d& v : triangle.vertices) v += Vector3d(64, 64, 0);
+    shifted.push_back(triangle);
+  }
+  const auto here = coverTriangles(rods, 4), there = coverTriangles(shifted, 4);
+  ASSERT_GT(here.size(), 1u);
+  ASSERT_EQ(there.size(), here.size());
+  EXPECT_NEAR(totalVolume(there), totalVolume(here), 1e-6 * totalVolume(here));
+}
+
 TEST(MeasureCover, SaysHowFarTheWorstTriangleSticksOut) {
   const Lss ball{{0, 0, 0}, {0, 0, 0}, 1.0}, far{{9, 0, 0}, {9, 0, 0}, 2.0};
   const std::vector<Triangle> triangles = {
       {{Vector3d(0.5, 0, 0), Vector3d(0, 0.5, 0), Vector3d(0, 0, 0.5)}},
       {{Vector3d(0, 0, 0), Vector3d(1.25, 0, 0), Vector3d(0, 1, 0)}},
-      {{Vector3d(0, 0, 0), Vector3d(0, -1.5, 0), Vector3d(0, 1, 0)}}};
+      {{Vector3d(0, 0, 0), Vector3d(0, -1.5, 0), Vector3d(0, 1, 0)}},
+      {{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0.5, 0, 0)}}};  // to its surface
   const CoverMeasure measure = measureCover({ball, far}, triangles);
   EXPECT_EQ(measure.outside, 2u);
   EXPECT_NEAR(measure.worstOutside, 0.5, 1e-15);
   EXPECT_NEAR(measure.lssVolume, 4.0 / 3.0 * kPi, 1e-12);  // the far one contains nothing
+  // Of a pyramid half a metre high, on a triangle of 2.5 m by 1.25 m.
+  EXPECT_NEAR(measure.hullVolume, 0.5 * 2.5 * 1.25 * 0.5 / 3.0, 1e-12);
   EXPECT_TRUE(std::isinf(measureCover({}, triangles).worstOutside));
-  EXPECT_EQ(measureCover({}, triangles).outside, 3u);
+  EXPECT_EQ(measureCover({}, triangles).outside, 4u);
   EXPECT_EQ(measureCover({ball}, {}).worstOutside, 0.0);
 }
 
@@ -175,6 +207,16 @@ TEST(HullVolume, IsExactForBoxesAndLittleBelowForBalls) {
   for (int i = 0; i < 20000; ++i) ball.push_back(random.direction());
   EXPECT_LT(hullVolume(ball), 4.0 / 3.0 * kPi);
   EXPECT_GT(hullVolume(ball), 0.94 * 4.0 / 3.0 * kPi);
+}
+
+// A thin tetrahedron far from the origin, along the direction in which it is thin.
+TEST(HullVolume, DoesNotDependOnWhereThePointsAre) {
+  for (const double far : {-100.0, 0.0, 100.0}) {
+    const Vector3d shift(0, far, 0);
+    const std::vector<Vector3d> points{Vector3d(-10, 0, 0) + shift, Vector3d(10, 0, 0) + shift,
+                                       Vector3d(0, 1, 0) + shift, Vector3d(0, 1, 1) + shift};
+    EXPECT_NEAR(hullVolume(points), 20.0 / 6.0, 1e-12) << far;
+  }
 }
 
 TEST(HullVolume, CountsTheOutermostOfManyPoints) {
@@ -195,6 +237,15 @@ TEST(HullVolume, CountsTheOutermostOfManyPoints) {
       EXPECT_EQ(std::count(extremes.begin(), extremes.end(), end), 1);
     }
   }
+}
+
+TEST(HullVolume, OfNoMorePointsThanDirectionsIsThatOfAll) {
+  test::Random random(7);
+  std::vector<Vector3d> few;
+  for (int i = 0; i < 226; ++i) few.push_back(random.inBox(1.0));
+  EXPECT_EQ(extremePoints(few), few);
+  few.push_back(Vector3d::Zero());
+  EXPECT_LT(extremePoints(few).size(), few.size());
 }
 
 TEST(HullVolume, OfFlatPointsIsZero) {

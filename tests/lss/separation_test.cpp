@@ -78,6 +78,10 @@ Judged judge(const HullPair& pair) {
     least = std::min(least, s.clearance[i]);
   }
   EXPECT_EQ(s.lower(), least);
+  const double near = 4.0 * kSeparationRounding * extentOf(pair) + 1e-150;
+  EXPECT_NEAR(s.difference.norm(), s.distance, near);
+  EXPECT_LE((s.onOne - s.onOther - s.difference).norm(),
+            near + 8.0 * kUnitRoundoff * pair.other.points[0].norm());
   return {static_cast<double>(oracle::preciseDistance(precise(pair.one), precise(pair.other))),
           s.lower(), s.upper, kSeparationRounding * extentOf(pair)};
 }
@@ -147,6 +151,42 @@ TEST_P(Separations, CornersJustAboveFacesAreProvenApart) {
         count == 2 ? Hull::segment(corner, above()) : Hull{{corner, above(), above()}, 3};
     const Separation s = isFaceOther ? separation(tip, face) : separation(face, tip);
     ASSERT_GT(s.lower(), 0.99 * height - 1e-13);
+  }
+}
+
+/// Edges so nearly parallel that where their lines cross is noise: of two that do not cross, the
+/// nearest points are at an end, at every size.
+TEST(SeparationOfEdges, ThatAreNearlyParallelIsTight) {
+  for (int i = 0; i < 3000; ++i) {
+    SCOPED_TRACE(i);
+    test::Random random(static_cast<std::uint64_t>(i));
+    const double size = random.magnitude(1e-3, 1e3);
+    const Vector3d along = random.direction(), away = along.unitOrthogonal();
+    const double height = size * random.magnitude(1e-9, 1e-6);
+    const Vector3d rise = random.magnitude(1e-9, 1e-7) * size * away;
+    const Vector3d start = random.uniform(-0.3, 0.3) * size * along;
+    const Hull one = Hull::segment(start, start + size * along);
+    const Hull other = Hull::segment(height * away, size * along + height * away + rise);
+    const double truth = static_cast<double>(oracle::preciseDistance(precise(one), precise(other)));
+    const Separation s = separation(one, other);
+    EXPECT_LE(s.upper - truth, 1e-13 * size);
+  }
+}
+
+/// As corners above faces: what proves edges apart that cross just above each other is the normal
+/// of both, on either side.
+TEST(SeparationOfEdges, ThatCrossJustAboveEachOtherIsProven) {
+  for (int i = 0; i < 2000; ++i) {
+    SCOPED_TRACE(i);
+    test::Random random(static_cast<std::uint64_t>(i));
+    const Vector3d n = random.direction(), u = n.unitOrthogonal(), v = n.cross(u);
+    const double height = random.magnitude(1e-10, 1e-5) * (random.chance(0.5) ? 1.0 : -1.0);
+    const double angle = random.uniform(0.2, 2.9);
+    const Vector3d across = std::cos(angle) * u + std::sin(angle) * v;
+    const double early = random.uniform(0.1, 1.0), late = random.uniform(0.1, 1.0);
+    const Hull one = Hull::segment(-early * u, late * u);
+    const Hull other = Hull::segment(height * n - late * across, height * n + early * across);
+    EXPECT_GT(separation(one, other).lower(), 0.99 * std::abs(height) - 1e-13);
   }
 }
 

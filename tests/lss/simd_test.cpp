@@ -1,5 +1,7 @@
 #include "lss/simd.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace foretouch {
@@ -8,6 +10,7 @@ namespace {
 TEST(Simd, EveryWidthThatTheProcessorHasCanBeChosenAndTheWidestIsTakenByItself) {
   const std::vector<Simd> supported = supportedSimd();
   ASSERT_FALSE(supported.empty());
+  EXPECT_EQ(std::adjacent_find(supported.begin(), supported.end()), supported.end());
   for (const Simd simd : supported) {
     if (simd == Simd::Other) continue;
     ASSERT_TRUE(useSimd(simd)) << toString(simd);

@@ -155,8 +155,9 @@ def fate_of(k, reach, patience):
     left = 1000.0 * patience
     is_reached = False
     # What is made once is reached by the first test that needs it, and used by all others.
-    if 0 < sum(len(reached.get(k, [])) for reached in reach.values()) <= 2:
-        program = next(program for program, reached in reach.items() if reached.get(k))
+    for program, reached in reach.items():
+        if not 0 < len(reached.get(k, [])) <= 2:
+            continue
         done = run([BUILD / "bin" / program], 60 + 10 * patience,
                    env={**test_environment(), "GTEST_FAIL_FAST": "1", "FORETOUCH_MUTANT": str(k)})
         if done is None or done.returncode != 0:

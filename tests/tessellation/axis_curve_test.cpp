@@ -102,5 +102,25 @@ TEST(AxisCurve, FollowsTheTrueAxisInEveryFrameAtEveryWidth) {
   EXPECT_GT(worstBend, 0.8) << "the bound is far above every path";
 }
 
+// A body at rest, far out: nothing but the rounding of places is of any size. Of an end and of its
+// frame's origin, and of their difference, as errors at the nodes may grow in between (5).
+TEST(AxisCurve, CountsTheRoundingOfItsFrameToo) {
+  Random random(1);
+  const test::MovingBody body(random, 3);
+  Pose far = body.motion.from;
+  far.translations[0] = Vector3d(1e4, -2e4, 3e4);
+  const ChainMotion motion(body.avatar.skeleton(), far, far);
+  const LssTable table(body.avatar);
+  const LssTable::Entry& entry = table[table.size() - 1];
+  ChainNodes nodes;
+  nodes.evaluate(motion, 0.0, 1.0, Vector3d::Zero());
+  const AxisCurve curve =
+      axisCurve(entry, motion.sumsIn(0, entry.link).bounds(), nodes, &nodes.link(0));
+  const NodeBounds& at = nodes.bounds();
+  const double ofPlaces = 2.0 * at.positionRounding + (32.0 + 4.0) * kUnitRoundoff * at.reach;
+  EXPECT_GE(curve.error, 2.203 * ofPlaces);
+  EXPECT_LE(curve.error, 3.0 * ofPlaces);
+}
+
 }  // namespace
 }  // namespace foretouch

@@ -207,6 +207,35 @@ TEST(LssPolynomials, InterpolationErrorIsABoundAndNotFarFromTheWorst) {
   EXPECT_GT(closest, 0.2);
 }
 
+// Of a body that is only shifted, nothing else is of any size. The least that the derivation (4)
+// asks of the radius is 2j + 2 roundings of the j-th coefficient, and products of two of them.
+TEST(LssPolynomials, HoldTheRoundingsOfTheirEvaluation) {
+  RawSkeleton raw;
+  raw.joints = {{"only", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
+  const Skeleton skeleton = Skeleton::build(raw).value();
+  const Avatar avatar =
+      Avatar::build(skeleton, {{{Vector3d::Zero(), Vector3d::Zero(), 0.0}}}).value();
+  const Pose from = restPose(skeleton);
+  ChainNodes nodes;
+  for (const double shift : {1e-3, 1.0, 100.0}) {
+    SCOPED_TRACE(shift);
+    Pose to = from;
+    to.translations[0] = Vector3d(2, -1, 2) * shift;
+    const ChainMotion motion(skeleton, from, to);
+    nodes.evaluate(motion, 0.0, 1.0, from.translations[0]);
+    const LssPolynomials got = polynomialsOf(LssTable(avatar)[0], motion, nodes);
+    double weighted = 0.0;
+    for (int j = 0; j < kCoefficients; ++j) {
+      const Vector3d coefficient(static_cast<double>(got.a[0][j]), static_cast<double>(got.a[1][j]),
+                                 static_cast<double>(got.a[2][j]));
+      weighted += (2.0 * j + 2.0) * coefficient.norm();
+    }
+    const double least = 0x1p-24 * (1.0 + 15.0 * 0x1p-24) * weighted;
+    EXPECT_GE(static_cast<double>(got.radius), least);
+    EXPECT_LE(static_cast<double>(got.radius), 1.001 * least);
+  }
+}
+
 // An ordinary step of a tracked person: 5 Hz, joints turning up to 15 degrees, within a metre of
 // the origin.
 TEST(LssPolynomials, CostLessThanAMicrometreForOrdinarySteps) {
@@ -284,6 +313,33 @@ TEST(LssTable, HoldsEveryLssInLinkOrder) {
   }
 }
 
+TEST(LssTable, AssignedAnewKeepsNothingOfBefore) {
+  Random random(4);
+  const test::MovingBody before(random, 9), after(random, 5);
+  const auto listsOf = [](const Avatar& avatar) {
+    std::vector<std::vector<Lss>> lists;
+    for (LinkId link = 0; link < avatar.numLinks(); ++link) lists.push_back(avatar.lss(link));
+    lists.front().clear();
+    return lists;
+  };
+  LssTable reused(before.avatar), fresh;
+  reused.assign(listsOf(after.avatar));
+  fresh.assign(listsOf(after.avatar));
+  ASSERT_EQ(reused.numLinks(), 5);
+  ASSERT_EQ(reused.size(), fresh.size());
+  EXPECT_EQ(reused.bareLinks(), fresh.bareLinks());
+  EXPECT_EQ(reused.largestRho(), fresh.largestRho());
+  EXPECT_EQ(reused.largestRadius(), fresh.largestRadius());
+  double largestRho = 0.0;
+  for (LinkId link = 0; link < 5; ++link) {
+    EXPECT_EQ(reused.rho(link), fresh.rho(link));
+    EXPECT_EQ(reused.first(link + 1), fresh.first(link + 1));
+    largestRho = std::max(largestRho, fresh.rho(link));
+  }
+  EXPECT_EQ(fresh.rho(0), 0.0);
+  EXPECT_EQ(fresh.largestRho(), largestRho);
+}
+
 TEST(SlabsFor, IsTheLeastPowerOfTwoThatMeetsTheBound) {
   int seen = 0;
   for (int i = 0; i < 200; ++i) {
@@ -311,6 +367,10 @@ TEST(SlabsFor, IsTheLeastPowerOfTwoThatMeetsTheBound) {
     seen |= slabs;
   }
   EXPECT_EQ(seen, 31) << "every number of slabs should occur";
+  Random random(0);
+  const test::MovingBody body(random, 8);
+  const ChainMotion motion(body.avatar.skeleton(), body.motion.from, body.motion.to);
+  EXPECT_EQ(slabsFor(LssTable(body.avatar), motion, 0.0), 16) << "no number of slabs would do";
 }
 
 }  // namespace

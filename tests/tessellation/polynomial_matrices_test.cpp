@@ -80,5 +80,33 @@ TEST(PolynomialMatrices, AreNearestDoublesWhateverTheHostSetLongDoubleTo) {
   EXPECT_EQ(controlWord(), before);
 }
 
+/// The polynomial of these control points on [-1,1] (Bernstein's form), at x.
+double bezier(const double* points, int degree, double x) {
+  double sum = 0.0, binomial = 1.0;
+  for (int i = 0; i <= degree; ++i) {
+    sum +=
+        binomial * std::pow(0.5 * (1.0 + x), i) * std::pow(0.5 * (1.0 - x), degree - i) * points[i];
+    binomial *= static_cast<double>(degree - i) / (i + 1);
+  }
+  return sum;
+}
+
+TEST(PolynomialMatrices, HaveTheControlPointsOfBothDerivatives) {
+  const internal::PolynomialMatrices& matrices = internal::polynomialMatrices();
+  for (int power = 0; power < kNodes; ++power) {
+    EXPECT_EQ(matrices.evaluation[power], 2 * power + 2);
+    for (const double x : {-1.0, -0.7, -0.1, 0.4, 1.0}) {
+      const double first = power < 1 ? 0.0 : power * std::pow(x, power - 1);
+      const double second = power < 2 ? 0.0 : power * (power - 1) * std::pow(x, power - 2);
+      EXPECT_NEAR(bezier(matrices.first[power], 6, x), first, 1e-13) << power << " " << x;
+      EXPECT_NEAR(bezier(matrices.second[power], 5, x), second, 1e-12) << power << " " << x;
+    }
+    for (const double unused :
+         {matrices.first[power][7], matrices.second[power][6], matrices.second[power][7]}) {
+      EXPECT_EQ(unused, 0.0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace foretouch

@@ -115,6 +115,34 @@ TEST(SweptBoxes, KeepTheEndsThatTheyAreMadeOfAtEveryWidth) {
   }
 }
 
+// Points at rest: their boxes are no larger than they, and what rounds in an extent has nothing to
+// hide behind.
+TEST(SweptBoxes, ExtentsHoldEndsThatHaveNoRadius) {
+  RawSkeleton raw;
+  raw.joints = {{"only", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
+  const Skeleton skeleton = Skeleton::build(raw).value();
+  Random random(6);
+  std::vector<Lss> points;
+  for (int i = 0; i < 40; ++i) {
+    const Vector3d p = random.inBox(3.0);
+    points.push_back({p, p, 0.0});
+  }
+  const LssTable table(Avatar::build(skeleton, {points}).value());
+  const ChainMotion motion(skeleton, restPose(skeleton), restPose(skeleton));
+  ChainNodes nodes;
+  nodes.evaluate(motion, 0.0, 1.0, Vector3d::Zero());
+  SweptBoxes boxes;
+  NodeEnds ends;
+  sweptBoxes(table, motion, nodes, 0.0, boxes, &ends);
+  for (std::int32_t k = 0; k < table.size(); ++k) {
+    double sum = 0.0;
+    for (const auto& axis : ends.axes[slotOf(k)].a) sum += std::abs(static_cast<double>(axis[0]));
+    const auto extent = static_cast<double>(ends.extents[slotOf(k)]);
+    EXPECT_GE(extent, sum);
+    EXPECT_LE(extent, sum * (1.0 + 0x1p-18) + 1e-5);
+  }
+}
+
 TEST(SweptBoxes, GrowByTheMarginOfTheirLink) {
   SweptBoxes boxes, alike;
   ChainNodes nodes;
@@ -152,6 +180,7 @@ TEST(SweptBoxes, LanesLeftOverAreEmpty) {
     sweptBoxes(table, motion, nodes, 0.0, boxes);
     ASSERT_EQ(boxes.capacity % SweptBoxes::kPadding, 0);
     ASSERT_GE(boxes.capacity, boxes.count);
+    ASSERT_LT(boxes.capacity, boxes.count + SweptBoxes::kPadding);
     for (std::int32_t k = 0; k < boxes.capacity; ++k) {
       for (int axis = 0; axis < 3; ++axis) {
         EXPECT_EQ(boxes.lower[axis][k] <= boxes.upper[axis][k], k < boxes.count);

@@ -153,6 +153,36 @@ TEST(BallPolytope, HoldsTheBallWithinTheExcess) {
   }
 }
 
+// Corners that differ along a facet are equally far along its normal, and products of this size are
+// no doubles: of these two the first counts, whatever rounding says.
+TEST(SweptSum, LabelsAreExactWhereDoublesAreNot) {
+  const BallPolytope ball = polytopeAround(1e8, 1e7).value();
+  SweptSum sum(ball);
+  SumFaces faces;
+  std::size_t rounded = 0;
+  for (std::size_t f = 0; f < ball.facets.size(); ++f) {
+    const BallPolytope::Facet& facet = ball.facets[f];
+    const auto corner = [&](std::size_t k) { return ball.corners[slotOf(facet.corners[k])]; };
+    const LatticePoint u = corner(1) - corner(0), v = corner(2) - corner(0);
+    const LatticePoint along{3 * u.x - 7 * v.x, 3 * u.y - 7 * v.y, 3 * u.z - 7 * v.z};
+    ASSERT_EQ(exactDot(facet.normal, along), 0);
+    rounded += asVector(facet.normal).dot(asVector(along)) != 0.0;
+    for (const LatticePoint& other : {along, LatticePoint{} - along}) {
+      sum.facesOf({LatticePoint{}, other}, faces);
+      ASSERT_EQ(faces.facetCorner[f], 0) << f;
+    }
+  }
+  EXPECT_GT(rounded, 10u);
+}
+
+// The regular icosahedron's corners are 1.2584 times as far out as its facets; cut once, 1.0787
+// times.
+TEST(BallPolytope, IsTheIcosahedronWhereItWillDo) {
+  constexpr double kRadius = 1e6;
+  EXPECT_EQ(polytopeAround(kRadius, 0.2585 * kRadius).value().frequency, 1);
+  EXPECT_EQ(polytopeAround(kRadius, 0.2583 * kRadius).value().frequency, 2);
+}
+
 TEST(BallPolytope, RefusesMoreFacetsThanThereMayBe) {
   EXPECT_FALSE(polytopeAround(1e12, 4.0).ok());
 }
@@ -165,6 +195,10 @@ TEST(LatticeSigns, OfProductsBeyondOneHundredTwentyEightBits) {
   EXPECT_EQ(signOfDifferenceOfProducts(big, big, big + 1, big - 1), 1);
   EXPECT_EQ(signOfDifferenceOfProducts(3, 5, 7, 2), 1);
   EXPECT_EQ(signOfDifferenceOfProducts(0, big, 1, 1), -1);
+  // (2^65 - 1)^2 is 2^66 - 1 below 2^130: carries out of all lower products.
+  const WideInteger power = static_cast<WideInteger>(1) << 65;
+  EXPECT_EQ(signOfDifferenceOfProducts(power - 1, power - 1, power, power), -1);
+  EXPECT_EQ(signOfDifferenceOfProducts(power - 1, power - 1, power >> 1, power - 4), 1);
 }
 
 }  // namespace

@@ -59,6 +59,35 @@ TEST(SweptBox, ContainsTheLssThroughoutTheSpan) {
   EXPECT_GT(checked, 100000);
 }
 
+// A joint that turns by 0.8 rad about z: its points' speed and acceleration are closed forms. The
+// turn's bound is at most 1.009 times the turn.
+TEST(AxisBounds, AreThoseOfTheEnds) {
+  RawSkeleton raw;
+  raw.joints = {{"only", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
+  const Skeleton skeleton = Skeleton::build(raw).value();
+  const Pose from = restPose(skeleton);
+  Pose to = from;
+  constexpr double kTurn = 0.8, kSlack = 1.02;
+  to.rotations[0] = Eigen::AngleAxisd(kTurn, Vector3d::UnitZ());
+  const MotionBounds bounds = ChainMotion(skeleton, from, to).bounds(0);
+  for (const bool isTurned : {false, true}) {
+    const Vector3d near(0.1, 0, 0), far(0, 0.5, 0);
+    const Lss lss{isTurned ? far : near, isTurned ? near : far, 0.05};
+    const AxisBounds got = axisBounds(lss, bounds);
+    const auto expectAbove = [](double bound, double least) {
+      EXPECT_GE(bound, least);
+      EXPECT_LE(bound, kSlack * least);
+    };
+    expectAbove(got.speed, kTurn * 0.5);
+    expectAbove(got.accelerationA, kTurn * kTurn * lss.a.norm());
+    expectAbove(got.accelerationB, kTurn * kTurn * lss.b.norm());
+    expectAbove(got.positionRoundingA, bounds.positionRoundingAt(lss.a.norm()));
+    expectAbove(got.positionRoundingB, bounds.positionRoundingAt(lss.b.norm()));
+    expectAbove(got.velocityRoundingA, bounds.velocityRoundingAt(lss.a.norm()));
+    expectAbove(got.velocityRoundingB, bounds.velocityRoundingAt(lss.b.norm()));
+  }
+}
+
 TEST(SweptBox, ConvergesQuadraticallyToTheChord) {
   Random random(7);
   const test::RandomMotion m = test::randomMotion(random, 4);
@@ -90,6 +119,32 @@ TEST(Aabb, GrowsOutwardPastRounding) {
   EXPECT_LT(box.min.x(), 1e4);  // 1e-13 alone would be lost
   EXPECT_GT(box.max.x(), 1e4);
   EXPECT_TRUE(box.contains(Vector3d(1e4, 1e4, 1e4)));
+}
+
+// In fifty digits; faces far larger and far smaller than the distance, and than each other.
+TEST(Aabb, GrowsEveryFaceByAtLeastTheDistanceAndLittleMore) {
+  for (int i = 0; i < 2000; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i));
+    Vector3d low, high;
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = random.magnitude(1e-12, 1e7) * (random.chance(0.5) ? 1.0 : -1.0);
+      high[axis] = low[axis] + random.magnitude(1e-12, 1e7);
+    }
+    Aabb box;
+    box.add(low);
+    box.add(high);
+    const double distance = random.magnitude(1e-12, 1e7);
+    box.grow(distance);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Real down = Real(low[axis]) - Real(box.min[axis]) - Real(distance);
+      const Real up = Real(box.max[axis]) - Real(high[axis]) - Real(distance);
+      ASSERT_GE(down, Real(0));
+      ASSERT_GE(up, Real(0));
+      ASSERT_LE(down, Real(0x1p-49) * Real(std::abs(low[axis]) + distance));
+      ASSERT_LE(up, Real(0x1p-49) * Real(std::abs(high[axis]) + distance));
+    }
+  }
 }
 
 TEST(Aabb, DistanceIsThatOfTheNearestPoints) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tessellation/lattice.h"
 #include "tests/tessellation/surface_checks.h"
 
 namespace foretouch::test {
@@ -77,6 +78,20 @@ Result<SweptSurface> surfaceOf(const SweepCase& c, const SweptSurfaceOptions& op
     if (!done.ok()) return done.error();
   }
   return builder.value().finish();
+}
+
+/// A joint that turns by `turn` about z, and an LSS on it.
+SweepCase turningCase(double turn, const Lss& lss, const SweptSpan& span) {
+  RawSkeleton raw;
+  raw.joints.push_back({"only", kNoParent, {0, 0, 0}, Quaternion::Identity()});
+  const Skeleton skeleton = Skeleton::build(raw).value();
+  Pose to = restPose(skeleton);
+  to.rotations[0] = Eigen::AngleAxisd(turn, Vector3d::UnitZ());
+  SweepCase c;
+  c.lss = lss;
+  c.motions.emplace_back(skeleton, restPose(skeleton), to);
+  c.spans.push_back(span);
+  return c;
 }
 
 double errorFor(std::uint64_t seed) {
@@ -279,6 +294,32 @@ TEST(SweptSurface, OfAStraightShiftHasTheVolumeOfThePrism) {
   }
 }
 
+// Of a ball that stands still on the lattice the surface is the polytope itself, and what its
+// corners and facets are off is exact in fifty digits. The certificate adds what the budget leaves
+// to chords, to the rounding of places and to the lattice (swept_surface.md 5).
+TEST(SweptSurface, CertifiesNoLessThanABallsOwnPolytopeNeeds) {
+  using Real = oracle::Precise;
+  constexpr double kRadius = 1.0;
+  const SweepCase c = turningCase(0.0, {{0, 0, 0}, {0, 0, 0}, kRadius}, {});
+  for (const SurfaceSide side : {SurfaceSide::Outer, SurfaceSide::Inner}) {
+    SweptSurfaceOptions options;
+    options.side = side;
+    const SweptSurface s = surfaceOf(c, options).value();
+    Real off = 0;
+    for (const auto& t : s.triangles) {
+      const oracle::Precise3 a(s.vertices[t[0]]), b(s.vertices[t[1]]), d(s.vertices[t[2]]);
+      const oracle::Precise3 normal = oracle::cross(b - a, d - a);
+      off = std::max(off, side == SurfaceSide::Outer
+                              ? oracle::norm(a) - Real(kRadius)
+                              : Real(kRadius) - oracle::dot(normal, a) / oracle::norm(normal));
+    }
+    const Real needed =
+        off + Real("0.105") * Real(options.error) + Real("0.8661") * Real(s.spacing);
+    EXPECT_GE(Real(s.certifiedError), needed);
+    EXPECT_LE(Real(s.certifiedError), needed + Real("1e-11"));
+  }
+}
+
 TEST(SweptSurface, CoordinatesFitFloatsWhereAskedTo) {
   const SweepCase c = sweepCase(3);
   SweptSurfaceOptions options;
@@ -288,6 +329,25 @@ TEST(SweptSurface, CoordinatesFitFloatsWhereAskedTo) {
   for (const Vector3d& v : surface.value().vertices) {
     for (const double x : v) ASSERT_EQ(static_cast<double>(static_cast<float>(x)), x);
   }
+}
+
+TEST(SweptSurface, HasAsManyTrianglesAsItMayAndNoMore) {
+  const SweepCase c = turningCase(0.0, {{0, 0, 0}, {0, 0.5, 0}, 0.1}, {});
+  SweptSurfaceOptions options;
+  options.maxTriangles = surfaceOf(c, options).value().triangles.size();
+  EXPECT_TRUE(surfaceOf(c, options).ok());
+  --options.maxTriangles;
+  EXPECT_EQ(surfaceOf(c, options).error().code, ErrorCode::LimitExceeded);
+}
+
+// Farther out than a piece may be long, in spacings of the lattice.
+TEST(SweptSurface, OfAShortPieceFarOutIsNotRefused) {
+  SweptSurfaceOptions options;
+  options.error = 1e-3;
+  const Lss lss{{9e6, 0, 0}, {9e6, 0.5, 0}, 0.1};
+  const SweptSurface surface = surfaceOf(turningCase(0.0, lss, {}), options).value();
+  EXPECT_GT(9e6 / surface.spacing, static_cast<double>(kMaxLatticeDifference));
+  EXPECT_EQ(looseEdges(surface), 0u);
 }
 
 TEST(SweptSurface, RefusesWhatItCannotCertify) {
@@ -322,6 +382,39 @@ TEST(SweptSurface, TimesRunThroughTheSpans) {
   EXPECT_GE(*least, c.spans.front().beginS);
   EXPECT_LE(*most, c.spans.back().endS);
   EXPECT_LT(*least, *most);
+}
+
+TEST(SweptSurface, TimesOfASpanOfTheMotionAreThoseOfItsPlaces) {
+  constexpr double kRadius = 0.01, kTurn = 1.2;
+  const SweptSpan span{0.25, 0.75, 10.0, 12.0};
+  const SweepCase c = turningCase(kTurn, {{1, 0, 0}, {1, 0, 0}, kRadius}, span);
+  const SweptSurface surface = surfaceOf(c, {}).value();
+  for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
+    const Vector3d& v = surface.vertices[i];
+    const double t = 0.25 + 0.5 * (surface.timesS[i] - 10.0) / 2.0;
+    // Within the ball at that time, and a piece of the path.
+    EXPECT_NEAR(std::atan2(v.y(), v.x()), kTurn * t, 3.0 * kRadius + kTurn * 0.5 / 10.0);
+  }
+  // A chord of an arc of this length leaves it by a tenth of the error, and a hundredth for bounds.
+  const double needed = 0.5 * kTurn / std::sqrt(8.0 * 0.1 * SweptSurfaceOptions().error);
+  EXPECT_GE(static_cast<double>(surface.pieces), needed);
+  EXPECT_LE(static_cast<double>(surface.pieces), 1.01 * needed + 1.0);
+  const auto [least, most] = std::minmax_element(surface.timesS.begin(), surface.timesS.end());
+  EXPECT_EQ(*least, 10.0);
+  EXPECT_EQ(*most, 12.0);
+}
+
+// A stick that turns about its middle: its ends move apart, so a piece's hull is wider than its
+// sheet by half of an end's way. As many pieces as these need, and not a power of two of them.
+TEST(SweptSurface, CutsAStickThatTurnsIntoAsManyPiecesAsItsSheetNeeds) {
+  constexpr double kHalf = 0.5, kTurn = 1.5, kSheetShare = 0.46;
+  const SweepCase c = turningCase(kTurn, {{-kHalf, 0, 0}, {kHalf, 0, 0}, 0.1}, {});
+  SweptSurfaceOptions options;
+  options.error = kHalf / 21.5;
+  const double needed = 0.5 * kHalf * kTurn / (kSheetShare * options.error);
+  const SweptSurface surface = surfaceOf(c, options).value();
+  EXPECT_GE(static_cast<double>(surface.pieces), 0.9 * needed);
+  EXPECT_LE(static_cast<double>(surface.pieces), 1.3 * needed);
 }
 
 }  // namespace
