@@ -12,19 +12,22 @@
 namespace foretouch::test {
 namespace {
 
-const std::string kThere = "0 0 0 1 0 0 0\n0 0 1 1 0 0 0\n",
-                  kHere = "1 0 0 1 0 0 0\n1 0 1 1 0 0 0\n";
+/// Poses of all links, at x = 0 and at x = 1.
+const std::string kThere = "0 0 0 1 0 0 0\n0 0 1 1 0 0 0\n0 0 0 1 0 0 0\n";
+const std::string kHere = "1 0 0 1 0 0 0\n1 0 1 1 0 0 0\n1 0 0 1 0 0 0\n";
 const std::string kSteps =
     "foretouch-steps 1\nstep 0\n" + kThere + kHere + "step 1\n" + kHere + kThere;
 
-/// Two spheres side by side that run from x = 0 to x = 1, and back again, before a wall at x = 9.
+/// Two spheres side by side that run from x = 0 to x = 1, and back again, before a wall at x = 9,
+/// and a link without LSS, of which nothing needs to be claimed.
 class VerifyProgram : public testing::Test {
  protected:
   void SetUp() override {
     folder_.write("scene", "v 9 -5 -5\nv 9 5 -5\nv 9 0 9\nf 1 2 3\n");
-    const std::string rest = R"(","parent":null,"lss":[{"a":[0,0,0],"b":[0,0,0],"radius":0.1}]})";
+    const std::string rest = R"(","parent":null,"lss":[{"a":[0,0,0],"b":[0,0,0],"radius":0.1}]},)";
     folder_.write("avatar", R"({"format":"foretouch-avatar","links":[{"name":"a)" + rest +
-                                R"(,{"name":"b)" + rest + "]}");
+                                R"({"name":"b)" + rest +
+                                R"({"name":"c","parent":null,"lss":[]}]})");
     folder_.write("steps", kSteps);
   }
   [[nodiscard]] std::vector<std::string> files() const {
@@ -58,7 +61,7 @@ TEST_F(VerifyProgram, ProvesWhatIsClaimed) {
     EXPECT_TRUE(holds(ended.out, "proven: 4 links on 2 steps touch nothing: 4 LSS, 4 spans"));
   }
   expectRefused(verified(claimOf(7, {0})), 1, "step 7: is none of the steps");
-  expectRefused(verified(claimOf(0, {2})), 1, "step 0: the avatar has no such link");
+  expectRefused(verified(claimOf(0, {3})), 1, "step 0: the avatar has no such link");
   expectRefused(verified(""), 1, "it claims nothing");
 }
 
