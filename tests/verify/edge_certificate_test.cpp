@@ -356,6 +356,12 @@ TEST(VerifyEdges, RefusesWhatIsNotTheFormat) {
   EXPECT_TRUE(holds(whyNotEdges(good, "[0.60066,0,-0.80088,0]"), "unit rotation"));
 }
 
+TEST(VerifyEdges, AreToldFromStepsByTheirFirstWord) {
+  EXPECT_TRUE(verify::isOfEdges("\nforetouch-edges 7\n"));
+  EXPECT_FALSE(verify::isOfEdges("foretouch-steps 1\nforetouch-edges 1\n"));
+  EXPECT_FALSE(verify::isOfEdges("\n\n"));
+}
+
 TEST(VerifyEdges, TrianglesThatMayBeTouchedAreThoseNamed) {
   constexpr std::size_t kAll = 4;
   for (std::size_t lists = 0; lists < 1000; ++lists) {

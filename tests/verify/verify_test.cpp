@@ -148,6 +148,20 @@ TEST(VerifyMotion, TheAccelerationIsABound) {
   EXPECT_GT(nearest, 0.5);
 }
 
+/// A point on a circle of radius r that turns by w per unit of t has the acceleration w^2 r.
+TEST(VerifyMotion, TheAccelerationOfOneTurnIsThatOfACircle) {
+  const std::vector<verify::Link> links(1);
+  for (const double angle : {1e-3, 0.5, 1.5, 2.5, 3.1, -3.1}) {
+    verify::Step step;
+    step.from.push_back({{}, {1.0, 0.0, 0.0, 0.0}});
+    step.to.push_back({{}, {std::cos(0.5 * angle), 0.0, std::sin(0.5 * angle), 0.0}});
+    const double truth = angle * angle * 0.7;
+    const double bound = verify::Motion(links, step).acceleration(0, 0.7);
+    EXPECT_GE(bound, truth * (1.0 - 1e-12)) << angle;
+    EXPECT_LE(bound, truth * 1.01) << angle;
+  }
+}
+
 TEST(VerifyMotion, TakesQuaternionsThatAreUnitToAThousandth) {
   using Turn = std::array<double, 4>;
   const auto whyNot = [](const Turn& from, const Turn& to) {
