@@ -41,10 +41,7 @@ class JsonReading {
       case '[': value.kind = Json::Kind::Array; return readList('[', ']', value, depth);
       case '"': value.kind = Json::Kind::Text; return readText(value.text, value.hasEscape);
       case 'n': return takeWord("null");
-      case 't':
-        value.kind = Json::Kind::Truth;
-        value.truth = true;
-        return takeWord("true");
+      case 't': value.kind = Json::Kind::Truth; return takeWord("true");
       case 'f': value.kind = Json::Kind::Truth; return takeWord("false");
       default: value.kind = Json::Kind::Number; return readNumber(value.number);
     }

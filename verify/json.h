@@ -11,7 +11,6 @@ namespace verify {
 struct Json {
   enum class Kind { Null, Truth, Number, Text, Array, Object };
   Kind kind = Kind::Null;
-  bool truth = false;
   double number = 0.0;
   std::string text;
   bool hasEscape = false;         ///< In the text.

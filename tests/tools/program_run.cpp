@@ -70,4 +70,8 @@ Ended runBench(const std::vector<std::string>& arguments) {
   return ProgramRun(arguments, {}, "", std::string(FORETOUCH_PROGRAM) + "-bench").ended();
 }
 
+Ended runVerify(const std::vector<std::string>& arguments) {
+  return ProgramRun(arguments, {}, "", std::string(FORETOUCH_PROGRAM) + "-verify").ended();
+}
+
 }  // namespace foretouch::test

@@ -45,5 +45,7 @@ Ended runForetouch(const std::vector<std::string>& arguments,
                    const std::vector<std::string>& environment = {});
 /// `foretouch-bench`, beside it.
 Ended runBench(const std::vector<std::string>& arguments);
+/// `foretouch-verify`, beside it.
+Ended runVerify(const std::vector<std::string>& arguments);
 
 }  // namespace foretouch::test

@@ -1,7 +1,9 @@
 // The verifier: its arithmetic against more digits, its motion against the judge's fifty digits,
 // what its readers refuse, and certificates of random edges with lies about them.
+#include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,6 +15,7 @@
 #include "tests/verify/certificate_trial.h"
 #include "verify/certificate.h"
 #include "verify/interval.h"
+#include "verify/json.h"
 #include "verify/motion.h"
 #include "verify/proof.h"
 #include "verify/statement.h"
@@ -145,6 +148,45 @@ TEST(VerifyMotion, TheAccelerationIsABound) {
   EXPECT_GT(nearest, 0.5);
 }
 
+/// A point on a circle of radius r that turns by w per unit of t has the acceleration w^2 r.
+TEST(VerifyMotion, TheAccelerationOfOneTurnIsThatOfACircle) {
+  const std::vector<verify::Link> links(1);
+  for (const double angle : {1e-3, 0.5, 1.5, 2.5, 3.1, -3.1}) {
+    verify::Step step;
+    step.from.push_back({{}, {1.0, 0.0, 0.0, 0.0}});
+    step.to.push_back({{}, {std::cos(0.5 * angle), 0.0, std::sin(0.5 * angle), 0.0}});
+    const double truth = angle * angle * 0.7;
+    const double bound = verify::Motion(links, step).acceleration(0, 0.7);
+    EXPECT_GE(bound, truth * (1.0 - 1e-12)) << angle;
+    EXPECT_LE(bound, truth * 1.01) << angle;
+  }
+}
+
+TEST(VerifyMotion, TakesQuaternionsThatAreUnitToAThousandth) {
+  using Turn = std::array<double, 4>;
+  const auto whyNot = [](const Turn& from, const Turn& to) {
+    verify::Step step;
+    step.from.push_back({{}, from});
+    step.to.push_back({{}, to});
+    const std::vector<verify::Link> links(1);
+    return verify::Motion(links, step).fault();
+  };
+  const Turn still{1.0, 0.0, 0.0, 0.0};
+  for (const double norm : {1.0 - 1.1e-3, 1.0 - 0.9e-3, 1.0 + 0.9e-3, 1.0 + 1.1e-3}) {
+    const Turn other{0.6 * norm, 0.0, -0.8 * norm, 0.0};
+    const bool isTaken = std::abs(norm - 1.0) < 1e-3;
+    for (const std::string& why : {whyNot(still, other), whyNot(other, still)}) {
+      EXPECT_EQ(why.empty(), isTaken) << norm;
+      EXPECT_TRUE(isTaken || holds(why, "expected unit quaternions")) << norm;
+    }
+  }
+  // Of half a turn the sign is a matter of rounding.
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_EQ(whyNot(still, {sign * 1.1e-12, 1.0, 0.0, 0.0}), "");
+    EXPECT_TRUE(holds(whyNot(still, {sign * 0.9e-12, 1.0, 0.0, 0.0}), "half a turn"));
+  }
+}
+
 TEST(VerifyCertificate, RandomClearEdgesAreProvenAndLiesAreNot) {
   CertificateTally tally;
   for (std::uint64_t seed = 0; tally.clear < 150; ++seed) {
@@ -178,25 +220,32 @@ std::string whyNot(double wall, const std::string& proof) {
       "");
   const verify::Fault fault =
       verify::readCertificate("foretouch-certificate 1\n" + proof + "end\n", claims);
-  if (!fault.what.empty()) return std::to_string(fault.line) + ": " + fault.what;
+  const auto said = [](const verify::Fault& of) {
+    return of.what.empty() ? "" : std::to_string(of.line) + ": " + of.what;
+  };
+  if (!fault.what.empty()) return said(fault);
   verify::Motion motion(links, steps.front());
   verify::Tally tally;
-  return verify::SceneProof(triangles).prove(links, claims.front(), motion, tally).what;
+  return said(verify::SceneProof(triangles).prove(links, claims.front(), motion, tally));
 }
 
 TEST(VerifyCertificate, ByHandAtTheVeryEdge) {
   const std::string head = "step 0\nlink 0\nlss 0\n";
   EXPECT_EQ(whyNot(1.1 + 1e-12, head + "span 0 0\n"), "");
-  EXPECT_TRUE(holds(whyNot(1.1 - 1e-12, head + "span 0 0\n"), "is behind none of its planes"));
+  EXPECT_TRUE(holds(whyNot(1.1 - 1e-12, head + "span 0 0\n"),
+                    "5: triangle 0 is behind none of its planes"));
   EXPECT_EQ(whyNot(1.2, head + "span 0 0\nplane -1 0 0 -1.15\n"), "");
   EXPECT_EQ(whyNot(1.2, head + "span 1 0\nspan 1 1\n"), "");
-  EXPECT_TRUE(holds(whyNot(1.2, head + "span 0 0\nplane -1 0 0 -1.05\n"), "not surely in front"));
-  EXPECT_TRUE(holds(whyNot(1.2, head + "span 1 0\n"), "end before t = 1"));
-  EXPECT_TRUE(holds(whyNot(1.2, head + "span 1 1\n"), "does not begin"));
-  EXPECT_TRUE(holds(whyNot(1.2, head + "span 1 0\nspan 1 0\n"), "does not begin"));
-  EXPECT_TRUE(holds(whyNot(1.2, "step 0\nlink 0\n"), "only 0 have spans"));
-  EXPECT_TRUE(holds(whyNot(1.2, "step 0\nlink 1\nlss 0\nspan 0 0\n"), "no such link"));
-  EXPECT_TRUE(holds(whyNot(1.2, "step 0\nlink 0\nlss 1\nspan 0 0\n"), "no such LSS"));
+  EXPECT_TRUE(holds(whyNot(1.2, head + "span 0 0\nplane -1 0 0 -1.05\n"),
+                    "5: a plane that the LSS is not surely in front"));
+  EXPECT_TRUE(holds(whyNot(1.2, head + "span 1 0\n"), "4: its spans end before t = 1"));
+  EXPECT_TRUE(holds(whyNot(1.2, head + "span 1 1\n"), "5: it does not begin"));
+  EXPECT_TRUE(holds(whyNot(1.2, head + "span 1 0\nspan 1 0\n"), "6: it does not begin"));
+  EXPECT_TRUE(holds(whyNot(1.2, "step 0\nlink 0\n"), "3: of the link's 1 LSS only 0 have spans"));
+  EXPECT_TRUE(
+      holds(whyNot(1.2, "step 0\nlink 1\nlss 0\nspan 0 0\n"), "3: the avatar has no such link"));
+  EXPECT_TRUE(
+      holds(whyNot(1.2, "step 0\nlink 0\nlss 1\nspan 0 0\n"), "4: the link has no such LSS"));
 }
 
 TEST(VerifyReaders, RefuseWhatIsNotTheFormat) {
@@ -223,9 +272,32 @@ TEST(VerifyReaders, RefuseWhatIsNotTheFormat) {
        R"({"format":"x","links":[{"name":"a","parent":null,"lss":[]}]})",
        R"({"format":"foretouch-avatar","links":[{"name":"a","parent":"b","lss":[]}]})",
        R"({"format":"foretouch-avatar","links":[{"name":"a","parent":null,"lss":[{"a":[0,0,0]}]}]})",
+       R"({"format":"foretouch-avatar","links":[{"name":"a","parent":null}]})",
+       R"({"format":"foretouch-avatar","links":[{"name":"a","parent":null,"lss":{}}]})",
        R"({"format":"foretouch-avatar","links":[{"name":"a","parent":null,"lss":[],"lss":[]}]})"}) {
     std::vector<verify::Link> links;
     EXPECT_NE(verify::readAvatar(text, links).what, "") << text;
+  }
+}
+
+TEST(VerifyReaders, SeeNothingBehindTheText) {
+  for (const std::string_view text : {"[1] ", "{} ", "[1]\n2", "true\t"}) {
+    verify::Json value;
+    EXPECT_TRUE(verify::parseJson(text.substr(0, text.find_first_of(" \n\t")), value)) << text;
+  }
+}
+
+/// Readers of single precision take a number for that next to it, on either side, or worse.
+TEST(VerifyReaders, CornersHoldTwoNumbersOfSinglePrecisionOnEachSide) {
+  for (const std::string x : {"0.1", "-0.1", "123456789", "-3.3e-12", "1e-50"}) {
+    std::vector<verify::Triangle> triangles;
+    ASSERT_EQ(verify::readScene("v " + x + " 0.5 -2\nf 1 1 1\n", triangles).what, "");
+    const verify::Vector& corner = triangles.front().corners[0];
+    const auto nearest = static_cast<float>(std::stod(x));
+    EXPECT_LT(corner[0].lo, std::nextafter(nearest, -INFINITY)) << x;
+    EXPECT_GT(corner[0].hi, std::nextafter(nearest, INFINITY)) << x;
+    EXPECT_TRUE(corner[1].lo == 0.5 && corner[1].hi == 0.5);
+    EXPECT_TRUE(corner[2].lo == -2.0 && corner[2].hi == -2.0);
   }
 }
 

@@ -263,6 +263,16 @@ double shareOfPart(const MovingSkin& moving, const FramePolynomials& frame, Skin
   return static_cast<double>(norm(place - centre) / (Real(hull.radius) + Real(hull.pad)));
 }
 
+/// How fast an end of a cluster's axis moves, per u.
+double speedOf(const float (&rows)[3][kCoefficients], float u) {
+  Vector3d velocity = Vector3d::Zero();
+  double power = 1.0;
+  for (int k = 1; k < kCoefficients; ++k, power *= double{u}) {
+    for (int axis = 0; axis < 3; ++axis) velocity[axis] += k * power * double{rows[axis][k]};
+  }
+  return velocity.norm();
+}
+
 struct Shares {
   double cluster = 0.0, part = 0.0;
 };
@@ -276,6 +286,8 @@ void checkLink(const MovingSkin& moving, LinkId link, SkinLanes& lanes, const Sw
   std::size_t seen = 0;
   for (std::int32_t lss = table.table().first(link); lss < table.table().first(link + 1); ++lss) {
     const LssPolynomials polynomials = lanes.polynomials(lss);
+    ASSERT_LE(speedOf(polynomials.a, u), polynomials.speedA);
+    ASSERT_LE(speedOf(polynomials.b, u), polynomials.speedB);
     const PartRange parts = lanes.partsOf(lss - table.table().first(link));
     for (std::int32_t part = parts.first; part < parts.last; ++part) {
       const PartRange triangles = lanes.trianglesOf(HierarchyChild::node(part));

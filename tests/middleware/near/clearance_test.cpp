@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "middleware/near/clearance_search.h"
 #include "tests/middleware/near/clearance_campaign.h"
 #include "tests/middleware/random_scene.h"
+#include "tests/middleware/solid/ball_alone.h"
 
 namespace foretouch {
 namespace {
@@ -64,6 +66,25 @@ TEST(ClearanceQuery, NobodyAskedComesNoNearerThanItLooks) {
       ClearanceQuery::build(body.avatar, scene, options).value().answer(body.motion(), scratch);
   EXPECT_EQ(none.lower, 2.0);
   EXPECT_EQ(none.triangle, -1);
+}
+
+/// Places that are known to a centimetre alone are a centimetre wide.
+TEST(ClearanceSearch, HoldsAllPlacesThatTheMotionMayStandFor) {
+  const Avatar avatar = test::ballAlone(0.1);
+  const Pose from = test::ballAt({0.0, 0.0, 1.0}), to = test::ballAt({0.1, 0.0, 0.5});
+  const ChainMotion motion(avatar.skeleton(), from, to);
+  ClearanceOptions options;
+  options.tolerance = 0.25;  // more than twice what is not known
+  const internal::ClearancePlan plan(avatar, test::boardAt(Eigen::Vector3d::Zero(), 1.0), options);
+  for (const double rounding : {0.0, 0.01, 0.1}) {
+    internal::ClearanceMemory memory;
+    internal::ClearanceSearch search(options, memory);
+    search.look({&plan, &motion, rounding});
+    const Clearance found = search.finish();
+    EXPECT_LE(found.lower, 0.4 - rounding);
+    EXPECT_GE(found.lower, 0.4 - rounding - options.tolerance);
+    EXPECT_GE(found.upper, 0.4 + rounding);
+  }
 }
 
 }  // namespace

@@ -342,6 +342,49 @@ TEST_P(SelfQueries, WithoutWorkAreUndecidedAndNeverClearThatTouch) {
   EXPECT_GT(undecided, 50);
 }
 
+// Of a hundred pairs of balls that all but touch, one overlaps, so the links start in contact:
+// whoever has not looked at all of them may not say that they only touch. What makes meshes of the
+// links is far away.
+TEST_P(SelfQueries, WithoutWorkNeverTakeAStartInContactForATouch) {
+  constexpr int kBalls = 100;
+  constexpr double kRadius = 0.1;
+  const RawSkeleton raw{{{"a", kNoParent, Vector3d::Zero()}, {"b", 0, Vector3d::Zero()}}};
+  const Vector3d below(0, -30, 0), above(0, 30, 0), dx(0.01, 0, 0), dz(0, 0, 0.01);
+  Scratch scratch;
+  for (const int deepest : {0, 50, 99}) {
+    QueryOptions options;
+    std::vector<Lss> one{{below, below, kRadius}}, other{{above, above, kRadius}};
+    for (int i = 0; i < kBalls; ++i) {
+      const double gap = i == deepest ? -0.05 : 0.3 * options.tolerance;
+      const Vector3d x(i, 0, 0), y(i, 2.0 * kRadius + gap, 0);
+      one.push_back({x, x, kRadius});
+      other.push_back({y, y, kRadius});
+    }
+    const Avatar avatar = Avatar::build(Skeleton::build(raw).value(), {one, other}).value();
+    options.self = PairRules::asking(avatar, {{0, 1}}).value();
+    options.fidelity = Fidelity::Exact;
+    options.surface = AvatarSurface::build(avatar, {{{{below, below + dx, below + dz}}},
+                                                    {{{above, above + dx, above + dz}}}})
+                          .value();
+    const Pose from = restPose(avatar.skeleton());
+    Pose to = from;
+    to.translations[1].y() += 0.02;
+    const ChainMotion motion(avatar.skeleton(), from, to);
+    int told = 0, undecided = 0;
+    for (std::uint64_t budget = 1; budget < 20'000; budget += 1 + budget / 8) {
+      SCOPED_TRACE(budget);
+      options.workBudget = budget;
+      const auto pairs = test::answerOf(avatar, motion, farScene(), options, scratch).pairs;
+      ASSERT_EQ(pairs.size(), 1u);
+      const bool isDecided = pairs[0].verdict != Verdict::Undecided;
+      EXPECT_EQ(pairs[0].verdict, isDecided ? Verdict::StartsInContact : Verdict::Undecided);
+      ++(isDecided ? told : undecided);
+    }
+    EXPECT_GT(told, 3);
+    EXPECT_GT(undecided, 3);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Widths, SelfQueries, testing::ValuesIn(supportedSimd()), test::nameOfSimd);
 
 }  // namespace
