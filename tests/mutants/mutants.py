@@ -40,7 +40,7 @@ FOLDERS = {
 ROOMS = {
     "scene": "scene_tests", "near": "near_tests", "solid": "solid_parts_tests", "world": "world_tests",
     "events": "event_tests", "triggers": "trigger_tests", "bracket": "bracket_tests", "depth": "depth_tests",
-    "ask": "ask_tests", "edges": "edge_tests", "mechanics": "mechanics_tests",
+    "ask": "ask_tests", "edges": "edge_tests", "mechanics": "mechanics_tests", "solid_world": "solid_world_tests",
 }
 
 
