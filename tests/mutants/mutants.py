@@ -245,11 +245,12 @@ def main():
     folders = given.folders.split(",")
     if unknown := [folder for folder in folders if folder not in FOLDERS]:
         sys.exit(f"mutants: --folders: expected some of {', '.join(FOLDERS)}, found '{unknown[0]}'")
+    equivalent = judged("tests/mutants/judged.txt")
     if not given.table:
         check_out()
         old = read_results(given.out)
         if given.again:
-            chosen = list(survivors(old))
+            chosen = [mutant for mutant in survivors(old) if mutant.key not in equivalent]
         else:
             chosen = [mutant for mutant in drawn(folders, given.seed) if mutant.key not in old][:given.count]
         configure()
@@ -274,7 +275,6 @@ def main():
                 tell(mutant, fate)
                 print(f"{done}/{len(mutants)} {fate}: {mutant.name}", file=sys.stderr, flush=True)
     results = read_results(given.out)
-    equivalent = judged("tests/mutants/judged.txt")
     rows = list(rows_of(results.values(), equivalent))
     show(COLUMNS, rows)
     if given.record:
