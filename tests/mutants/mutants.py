@@ -7,9 +7,10 @@ these, quickest first: what none notices is listed, to be judged.
   mutants.py --again | --table [--out FILE] [--record]
 
 The tree is a copy of HEAD in build/mutants; nothing of the working tree changes. FILE gets a line of
-JSON per mutant; one that it has already is passed over, also one that cannot be compiled in. --again tries those that survived anew, by
-the tests as they are now; --record keeps the table in docs/measurements. judged.txt lists survivors
-that a person has looked at, with the reason why no test can notice them."""
+JSON per mutant; one that it has already is passed over, also one that cannot be compiled in. --again
+tries those that survived anew, by the tests as they are now, but for those that judged.txt lists: a
+person has looked at them, and says why no test can notice them. --record keeps the table in
+docs/measurements."""
 import argparse
 import json
 import os
