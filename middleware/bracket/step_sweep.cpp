@@ -21,7 +21,8 @@ void StepSweep::begin() {
   memory_.base = 0;
   clearTubes();  // of another step
   const bool isSaid = (ask_.isCut || cutWhole(plan_, memory_)) && sweep(ask_.isCut);
-  if (isSaid) openNear();
+  // Where no finer level follows, a link that nothing bounds says nothing of the others.
+  if (isSaid || ask_.isCut) openNear();
   if (!ask_.isCut) refine(isSaid);
 }
 

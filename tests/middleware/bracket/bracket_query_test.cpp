@@ -293,6 +293,33 @@ TEST_F(BallOverPlate, LookingAheadSaysNotBeforeWhen) {
   EXPECT_EQ(brackets_.links.front().verdict, BracketVerdict::Unclaimed);
 }
 
+TEST(LookAhead, ALinkThatNothingBoundsTakesNothingFromTheOthers) {
+  RawSkeleton raw;
+  raw.joints = {{"a", kNoParent, Vector3d::Zero(), Quaternion::Identity()},
+                {"b", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
+  const Lss ball{Vector3d::Zero(), Vector3d::Zero(), kRadius};
+  const Avatar two = Avatar::build(Skeleton::build(raw).value(), {{ball}, {ball}}).value();
+  const BracketQuery query = BracketQuery::build(two, plate()).value();
+  LinkBound known, wild;
+  known.aheadAcceleration = 0.0;
+  wild.aheadAcceleration = 1e9;  // finite: 5e8 m in a second
+  Scratch scratch;
+  StepBrackets brackets;
+  const auto lookFrom = [&](double y, const LinkBound& boundOfOne) {
+    Pose pose;
+    pose.rotations = {Quaternion::Identity(), Quaternion::Identity()};
+    pose.translations = {Vector3d(0.3, 5.0, 0.2), Vector3d(0.3, y, 0.2)};
+    const PosedStep step{nullptr, &pose, &pose, nullptr, 0.0, kStepS, 0.0};
+    EXPECT_TRUE(query.lookAhead(step, 1.0, {boundOfOne, known}, scratch, brackets).ok());
+  };
+  lookFrom(5.0, known);
+  EXPECT_EQ(brackets.links[1].verdict, BracketVerdict::Excluded);
+  lookFrom(0.05, wild);
+  EXPECT_EQ(brackets.links[0].verdict, BracketVerdict::Unclaimed);
+  EXPECT_EQ(brackets.links[1].verdict, BracketVerdict::Possible);
+  EXPECT_EQ(brackets.links[1].possibleFrom, 0.0);
+}
+
 TEST_F(BallOverPlate, RefusesBoundsThatAreNone) {
   const Pose pose = poseAt(1.0);
   PosedStep step{nullptr, &pose, &pose, nullptr, 0.0, kStepS, 0.0};
