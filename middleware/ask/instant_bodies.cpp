@@ -38,6 +38,7 @@ void InstantBodies::useWorld(const WorldParts& world) {
     tables_.emplace_back().assign(world.kinds[kind].asked());
   }
   kept_.resize(world.bodies.size());
+  state_.resize(world.bodies.size());
 }
 
 void InstantBodies::bring(const WorldParts& world, const WorldQuestion& question) {
@@ -194,6 +195,7 @@ const PieceBoxes* InstantBodies::pieces(BodyId body) {
 }
 
 const PieceBoxes& InstantBodies::piecesOf(BodyId body, const BodyPiece& known) {
+  state_[slotOf(body)].piece = -1;  // the slot of the body's instant may be taken
   return kept_[slotOf(body)].pieces[slotOf(pieceOf(body, known))];
 }
 

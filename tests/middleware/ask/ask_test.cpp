@@ -285,5 +285,31 @@ TEST(Ask, RefusesByName) {
   EXPECT_NE(fly(Vector3d::UnitX(), 500).find("to_us"), std::string::npos);
 }
 
+// A flight keeps a body's boxes piece after piece, and has more pieces than are kept.
+TEST(Ask, AFlightThroughManyPosesLeavesTheNextQuestionItsHit) {
+  World world = World::build(std::nullopt).value();
+  const BodyId body = world.add(rod()).value();
+  for (int i = 0; i <= 70; ++i) {
+    const RigidPose pose{Quaternion::Identity(), Vector3d(i, 0, 0)};
+    ASSERT_TRUE(world.push(body, 10'000 * i, pose).ok());
+  }
+  const WorldQuestion ray =
+      WorldQuestion::ray(Vector3d(0.5, 0.5, 3), Vector3d(0, 0, -1), 10, {5'000, 0.0});
+  Scratch scratch;
+  WorldAnswer answer;
+  ASSERT_TRUE(askWorld(world, ray, scratch, answer).ok());
+  ASSERT_EQ(answer.hits.size(), 1U);
+  const double distance = answer.hits[0].distance;
+  FlightQuestion flight;
+  flight.shape = {Vector3d(0, 500, 0), Vector3d(0, 500, 0), 0.1};
+  flight.way = Vector3d(1, 0, 0);
+  flight.toUs = 700'000;
+  FlightAnswer flown;
+  ASSERT_TRUE(askFlight(world, flight, scratch, flown).ok());
+  ASSERT_TRUE(askWorld(world, ray, scratch, answer).ok());
+  ASSERT_EQ(answer.hits.size(), 1U);
+  EXPECT_EQ(answer.hits[0].distance, distance);
+}
+
 }  // namespace
 }  // namespace foretouch
