@@ -45,7 +45,7 @@ void WorkShares::shareAgain(std::uint64_t total, std::uint64_t most,
   for (const std::size_t pair : pairs) sum += weightOf(pair);
   const auto hasNoMore = [&](std::size_t pair) {
     const std::uint64_t more = partOf(total, most, weightOf(pair) / sum);
-    if (more / 2 < shares_[pair]) return true;
+    if (more < kLeastShare || more / 2 < shares_[pair]) return true;
     shares_[pair] = more;
     return false;
   };

@@ -209,5 +209,28 @@ TEST(WorkShares, AreByBodies) {
   EXPECT_TRUE(undone.empty());
 }
 
+TEST(WorkShares, OfLessThanTheLeastAreNotTriedAgain) {
+  WorkShares shares;
+  shares.begin(3);
+  shares.add(0, 1);
+  shares.add(0, 2);
+  shares.add(1, 2);
+  shares.share(1, 1'000'000);
+  std::vector<std::size_t> undone{0, 1, 2};
+  shares.shareAgain(1, 1'000'000, undone);
+  EXPECT_TRUE(undone.empty()) << "it would be tried for ever";
+}
+
+TEST(WorkBudget, OfLessThanAUnitPerPairLeavesAllUndecided) {
+  const World world = heapAndPair(50, 1'000);
+  Scratch scratch;
+  WorldContacts answer;
+  ASSERT_TRUE(world.contacts(0, 10'000, scratch, answer).ok());
+  ASSERT_EQ(answer.contacts.size(), 1226U);
+  for (const WorldContact& contact : answer.contacts) {
+    EXPECT_EQ(contact.reason, UndecidedReason::WorkBudget);
+  }
+}
+
 }  // namespace
 }  // namespace foretouch
