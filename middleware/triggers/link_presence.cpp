@@ -80,7 +80,9 @@ void LinkPresence::appendLink(const TriggerPair& pair, LinkId link,
     if (decided.presence == Presence::Outside) continue;
     spans.push_back({gap.from, gap.to, decided.presence, link, decided.isAssumed, gap.isNew});
   }
-  const bool isTouching = !touching_.empty() && !(touching_.back().to < atUs(stretch_.toUs));
+  const bool isTouching =
+      std::any_of(touching_.begin(), touching_.end(),
+                  [&](const PresenceSpan& span) { return !(span.to < atUs(stretch_.toUs)); });
   keep({pair.trigger, pair.body, link}, spans, first, isTouching);
 }
 

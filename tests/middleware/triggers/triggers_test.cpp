@@ -2,10 +2,12 @@
 #include "middleware/triggers/triggers.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "middleware/scene/box_triangles.h"
 #include "tests/middleware/balls.h"
 #include "tests/middleware/triggers/both_triggers.h"
 #include "tests/middleware/world/random_worlds.h"
@@ -407,6 +409,30 @@ TEST(TriggerOracle, NobodyInsideIsMissedAndNobodyOutsideIsTold) {
 // A link may have pieces that do not hang together, one of them inside.
 TEST(TriggerOracle, NoTriangleInsideIsMissed) {
   expectNobodyIsMissed(true);
+}
+
+// A ball between two boards of one volume touches the lower one until a stretch ends, and the upper
+// one within that time: the contact that ends last is not the one that begins last.
+TEST(Triggers, WhoTouchesTwoObjectsAndLeavesOneWhereAStretchBeginsHasLeft) {
+  RawScene raw = internal::boxTriangles({-2, -1, -1}, {2, 0, 1}, "slab");
+  const RawScene post = internal::boxTriangles({-0.1, 0.21, -1}, {0.1, 0.5, 1}, "post");
+  raw.triangles.insert(raw.triangles.end(), post.triangles.begin(), post.triangles.end());
+  raw.objectOf.insert(raw.objectOf.end(), post.triangles.size(), 1);
+  raw.objectNames.push_back("post");
+  BothTriggers both(0.01, 0);
+  const BodyId body = both.both.add(test::ball(0.1));
+  const TriggerId volume =
+      both.add({TriggerVolume::mesh(Scene::build(std::move(raw)).value()).value(), {}, true});
+  both.stand(volume, at(0));
+  // Half a tolerance above the slab, below the post by as much; at 10 ms 1.7 tolerances above.
+  both.both.push(body, 0, at(-1.0, 0.105));
+  both.both.push(body, 8'000, at(1.0, 0.105));
+  both.both.push(body, 10'000, at(1.0, 0.117));
+  both.follow(10'000);
+  both.both.push(body, 20'000, at(1.0, 5.0));
+  both.follow(20'000);
+  EXPECT_EQ(said(both.events), "starts_inside 0, leave 0");
+  EXPECT_TRUE(both.triggers.occupants().empty());
 }
 
 }  // namespace
