@@ -235,7 +235,7 @@ bool MovingController::findNearer(Run& run) {
 bool MovingController::ride(Run& run) {
   const AroundRows::Placed* const at = blocker_ == nullptr ? nullptr : around_.placed(blocker_);
   if (at == nullptr) return false;
-  const JointId joint = std::max(blockedBy_, at->atBegin->kind->first);
+  const JointId joint = blockedBy_ + at->atBegin->kind->first;
   const LinkState& from = at->begin[slotOf(joint)];
   const LinkState& to = at->end[slotOf(joint + at->atEnd->kind->first - at->atBegin->kind->first)];
   const Eigen::Matrix3d turn = to.R_WL * from.R_WL.transpose();

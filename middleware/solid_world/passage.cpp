@@ -151,7 +151,7 @@ void PassageProver::askLeg(const TimedMotion& motion, const AroundBody& body, co
   passage.freeUntilUs = untilUs;
   passage.blocker = &body;
   passage.link = answer.link;
-  passage.other = answer.other;
+  passage.other = std::max(answer.other - leg.kind->first, 0);
   passage.isInside = answer.isInside && beginUs == motion.beginUs;
 }
 

@@ -28,7 +28,7 @@ struct Passage {
   double clearance = std::numeric_limits<double>::infinity();  ///< Until there.
   const AroundBody* blocker = nullptr;  ///< What it meets first; null: the scene, or own links.
   LinkId link = 0;
-  JointId other = 0;      ///< On the blocker's chain.
+  JointId other = 0;      ///< On the blocker's own chain, without what carries it.
   bool isInside = false;  ///< It touches the blocker at its begin.
   bool isOverBudget = false;
 };
@@ -37,7 +37,8 @@ struct Passage {
 struct Surroundings {
   std::vector<const AroundBody*> bodies;  ///< By body.
   std::vector<BodyId> passed;             ///< Those that are not asked: they crush it already.
-  std::int64_t endUs = 0;                 ///< The tick's end.
+  bool isAssumed = false;  ///< Another one was silent all the time, and taken to be nowhere.
+  std::int64_t endUs = 0;  ///< The tick's end.
   /// Where it may stay until then: no solid avatar that moves meets it there, which is proven.
   Pose fallback;
 

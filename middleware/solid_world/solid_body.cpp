@@ -233,7 +233,7 @@ void SolidBody::move(std::int64_t fromUs, std::int64_t toUs, Surroundings& aroun
   tick.body = id_;
   tick.contacts.clear();
   tick.crushes.clear();
-  tick.isAssumed = false;
+  tick.isAssumed = around.isAssumed;
   endsUs_.clear();
   PassageProver& prover = outfit_->prover;
   prover.beginTick(options_.workBudget);

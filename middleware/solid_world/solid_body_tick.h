@@ -41,7 +41,8 @@ struct SolidCrush {
   BodyId body = 0;
   LinkId link = 0;  ///< Where it was met; while they overlap, the link that is deepest.
   std::int64_t sinceUs = 0;
-  /// It ended at the tick's begin, where the two are proven apart; reported once. False: it lasts.
+  /// It ended at the tick's begin, where the two are proven apart, or where the body is no longer
+  /// asked about (silent: isAssumed); reported once. False: it lasts.
   bool isOver = false;
   /// At the tick's end: the largest depth of a link's axis below the body's surface, its radius at
   /// most. To part them takes at least as much. 0: they do not overlap there.

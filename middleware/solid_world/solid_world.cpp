@@ -252,9 +252,11 @@ class SolidWorld::Parts {
   /// Finds what the solid avatar may meet, by body.
   void lookAround(const internal::SolidBody& solid) {
     around_.bodies.clear();
+    around_.isAssumed = false;
     for (const internal::AroundBody& body : movers_.bodies()) {
-      if (isMover_[slotOf(body.body)] == 0 || body.numLegs() == 0) continue;
-      if (parts().isAsked(solid.id(), body.body)) around_.bodies.push_back(&body);
+      if (isMover_[slotOf(body.body)] == 0 || !parts().isAsked(solid.id(), body.body)) continue;
+      around_.isAssumed = around_.isAssumed || body.isAssumed;
+      if (body.numLegs() != 0) around_.bodies.push_back(&body);
     }
     for (const auto& other : solids_) {
       if (other->id() == solid.id() || other->trace().numLegs() == 0) continue;

@@ -105,7 +105,9 @@ typedef struct ft_solid_crush {
   uint32_t size;
   int32_t body;
   int32_t link;    /* where it was met; while they overlap, the link that is deepest */
-  int32_t is_over; /* 1: it ended at the tick's begin, the two are proven apart; reported once */
+  /* 1: it ended at the tick's begin, where the two are proven apart, or where the body is no longer
+   * asked about (silent: is_assumed); reported once. */
+  int32_t is_over;
   int64_t since_us;
   /* At the tick's end: the largest depth of a link's axis below the body's surface, its radius at
    * most. To part them takes at least as much. 0: they do not overlap there. */

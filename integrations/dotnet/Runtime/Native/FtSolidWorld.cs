@@ -50,7 +50,8 @@ namespace Foretouch {
     public int body;
     /// <summary>where it was met; while they overlap, the link that is deepest</summary>
     public int link;
-    /// <summary>1: it ended at the tick's begin, the two are proven apart; reported once</summary>
+    /// <summary>1: it ended at the tick's begin, where the two are proven apart, or where the body is no
+    /// longer asked about (silent: is_assumed); reported once.</summary>
     public int isOver;
     public long sinceUs;
     /// <summary>At the tick's end: the largest depth of a link's axis below the body's surface, its radius
