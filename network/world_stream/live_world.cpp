@@ -67,7 +67,7 @@ Result<Done> LiveWorld::show(LiveBodies& bodies, std::int64_t untilUs, std::int6
                              std::vector<ShownBody>& shown) {
   shown.clear();
   if (!solids_) return Done{};
-  const auto numberOfSlot = [&](BodyId slot) { return numberOf(slot, untilUs); };
+  const auto numberOfSlot = [&](BodyId slot, std::int64_t us) { return numberOf(slot, us); };
   FORETOUCH_CHECK(solids_->tick(untilUs, timeline, numberOfSlot, shown));
   for (const ShownBody& body : shown) {
     const SolidMessage& solid = body.solid;

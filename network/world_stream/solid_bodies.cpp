@@ -35,11 +35,12 @@ Result<BodyId> addClock(World& world) {
   return world.add(avatar, options);
 }
 
-void fillPushes(const SolidBodyTick& tick, const Skeleton& skeleton,
+/// What goes within the tick, which begins at `fromUs`, has pressed until then.
+void fillPushes(const SolidBodyTick& tick, const Skeleton& skeleton, std::int64_t fromUs,
                 const SolidBodies::NumberOf& numberOf, PushesMessage& pushes) {
   pushes.isAssumed = tick.isAssumed;
   for (const SolidBodyContact& contact : tick.contacts) {
-    const auto number = numberOf(contact.body);
+    const auto number = numberOf(contact.body, fromUs);
     if (!number) continue;
     if (pushes.contacts.size() == kMaxToldPushes) {
       ++pushes.contactsLeftOut;
@@ -51,7 +52,7 @@ void fillPushes(const SolidBodyTick& tick, const Skeleton& skeleton,
     told.linkName = skeleton.name(contact.link);
   }
   for (const SolidCrush& crush : tick.crushes) {
-    const auto number = numberOf(crush.body);
+    const auto number = numberOf(crush.body, fromUs);
     if (!number) continue;
     if (pushes.crushes.size() == kMaxToldCrushes) {
       ++pushes.crushesLeftOut;
@@ -231,7 +232,7 @@ void SolidBodies::fill(Solid& solid, std::int64_t fromUs, std::int64_t timeline,
   const SolidBodyTick* const tick = tickOf(solid.body);
   if (tick == nullptr) return fillSolidWait(solid.target, solid.isTracked, message);
   fillSolidTick(tick->tick, solid.skeleton, still_, message);
-  fillPushes(*tick, solid.skeleton, numberOf, pushes);
+  fillPushes(*tick, solid.skeleton, fromUs, numberOf, pushes);
 }
 
 Result<Done> SolidBodies::tick(std::int64_t untilUs, std::int64_t timeline,

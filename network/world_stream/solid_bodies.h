@@ -45,7 +45,7 @@ class SolidBodies {
   void hold(BodyId body, std::int64_t utimeUs);
 
   /// The body whose place in the world that is; nothing if it is no body's any more.
-  using NumberOf = std::function<std::optional<BodyNumber>(BodyId)>;
+  using NumberOf = std::function<std::optional<BodyNumber>(BodyId, std::int64_t utimeUs)>;
   /// From the last tick's end until then. `timeline`: for messages. Fills `shown`: for each tick
   /// those that have begun, by body. Errors: a time of more ticks than one advance has; as
   /// SolidWorld::tick().
