@@ -173,11 +173,15 @@ ToldEvents::Lines ToldEvents::take(const EventsMessage& message) {
   if (isFirst) lines.json = headerFrom(message.fromUs);
   const bool isOther = timeline_ && *timeline_ != message.timeline;
   const bool isMissing = sequence_ && message.sequence != *sequence_ + 1;
-  if (isMissing && message.fromUs > toUs_) {
+  if (isMissing) {
+    // They may have been of the last window, and of this one.
+    const std::int64_t lostUs = hadMore_ ? fromUs_ : toUs_;
     lines.missing =
         fmt::format("events between {:.6f} s and {:.6f} s did not arrive",
-                    LoadedWorld::secondsOf(toUs_), LoadedWorld::secondsOf(message.fromUs));
-    tellUnknown({kEveryBody, kEveryLink, UndecidedReason::Gap, toUs_, message.fromUs}, lines.json);
+                    LoadedWorld::secondsOf(lostUs), LoadedWorld::secondsOf(message.toUs));
+    if (lostUs < message.toUs) {
+      tellUnknown({kEveryBody, kEveryLink, UndecidedReason::Gap, lostUs, message.toUs}, lines.json);
+    }
   }
   if (isOther) {
     lines.json += objectLine("timeline", [&](JsonWriter& out) {
@@ -211,7 +215,9 @@ ToldEvents::Lines ToldEvents::take(const EventsMessage& message) {
   }
   timeline_ = message.timeline;
   sequence_ = message.sequence;
+  fromUs_ = message.fromUs;
   toUs_ = message.toUs;
+  hadMore_ = message.hasMore;
   return lines;
 }
 

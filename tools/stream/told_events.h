@@ -51,8 +51,9 @@ class ToldEvents {
   LoadedBody unheard_;                   // a shape of one link
   std::map<BodyNumber, BodyId> others_;  // whose numbers are not the file's
   std::optional<std::int64_t> timeline_, sequence_;
-  std::int64_t toUs_ = 0;
-  std::set<LinkOfBody> unknown_;  // at the end of the last window
+  std::int64_t fromUs_ = 0, toUs_ = 0;  ///< Of the last message's window.
+  bool hadMore_ = false;                ///< It has more than that message.
+  std::set<LinkOfBody> unknown_;        // at the end of the last window
   std::int64_t counts_[kNumEventKinds] = {};
 };
 

@@ -100,11 +100,28 @@ TEST(ToldEvents, TellsWhatDidNotArriveAndWhoIsGone) {
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0]["unknown"]["everybody"], true);
   EXPECT_EQ(lines[0]["unknown"]["from"]["utime"], 2'000'000);
-  EXPECT_EQ(lines[0]["unknown"]["to"]["utime"], 4'000'000);
+  EXPECT_EQ(lines[0]["unknown"]["to"]["utime"], 5'000'000) << "a first part may be lost, too";
   EXPECT_EQ(lines[1]["timeline"]["from"]["utime"], 4'000'000);
   EXPECT_EQ(lines[2]["cause"], "body_gone");
   EXPECT_EQ(lines[2]["b"]["everybody"], true);
   EXPECT_TRUE(holds(told.text, "'ball' is gone")) << told.text;
+}
+
+TEST(ToldEvents, TellsThatAPartOfAWindowDidNotArrive) {
+  const SmallStage stage;
+  for (const bool isFirstLost : {false, true}) {
+    ToldEvents events = eventsOf(stage);
+    EventsMessage before = window(0, 1'000'000, 2'000'000);
+    before.hasMore = !isFirstLost;
+    static_cast<void>(events.take(before));
+    const ToldEvents::Lines told = events.take(window(2, 2'000'000, 3'000'000));
+    EXPECT_TRUE(told.missing.has_value());
+    const std::vector<json> lines = linesIn(told.json);
+    ASSERT_FALSE(lines.empty());
+    EXPECT_EQ(lines[0]["unknown"]["everybody"], true);
+    EXPECT_EQ(lines[0]["unknown"]["from"]["utime"], isFirstLost ? 2'000'000 : 1'000'000);
+    EXPECT_EQ(lines[0]["unknown"]["to"]["utime"], 3'000'000);
+  }
 }
 
 TEST(ToldEvents, NamesBodiesOfOtherNumbersByTheirShapes) {
