@@ -173,15 +173,13 @@ ToldEvents::Lines ToldEvents::take(const EventsMessage& message) {
   if (isFirst) lines.json = headerFrom(message.fromUs);
   const bool isOther = timeline_ && *timeline_ != message.timeline;
   const bool isMissing = sequence_ && message.sequence != *sequence_ + 1;
-  if (isMissing) {
-    // They may have been of the last window, and of this one.
-    const std::int64_t lostUs = hadMore_ ? fromUs_ : toUs_;
+  // They may have been of the last window, and of this one.
+  const std::int64_t lostUs = hadMore_ ? fromUs_ : toUs_;
+  if (isMissing && lostUs < message.toUs) {
     lines.missing =
         fmt::format("events between {:.6f} s and {:.6f} s did not arrive",
                     LoadedWorld::secondsOf(lostUs), LoadedWorld::secondsOf(message.toUs));
-    if (lostUs < message.toUs) {
-      tellUnknown({kEveryBody, kEveryLink, UndecidedReason::Gap, lostUs, message.toUs}, lines.json);
-    }
+    tellUnknown({kEveryBody, kEveryLink, UndecidedReason::Gap, lostUs, message.toUs}, lines.json);
   }
   if (isOther) {
     lines.json += objectLine("timeline", [&](JsonWriter& out) {
