@@ -1,6 +1,7 @@
 #include "middleware/triggers/link_presence.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "lss/index.h"
@@ -10,6 +11,8 @@ namespace {
 
 /// Instants of a gap at which it is asked, one after the other until one can be answered.
 constexpr double kAskedAt[] = {0.5, 0.25, 0.75};
+/// The last fraction of a microsecond that can be written.
+constexpr double kLastFraction = 0x1.fffffffffffffp-1;
 
 WorldTime atUs(std::int64_t us) {
   return {us, 0.0};
@@ -20,7 +23,13 @@ WorldTime between(const WorldTime& from, const WorldTime& to, double share) {
   const double after =
       from.fraction + share * microsecondsAfter(from.us, to) - share * from.fraction;
   const auto whole = static_cast<std::int64_t>(after);
-  return {from.us + whole, std::min(after - static_cast<double>(whole), 0x1.fffffffffffffp-1)};
+  return {from.us + whole, std::min(after - static_cast<double>(whole), kLastFraction)};
+}
+
+/// The last instant before one that can be written.
+WorldTime justBefore(const WorldTime& time) {
+  if (time.fraction > 0.0) return {time.us, std::nextafter(time.fraction, 0.0)};
+  return {time.us - 1, kLastFraction};
 }
 
 /// When the body is there first.
@@ -34,18 +43,6 @@ LinkId linksOf(const WorldParts& world, BodyId body) {
 }
 
 }  // namespace
-
-void appendCuts(const WorldParts& world, BodyId body, const Stretch& stretch,
-                std::vector<BodyId>& chain, std::vector<std::int64_t>& cuts) {
-  for (std::int64_t us = stretch.fromUs; us < stretch.toUs; us = world.chainEndUs(chain, us)) {
-    world.chainAt(body, us, chain);
-    const bool isCut = std::any_of(chain.begin(), chain.end(), [&](BodyId id) {
-      const Episode* const episode = world.body(id).episodeAt(us);
-      return episode != nullptr && episode->beginUs == us;
-    });
-    if (isCut) cuts.push_back(us);
-  }
-}
 
 void LinkPresence::begin(const WorldParts& world, const Stretch& stretch) {
   world_ = &world;
@@ -76,9 +73,9 @@ void LinkPresence::appendLink(const TriggerPair& pair, LinkId link,
   findGaps(pair);
   spans.insert(spans.end(), touching_.begin(), touching_.end());
   for (const Gap& gap : gaps_) {
-    const Decided decided = presenceIn(pair, link, gap);
-    if (decided.presence == Presence::Outside) continue;
-    spans.push_back({gap.from, gap.to, decided.presence, link, decided.isAssumed, gap.isNew});
+    const Presence presence = presenceIn(pair, link, gap);
+    if (presence == Presence::Outside) continue;
+    spans.push_back({gap.from, gap.to, presence, link, isAssumedIn(pair, gap), gap.isNew});
   }
   const bool isTouching =
       std::any_of(touching_.begin(), touching_.end(),
@@ -86,7 +83,7 @@ void LinkPresence::appendLink(const TriggerPair& pair, LinkId link,
   keep({pair.trigger, pair.body, link}, spans, first, isTouching);
 }
 
-/// Adds the link's own parts, and those of the whole body, to `touching_`.
+/// Adds the link's own parts, those of the whole body, and where it is silent, to `touching_`.
 void LinkPresence::appendParts(const TriggerPair& pair, LinkId link) {
   touching_.clear();
   for (const WorldPart& part : pair.parts) {
@@ -96,6 +93,9 @@ void LinkPresence::appendParts(const TriggerPair& pair, LinkId link) {
     const Presence presence =
         part.kind == PartKind::Contact ? Presence::Inside : Presence::Unresolved;
     touching_.push_back({part.from, part.to, presence, link, part.isAssumed, isNew});
+  }
+  for (const Stretch& silence : pair.silences) {
+    touching_.push_back({atUs(silence.fromUs), atUs(silence.toUs), Presence::Unresolved, link});
   }
   std::sort(touching_.begin(), touching_.end(), [](const PresenceSpan& x, const PresenceSpan& y) {
     return x.from == y.from ? x.to < y.to : x.from < y.from;
@@ -127,40 +127,39 @@ void LinkPresence::findGaps(const TriggerPair& pair) {
   addUntil(atUs(stretch_.toUs));
 }
 
-LinkPresence::Decided LinkPresence::presenceIn(const TriggerPair& pair, LinkId link,
-                                               const Gap& gap) {
-  if (!pair.volume->mesh) return {};  // what does not touch what is solid is outside
+Presence LinkPresence::presenceIn(const TriggerPair& pair, LinkId link, const Gap& gap) {
+  if (!pair.volume->mesh) return Presence::Outside;  // what does not touch what is solid is outside
   if (!gap.isNew && gap.from == atUs(stretch_.fromUs)) {
     // Nothing has touched the surface since the stretch before.
     const auto kept = ends_.find({pair.trigger, pair.body, link});
-    if (kept == ends_.end()) return {};
-    if (kept->second == End::Inside) {
-      // Whether it is assumed may have changed; that alone is asked.
-      Decided decided = decide(pair, link, between(gap.from, gap.to, kAskedAt[0]));
-      decided.presence = Presence::Inside;
-      return decided;
-    }
+    if (kept == ends_.end()) return Presence::Outside;
+    if (kept->second == End::Inside) return Presence::Inside;
   }
-  Decided decided;
+  Presence presence = Presence::Unresolved;
   for (const double share : kAskedAt) {
-    decided = decide(pair, link, between(gap.from, gap.to, share));
-    if (decided.presence != Presence::Unresolved) break;
+    presence = decide(pair, link, between(gap.from, gap.to, share));
+    if (presence != Presence::Unresolved) break;
   }
-  return decided;
+  return presence;
 }
 
-LinkPresence::Decided LinkPresence::decide(const TriggerPair& pair, LinkId link,
-                                           const WorldTime& time) {
-  if (isCarriedBy(pair, link, time.us)) return {};
+/// Within a gap who is silent stays so: its end says it.
+bool LinkPresence::isAssumedIn(const TriggerPair& pair, const Gap& gap) {
+  const WorldTime last = justBefore(gap.to);
+  return bodies_.at(*world_, pair.ofTrigger, last, ofTrigger_) == PlaceKnown::Assumed ||
+         bodies_.at(*world_, pair.body, last, ofBody_) == PlaceKnown::Assumed;
+}
+
+Presence LinkPresence::decide(const TriggerPair& pair, LinkId link, const WorldTime& time) {
+  if (isCarriedBy(pair, link, time.us)) return Presence::Outside;
   ++counters_.decided;
   const PlaceKnown trigger = bodies_.at(*world_, pair.ofTrigger, time, ofTrigger_);
   const PlaceKnown body = bodies_.at(*world_, pair.body, time, ofBody_);
   const auto isUnknown = [](PlaceKnown how) {
     return how == PlaceKnown::Silent || how == PlaceKnown::NotThere;
   };
-  if (isUnknown(trigger) || isUnknown(body)) return {Presence::Unresolved, false};
-  Decided decided;
-  decided.isAssumed = trigger == PlaceKnown::Assumed || body == PlaceKnown::Assumed;
+  if (isUnknown(trigger) || isUnknown(body)) return Presence::Unresolved;
+  Presence presence = Presence::Outside;
   findPieces(pair.body, link);
   for (const Lss& lss : pieces_) {
     // Nothing of the piece is at the surface: one point says where it is.
@@ -168,13 +167,10 @@ LinkPresence::Decided LinkPresence::decide(const TriggerPair& pair, LinkId link,
     const Lss seen =
         seenFrom(ofTrigger_.front(), placed(lss, ofBody_[slotOf(link)], rounding), rounding);
     const PointPlace place = pair.volume->mesh->placeOf(seen.a, rounding, memory_);
-    if (place == PointPlace::Inside) {
-      decided.presence = Presence::Inside;
-      return decided;
-    }
-    if (place == PointPlace::AtSurface) decided.presence = Presence::Unresolved;
+    if (place == PointPlace::Inside) return Presence::Inside;
+    if (place == PointPlace::AtSurface) presence = Presence::Unresolved;
   }
-  return decided;
+  return presence;
 }
 
 /// An LSS is one; so are triangles that hang together.

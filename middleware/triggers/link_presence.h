@@ -10,23 +10,13 @@
 
 #include "middleware/depth/body_places.h"
 #include "middleware/events/world_event.h"
+#include "middleware/triggers/body_breaks.h"
 #include "middleware/triggers/presence.h"
 #include "middleware/triggers/trigger_event.h"
 #include "middleware/triggers/volume_parts.h"
 #include "middleware/world/world_parts.h"
 
 namespace foretouch::internal {
-
-/// A stretch of world time.
-struct Stretch {
-  std::int64_t fromUs = 0, toUs = 0;
-};
-
-/// At these instants of the stretch a carrier changes, or a body appears: what is known of before
-/// says nothing of after. Appends those of a body and of all that carry it there, in order.
-/// `chain`: memory.
-void appendCuts(const WorldParts& world, BodyId body, const Stretch& stretch,
-                std::vector<BodyId>& chain, std::vector<std::int64_t>& cuts);
 
 /// Two bodies, one of them a trigger, in a stretch.
 struct TriggerPair {
@@ -35,7 +25,8 @@ struct TriggerPair {
   const VolumeParts* volume = nullptr;
   LinkId watchedLink = kEveryLink;
   std::vector<WorldPart> parts;    ///< Theirs: `a` is the body's side, `b` the trigger's.
-  std::vector<std::int64_t> cuts;  ///< In order; those at the stretch's begin make it new.
+  std::vector<std::int64_t> cuts;  ///< Of both, in order: see BodyBreaks.
+  std::vector<Stretch> silences;   ///< Of both.
 };
 
 /// For one thread. Keeps what each link does where a stretch ends.
@@ -56,18 +47,15 @@ class LinkPresence {
   /// A time in which nothing touches.
   struct Gap {
     WorldTime from, to;
-    bool isNew = false;  // at its begin one of the two changes its carrier, or is there first
-  };
-  struct Decided {
-    Presence presence = Presence::Outside;
-    bool isAssumed = false;
+    bool isNew = false;  // it begins at a cut
   };
 
   void appendLink(const TriggerPair& pair, LinkId link, std::vector<PresenceSpan>& spans);
   void appendParts(const TriggerPair& pair, LinkId link);
   void findGaps(const TriggerPair& pair);
-  [[nodiscard]] Decided presenceIn(const TriggerPair& pair, LinkId link, const Gap& gap);
-  [[nodiscard]] Decided decide(const TriggerPair& pair, LinkId link, const WorldTime& time);
+  [[nodiscard]] Presence presenceIn(const TriggerPair& pair, LinkId link, const Gap& gap);
+  [[nodiscard]] bool isAssumedIn(const TriggerPair& pair, const Gap& gap);
+  [[nodiscard]] Presence decide(const TriggerPair& pair, LinkId link, const WorldTime& time);
   [[nodiscard]] bool isCarriedBy(const TriggerPair& pair, LinkId link, std::int64_t us) const;
   void findPieces(BodyId body, LinkId link);
   void keep(const Key& key, const std::vector<PresenceSpan>& spans, std::size_t first,

@@ -45,14 +45,12 @@ struct Triggers::Parts {
   std::vector<TriggerId> triggerOf;  // by body
   bool hasBegun = false;
   std::int64_t followedUs = 0;
-  std::int32_t numBodies = 0;  // in the last stretch
+  internal::BodyBreaks breaks;
   LinkPresence links;
   std::map<ToldKey, ToldOpen> open;
   std::vector<Occupant> occupants;
   // While updating.
   std::map<std::pair<TriggerId, BodyId>, std::vector<WorldPart>> parts;
-  std::vector<std::vector<std::int64_t>> cuts;  // per body
-  std::vector<BodyId> chain;
   TriggerPair pair;
   std::vector<PresenceSpan> spans, ofLink, memory;
 
@@ -64,10 +62,10 @@ struct Triggers::Parts {
   Result<Done> checkedTrigger(TriggerId trigger) const;
   void sortParts(const WorldParts& of, const std::vector<WorldPart>& given);
   void addPart(const WorldParts& of, TriggerId trigger, const ContactSide& other, WorldPart part);
-  void findCuts(const WorldParts& of, const Stretch& stretch);
   void askAll(const WorldParts& of, const Stretch& stretch, std::vector<TriggerEvent>& events);
   void ask(const WorldParts& of, TriggerId trigger, BodyId body, const Stretch& stretch,
            std::vector<TriggerEvent>& events);
+  bool fillPair();
   void tell(TriggerId trigger, BodyId body, const Stretch& stretch,
             std::vector<TriggerEvent>& events);
   void tellOne(const ToldKey& key, std::vector<PresenceSpan>& of, const Stretch& stretch,
@@ -154,16 +152,6 @@ void Triggers::Parts::addPart(const WorldParts& of, TriggerId trigger, const Con
   parts[{trigger, other.body}].push_back(part);
 }
 
-void Triggers::Parts::findCuts(const WorldParts& of, const Stretch& stretch) {
-  cuts.resize(of.bodies.size());
-  for (std::size_t body = 0; body < cuts.size(); ++body) {
-    cuts[body].clear();
-    internal::appendCuts(of, static_cast<BodyId>(body), stretch, chain, cuts[body]);
-    const bool isNew = !hasBegun || static_cast<std::int32_t>(body) >= numBodies;
-    if (isNew) cuts[body].push_back(stretch.fromUs);
-  }
-}
-
 void Triggers::Parts::askAll(const WorldParts& of, const Stretch& stretch,
                              std::vector<TriggerEvent>& events) {
   for (std::size_t t = 0; t < records.size(); ++t) {
@@ -189,20 +177,12 @@ void Triggers::Parts::ask(const WorldParts& of, TriggerId trigger, BodyId body,
   const auto link = watchedLinkOf(record, body, find(body) >= 0);
   spans.clear();
   if (link && of.isAsked(record.body, body)) {
-    const auto own = parts.find({trigger, body});
-    for (const BodyId one : {record.body, body}) {
-      pair.cuts.insert(pair.cuts.end(), cuts[slotOf(one)].begin(), cuts[slotOf(one)].end());
-    }
-    if (own == parts.end() && pair.cuts.empty() && !links.isKept(trigger, body)) return;
-    std::sort(pair.cuts.begin(), pair.cuts.end());
-    pair.cuts.erase(std::unique(pair.cuts.begin(), pair.cuts.end()), pair.cuts.end());
     pair.trigger = trigger;
     pair.ofTrigger = record.body;
     pair.body = body;
     pair.volume = &record.volume.parts();
     pair.watchedLink = *link;
-    pair.parts.clear();
-    if (own != parts.end()) pair.parts = own->second;
+    if (!fillPair() && !links.isKept(trigger, body)) return;
     links.append(pair, spans);
     spans.erase(std::remove_if(
                     spans.begin(), spans.end(),
@@ -210,6 +190,23 @@ void Triggers::Parts::ask(const WorldParts& of, TriggerId trigger, BodyId body,
                 spans.end());
   }
   tell(trigger, body, stretch, events);
+}
+
+/// Whether the two do something, or what is known of them breaks off.
+bool Triggers::Parts::fillPair() {
+  const auto own = parts.find({pair.trigger, pair.body});
+  pair.parts.clear();
+  if (own != parts.end()) pair.parts = own->second;
+  pair.silences.clear();
+  for (const BodyId one : {pair.ofTrigger, pair.body}) {
+    const std::vector<std::int64_t>& cuts = breaks.cuts(one);
+    const std::vector<Stretch>& silences = breaks.silences(one);
+    pair.cuts.insert(pair.cuts.end(), cuts.begin(), cuts.end());
+    pair.silences.insert(pair.silences.end(), silences.begin(), silences.end());
+  }
+  std::sort(pair.cuts.begin(), pair.cuts.end());
+  pair.cuts.erase(std::unique(pair.cuts.begin(), pair.cuts.end()), pair.cuts.end());
+  return !pair.parts.empty() || !pair.cuts.empty() || !pair.silences.empty();
 }
 
 /// Reports on the body as one, or on its links.
@@ -300,6 +297,7 @@ Result<Done> Triggers::watch(const World& world, TriggerId trigger, const Watche
 void Triggers::beginAnew() {
   parts_->hasBegun = false;
   parts_->links = {};
+  parts_->breaks = {};
   parts_->open.clear();
   parts_->occupants.clear();
 }
@@ -342,14 +340,13 @@ Result<Done> Triggers::update(const World& world, const WorldEvents& events,
   if (stretch.toUs <= stretch.fromUs) return Done{};
   parts_->world = of.identity;
   parts_->sortParts(of, events.parts);
-  parts_->findCuts(of, stretch);
+  parts_->breaks.find(of, stretch);
   parts_->links.begin(of, stretch);
   parts_->askAll(of, stretch, answer.events);
   std::stable_sort(answer.events.begin(), answer.events.end(), internal::isEarlier);
   answer.counters = parts_->links.counters();
   parts_->hasBegun = true;
   parts_->followedUs = stretch.toUs;
-  parts_->numBodies = static_cast<std::int32_t>(of.bodies.size());
   parts_->listOccupants();
   return Done{};
 }

@@ -435,5 +435,128 @@ TEST(Triggers, WhoTouchesTwoObjectsAndLeavesOneWhereAStretchBeginsHasLeft) {
   EXPECT_TRUE(both.triggers.occupants().empty());
 }
 
+// The room was taken to hold still 5 m away; it has come, and nothing touched its walls meanwhile.
+TEST(Triggers, WhoIsInsideWhereAGuessTurnsOutToBeWrongStartsInside) {
+  BothTriggers both(kTolerance, 0);
+  const BodyId body = both.both.add(test::ball(0.1));
+  const TriggerId room = both.add(test::plainBox(Vector3d(0.5, 0.5, 0.5)));
+  for (int i = 0; i <= 10; ++i) both.both.push(body, 10'000 * i, at(0));
+  both.both.push(both.body(room), 0, at(5.0));
+  both.follow(50'000);
+  EXPECT_TRUE(both.triggers.occupants().empty());
+  both.both.push(both.body(room), 100'000, at(-5.0));
+  both.follow(52'000);
+  ASSERT_EQ(said(both.events), "starts_inside 0");
+  EXPECT_EQ(both.events[0].time.us, 50'000);
+  EXPECT_EQ(both.triggers.occupants().size(), 1u);
+}
+
+// The same where a guess, or a change that is told late, has him leave without passing a wall.
+TEST(Triggers, WhoWasTakenToBeInsideAndIsNotLeaves) {
+  BothTriggers both(kTolerance, 0);
+  BodyOptions still;
+  still.whenSilent = WhenSilent::HoldStill;
+  const BodyId guessed = both.both.add(test::ball(0.1), still);
+  const BodyId changed = both.both.add(test::ball(0.1)), carrier = both.both.add(test::ball(0.1));
+  const TriggerId room = both.add(test::plainBox(Vector3d(0.5, 0.5, 0.5)));
+  both.stand(room, at(0));
+  for (int i = 0; i <= 10; ++i) {
+    both.both.push(carrier, 10'000 * i, at(9.0));
+    both.both.push(changed, 10'000 * i, at(0, 0.1));
+  }
+  both.both.push(guessed, 0, at(0));
+  both.follow(50'000);
+  EXPECT_EQ(both.triggers.occupants().size(), 2u);
+  both.both.push(guessed, 51'000, at(100.0));
+  both.both.attach(changed, {carrier, 0, false}, 40'000, at(1.0));
+  both.follow(60'000);
+  ASSERT_EQ(said(both.events), "starts_inside 0, starts_inside 0, leave 0, leave 0");
+  EXPECT_TRUE(both.events[2].isAssumed || both.events[3].isAssumed);
+  EXPECT_EQ(both.events[2].time.us, 50'000);
+  EXPECT_TRUE(both.triggers.occupants().empty());
+}
+
+// Who is first told to have been there before, where no stretch saw him appear.
+TEST(Triggers, WhoAppearedBeforeTheStretchStartsInside) {
+  BothTriggers both(kTolerance, 0);
+  const BodyId late = both.both.add(test::ball(0.1)), clock = both.both.add(test::ball(0.1));
+  const TriggerId room = both.add(test::plainBox(Vector3d(0.5, 0.5, 0.5)));
+  both.stand(room, at(0));
+  for (int i = 0; i <= 10; ++i) both.both.push(clock, 10'000 * i, at(9.0));
+  both.follow(50'000);
+  both.both.push(late, 30'000, at(0));
+  both.both.push(late, 100'000, at(0));
+  both.follow(60'000);
+  ASSERT_EQ(said(both.events), "starts_inside 0");
+  EXPECT_EQ(both.events[0].time.us, 50'000);
+}
+
+TEST(Triggers, WhatASilentBodyCarriesIsUnresolved) {
+  BothTriggers both(kTolerance, 0);
+  BodyOptions undecided;
+  undecided.whenSilent = WhenSilent::Undecided;
+  const BodyId carrier = both.both.add(test::ball(0.1), undecided);
+  const BodyId held = both.both.add(test::ball(0.1)), clock = both.both.add(test::ball(0.1));
+  TriggerOptions options;
+  options.watched = {{held, kEveryLink}};
+  const TriggerId room = both.add(test::plainBox(Vector3d(0.5, 0.5, 0.5)), options);
+  both.stand(room, at(0));
+  for (int i = 0; i <= 10; ++i) both.both.push(clock, 10'000 * i, at(9.0));
+  both.both.push(carrier, 0, at(0));
+  both.both.push(carrier, 30'000, at(0));
+  both.both.push(held, 0, at(0));
+  both.both.push(held, 1, at(0));
+  both.both.attach(held, {carrier, 0, false}, 1, at(0, 0.1));
+  both.follow(50'000);
+  ASSERT_EQ(said(both.events), "starts_inside 0, unresolved_from 0");
+  EXPECT_EQ(both.events[1].time.us, 30'000);
+  ASSERT_EQ(both.triggers.occupants().size(), 1u);
+  EXPECT_TRUE(both.triggers.occupants()[0].isUnresolved);
+}
+
+// A whole stretch of silence, in which the carrier has come in.
+TEST(Triggers, WhatIsCarriedInInSilenceIsFoundInside) {
+  BothTriggers both(kTolerance, 0);
+  BodyOptions undecided;
+  undecided.whenSilent = WhenSilent::Undecided;
+  const BodyId carrier = both.both.add(test::ball(0.1), undecided);
+  const BodyId held = both.both.add(test::ball(0.1)), clock = both.both.add(test::ball(0.1));
+  const TriggerId room = both.add(test::plainBox(Vector3d(0.9, 0.5, 0.5)));
+  both.stand(room, at(0));
+  for (int i = 0; i <= 10; ++i) both.both.push(clock, 10'000 * i, at(9.0));
+  for (const std::int64_t us : {0, 10'000}) both.both.push(carrier, us, at(-5.0));
+  both.both.push(held, 0, at(-5.0));
+  both.both.push(held, 1, at(-5.0));
+  both.both.attach(held, {carrier, 0, false}, 1, at(0, 0.1));
+  both.follow(10'000);
+  both.follow(20'000);
+  ASSERT_EQ(both.triggers.occupants().size(), 2u);
+  EXPECT_TRUE(both.triggers.occupants()[1].isUnresolved);
+  both.both.push(carrier, 30'000, at(5.0));
+  both.follow(22'000);
+  ASSERT_EQ(both.triggers.occupants().size(), 2u);
+  EXPECT_EQ(both.triggers.occupants()[1].body, held);
+  EXPECT_FALSE(both.triggers.occupants()[1].isUnresolved);
+}
+
+// A room that is carried by a silent body says nothing of anyone.
+TEST(Triggers, ATriggerOnASilentBodyIsUnresolved) {
+  BothTriggers both(kTolerance, 0);
+  BodyOptions undecided;
+  undecided.whenSilent = WhenSilent::Undecided;
+  const BodyId lift = both.both.add(test::ball(0.1), undecided);
+  const BodyId person = both.both.add(test::ball(0.1));
+  TriggerOptions options;
+  options.watched = {{person, kEveryLink}};
+  const TriggerId room = both.add(test::plainBox(Vector3d(0.5, 0.5, 0.5)), options);
+  for (int i = 0; i <= 10; ++i) both.both.push(person, 10'000 * i, at(9.0));
+  for (const std::int64_t us : {0, 10'000}) both.both.push(lift, us, at(0));
+  for (const std::int64_t us : {0, 1}) both.both.push(both.body(room), us, at(0));
+  both.both.attach(both.body(room), {lift, 0, false}, 1, at(0, 1.0));
+  both.follow(20'000);
+  ASSERT_EQ(said(both.events), "unresolved_from 0");
+  EXPECT_EQ(both.events[0].time.us, 10'000);
+}
+
 }  // namespace
 }  // namespace foretouch
