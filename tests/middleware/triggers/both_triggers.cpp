@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "lss/index.h"
+#include "middleware/world/world_parts.h"
 
 namespace foretouch::test {
 namespace {
@@ -114,7 +115,35 @@ void BothTriggers::follow(std::int64_t untilUs) {
     ++tally.kinds[slotOf(event.kind)];
   }
   tally.decided += told_.counters.decided;
+  noteGuesses(untilUs);
   untilUs_ = untilUs;
+}
+
+void BothTriggers::noteGuesses(std::int64_t untilUs) {
+  const internal::WorldParts& parts = both.world.parts();
+  for (BodyId id = 0; id < both.world.numBodies(); ++id) {
+    const internal::WorldBody& body = parts.body(id);
+    if (body.episodes.empty()) {
+      guesses_.emplace_back(id, untilUs_, untilUs);
+    } else if (body.options.whenSilent == WhenSilent::HoldStill &&
+               !body.episodes.back().isHeldFast()) {
+      const std::int64_t knownUs = body.episodes.back().track.knownUntilUs();
+      guesses_.emplace_back(id, std::max(untilUs_, knownUs), untilUs);
+    }
+  }
+}
+
+bool BothTriggers::isGuessed(BodyId body, Real us) const {
+  for (const auto& [id, fromUs, toUs] : guesses_) {
+    if (id == body && us >= static_cast<Real>(fromUs - fromUs_) &&
+        us <= static_cast<Real>(toUs - fromUs_)) {
+      return true;
+    }
+  }
+  for (const OracleEpisode& episode : both.oracle.bodies[slotOf(body)].episodes) {
+    if (episode.carrier >= 0 && isGuessed(episode.carrier, us)) return true;
+  }
+  return false;
 }
 
 BothTriggers::Truth BothTriggers::truthOf(TriggerId trigger, BodyId body, LinkId link,
@@ -191,7 +220,8 @@ void BothTriggers::judgeOne(TriggerId trigger, BodyId body, LinkId link,
       return us != there && us == static_cast<Real>(episode.beginUs - fromUs_);
     };
     if (us < there || std::any_of(episodes.begin(), episodes.end(), isJump) ||
-        std::any_of(ofTrigger.begin(), ofTrigger.end(), isJump)) {
+        std::any_of(ofTrigger.begin(), ofTrigger.end(), isJump) || isGuessed(body, us) ||
+        isGuessed(this->body(trigger), us)) {
       continue;
     }
     const Truth truth = truthOf(trigger, body, link, us);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "judge/winding.h"
@@ -42,7 +43,7 @@ class BothTriggers {
   /// Follows until then, and adds what is told.
   void follow(std::int64_t untilUs);
   /// At so many instants, and beside every event: who is inside is told to be, or unresolved; who
-  /// is told to be is, but for twice the tolerance.
+  /// is told to be is, but for twice the tolerance. Leaves out what was guessed when it was told.
   void judge(int instants);
 
   BothWorlds both;
@@ -62,6 +63,9 @@ class BothTriggers {
   };
   [[nodiscard]] Truth truthOf(TriggerId trigger, BodyId body, LinkId link, Real us) const;
   [[nodiscard]] std::vector<Told> toldOf(TriggerId trigger, BodyId body, LinkId link);
+  /// Whether the world had, when it told of the instant, a guess of where the body is.
+  [[nodiscard]] bool isGuessed(BodyId body, Real us) const;
+  void noteGuesses(std::int64_t untilUs);
   void judgeOne(TriggerId trigger, BodyId body, LinkId link, const std::vector<Real>& instants);
   void say(const std::string& what);
 
@@ -72,6 +76,9 @@ class BothTriggers {
   TriggerEvents told_;
   std::vector<bool> areMeshes_;
   std::vector<TriggerOptions> options_;
+  /// In the order of time: a body, and from when until when nothing was known of it, though it was
+  /// taken to be somewhere, or nowhere.
+  std::vector<std::tuple<BodyId, std::int64_t, std::int64_t>> guesses_;
 };
 
 }  // namespace foretouch::test
