@@ -22,6 +22,10 @@ COUNTS = BUILD / "counts.json"
 PROGRAMS = [*KERNEL, "mechanics_tests", "solid_sample_tests", "solid_world_tests", "verify_tests", "assets_tests",
             "import_tests", "model_import_tests", "mjcf_tests", "motion_format_tests", "smpl_tests", "wire_tests",
             "vmc_tests", "network_tests", "fuzz_corpus_tests", "fuzz_vmc_tests"]
+# What is caged cannot write its counts, and so ends otherwise than these expect.
+LEFT_OUT = {"import_tests": ["ImporterCage.IsNeeded", "ImporterCage.LetsNothingSucceedThatACompromisedImporterTries",
+                             "ImporterCage.IsTheFirstToDieWhereMemoryEnds", "ImporterProcess.TakesWhatItStartedAlong",
+                             "ImporterProcess.CannotGainPrivileges"]}
 # The kernel, and what reads a stranger's bytes.
 FOLDERS = ["lss", "articulated", "tessellation", "middleware", "assets", "network/wire", "network/log",
            "network/vmc", "verify"]
@@ -34,7 +38,8 @@ def run_tests(programs, folders):
         counts.unlink()
     for program in have:
         print(f"coverage: {program}", file=sys.stderr, flush=True)
-        done = subprocess.run([BUILD / "bin" / program], env=test_environment())
+        left_out = ":".join(LEFT_OUT.get(program, []))
+        done = subprocess.run([BUILD / "bin" / program, f"--gtest_filter=-{left_out}"], env=test_environment())
         if done.returncode != 0:
             sys.exit(f"coverage: {program} fails; expected tests that pass")
     subprocess.run(["gcovr", "--root", ROOT, "--object-directory", BUILD, "--json", COUNTS,
