@@ -8,6 +8,16 @@ bool isSamePose(const RigidPose& x, const RigidPose& y) {
   return x.translation == y.translation && x.rotation.coeffs() == y.rotation.coeffs();
 }
 
+LiveChange LiveBody::carriedSince(std::int64_t utimeUs) const {
+  return {utimeUs,
+          true,
+          carriers.back().carrier,
+          carriers.back().link,
+          !isHeldFast,
+          {told.rotations[0], told.translations[0]},
+          toldUntilUs};
+}
+
 /// A pose at the very instant of a change is in the frame before it: at the first change that is
 /// heard, it must be the same pose.
 bool LiveBody::hasFrameOf(std::int64_t utimeUs, const RigidPose& pose) const {

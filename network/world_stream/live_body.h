@@ -103,6 +103,13 @@ struct LiveBody {
 
   /// Until when it is known where it is; -1: it is not there yet.
   [[nodiscard]] std::int64_t saidUntilUs() const { return std::max(knownUntilUs, stateUs); }
+  /// That what carries it, by what the world knows, does so from then on as well. Precondition: a
+  /// body carries it.
+  [[nodiscard]] LiveChange carriedSince(std::int64_t utimeUs) const;
+  /// No change of it waits to take effect by then.
+  [[nodiscard]] bool isUnchangedUntil(std::int64_t utimeUs) const {
+    return changes.empty() || changes.front().sinceUs > utimeUs;
+  }
   /// Whether a frame is known that such a pose is in.
   [[nodiscard]] bool hasFrameOf(std::int64_t utimeUs, const RigidPose& pose) const;
   /// Lets states take effect that are due at `nowUs`.

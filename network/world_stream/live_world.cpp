@@ -31,8 +31,9 @@ bool isShort(const LiveBody& body, std::int64_t untilUs) {
 
 /// Whether a change after `untilUs` must be told now: no pose comes before it, as it is due or one
 /// behind it is there, and one is needed; or a pose behind it was told as if there were no change.
+/// One that goes is there until then.
 bool isNext(const LiveBody& body, const LiveChange& change, std::int64_t untilUs) {
-  if (!body.slot || body.isHeldFast) return false;
+  if (!body.slot || body.isHeldFast || !change.isPresent) return false;
   if (body.toldUntilUs > change.sinceUs) return true;
   return isShort(body, untilUs) && (!body.knots.empty() || body.stateUs >= change.sinceUs);
 }
@@ -40,6 +41,21 @@ bool isNext(const LiveBody& body, const LiveChange& change, std::int64_t untilUs
 /// Whether its next change has ended, by the one after it, at that instant.
 bool isOver(const LiveBody& body, std::int64_t utimeUs) {
   return body.changes.size() > 1 && body.changes[1].sinceUs <= utimeUs;
+}
+
+/// Where a body is that hung on one that is gone is not known, until that is back or something else
+/// is said of the body.
+void loseCarrier(LiveBody& body, const GoneBody& gone, std::int64_t untilUs) {
+  for (std::size_t i = 0; i < body.carriers.size(); ++i) {
+    if (body.carriers[i].carrier != gone.number) continue;
+    const bool isLast = i + 1 == body.carriers.size();
+    const std::int64_t fromUs = std::max(gone.sinceUs, body.carriers[i].sinceUs);
+    const std::int64_t toUs = isLast ? untilUs : body.carriers[i + 1].sinceUs;
+    if (fromUs < toUs) body.addUnknown(kEveryLink, UndecidedReason::Gap, fromUs, toUs);
+    if (isLast && body.isUnchangedUntil(gone.sinceUs)) {
+      body.changes.push_front(body.carriedSince(gone.sinceUs));
+    }
+  }
 }
 
 RigidPose rigidPoseOf(const Pose& pose) {
@@ -128,6 +144,7 @@ void LiveWorld::tell(LiveBodies& bodies, std::int64_t untilUs) {
     tellWaiting(untilUs);
     tellDue(bodies, untilUs);
   }
+  loseRiders(bodies, untilUs);
   for (auto& [number, body] : bodies) holdShort(body, untilUs);
 }
 
@@ -195,6 +212,12 @@ void LiveWorld::tellWaiting(std::int64_t untilUs) {
   }
 }
 
+void LiveWorld::loseRiders(LiveBodies& bodies, std::int64_t untilUs) {
+  for (const GoneBody& gone : gone_) {
+    for (auto& [number, body] : bodies) loseCarrier(body, gone, untilUs);
+  }
+}
+
 /// Fills in what its stream has not said until `untilUs`.
 void LiveWorld::holdShort(LiveBody& body, std::int64_t untilUs) {
   if (!isShort(body, untilUs)) return;
@@ -208,7 +231,7 @@ void LiveWorld::holdShort(LiveBody& body, std::int64_t untilUs) {
 /// The change cannot be followed; poses beyond it may have been told as if it were none.
 void LiveWorld::markSince(LiveBody& body, const LiveChange& change, std::int64_t untilUs) {
   const bool isBeyond = body.slot && body.toldUntilUs > change.sinceUs;
-  const std::int64_t fromUs = isBeyond ? body.toldFromUs : change.sinceUs;
+  const std::int64_t fromUs = isBeyond ? std::min(body.toldFromUs, change.sinceUs) : change.sinceUs;
   if (fromUs < untilUs) body.addUnknown(kEveryLink, UndecidedReason::Gap, fromUs, untilUs);
 }
 
@@ -308,7 +331,9 @@ bool LiveWorld::takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& chang
     change.sinceUs = std::max(change.sinceUs, begunUs + 1);
   }
   bool isTaken = true;
-  if (!change.isPresent) {
+  if (!change.isPresent && change.sinceUs > untilUs) {
+    isTaken = false;
+  } else if (!change.isPresent) {
     holdUntil(body, change.sinceUs);
     retire(body, change.sinceUs);
   } else if (change.carrier == kNoBody) {
@@ -326,12 +351,7 @@ bool LiveWorld::takeChange(LiveBodies& bodies, LiveBody& body, LiveChange& chang
 bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change,
                        std::int64_t untilUs) {
   const auto carrier = bodies.find(change.carrier);
-  if (carrier == bodies.end()) {
-    ++failures_;
-    body.isElsewhere = true;
-    return true;
-  }
-  if (!carrier->second.slot) return false;
+  if (carrier == bodies.end() || !isThere(carrier->second)) return false;
   change.sinceUs = std::max(change.sinceUs, carrier->second.beginUs);
   if (change.sinceUs > untilUs && !isNext(body, change, untilUs)) return false;
   holdUntil(body, change.sinceUs);
@@ -340,8 +360,7 @@ bool LiveWorld::attach(LiveBodies& bodies, LiveBody& body, LiveChange& change,
   const Carrier by{*carrier->second.slot, change.link, change.movesInFrame};
   const Pose pose = poseOf(change.pose);
   if (!world().attach(*body.slot, by, change.sinceUs, pose).ok()) {
-    ++failures_;
-    body.isElsewhere = true;
+    notTaken(body);
     return true;
   }
   if (isNew) body.beginUs = change.sinceUs;
@@ -376,12 +395,15 @@ void LiveWorld::letGo(LiveBody& body, const LiveChange& change) {
   }
   if (!isCarried) return letGoUnheard(body, change);
   holdUntil(body, change.sinceUs);
-  if (!world().detach(*body.slot, change.sinceUs, pose).ok()) {
-    ++failures_;
-    body.isElsewhere = true;
-    return;
-  }
+  if (!world().detach(*body.slot, change.sinceUs, pose).ok()) return notTaken(body);
   changed(body, change);
+}
+
+/// For the world it goes on as before its change, which is wrong.
+void LiveWorld::notTaken(LiveBody& body) {
+  ++failures_;
+  body.isElsewhere = true;
+  body.isHeldFast = false;  // so it is said to be unknown
 }
 
 /// No body carries it since then: so one did before, which was not heard.

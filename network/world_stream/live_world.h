@@ -65,6 +65,9 @@ class LiveWorld {
   LiveWorld(const WorldSetup& setup, bool holdsStill, WorldFollower follower)
       : setup_(&setup), holdsStill_(holdsStill), follower_(std::move(follower)) {}
   [[nodiscard]] World& world() { return solids_ ? solids_->world() : *world_; }
+  [[nodiscard]] bool isThere(const LiveBody& body) const {
+    return body.slot && !slots_[slotOf(*body.slot)].goneUs;
+  }
   [[nodiscard]] Result<BodyId> add(const LiveBody& body, const BodyOptions& options);
   /// What a body has to tell next. What all bodies tell comes in the order of time: so where one is
   /// to carry another, all that came before has been told.
@@ -84,6 +87,7 @@ class LiveWorld {
   void wake(const LiveBody& carrier, std::int64_t utimeUs, std::int64_t untilUs);
   void tellDue(LiveBodies& bodies, std::int64_t untilUs);
   void tellWaiting(std::int64_t untilUs);
+  void loseRiders(LiveBodies& bodies, std::int64_t untilUs);
   void holdShort(LiveBody& body, std::int64_t untilUs);
   static void markSince(LiveBody& body, const LiveChange& change, std::int64_t untilUs);
   static void giveUp(LiveBody& body);
@@ -98,6 +102,7 @@ class LiveWorld {
   void letGo(LiveBody& body, const LiveChange& change);
   void letGoUnheard(LiveBody& body, const LiveChange& change);
   void retire(LiveBody& body, std::int64_t utimeUs);
+  void notTaken(LiveBody& body);
 
   const WorldSetup* setup_;
   bool holdsStill_;

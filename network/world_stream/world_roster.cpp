@@ -357,8 +357,13 @@ void WorldRoster::answered(std::optional<std::int64_t> utimeUs) {
 void WorldRoster::beginAnew(std::int64_t fromUs, bool keepsBodies) {
   isSetBack_ = false;
   for (auto& [number, body] : bodies_) {
-    const std::vector<LiveCarrier> carriers = std::exchange(body.carriers, {});
-    const bool isCarried = !carriers.empty() && carriers.back().carrier != kNoBody;
+    const bool isCarried = !body.carriers.empty() && body.carriers.back().carrier != kNoBody;
+    // What was announced is to come; it is forgotten with the rest where nothing is kept.
+    const std::int64_t againUs =
+        isCarried && keepsBodies ? std::max(fromUs + 1, body.carriers.back().sinceUs) : fromUs + 1;
+    LiveChange again = isCarried && keepsBodies ? body.carriedSince(againUs) : body.state;
+    again.sinceUs = againUs;
+    body.carriers.clear();
     body.slot.reset();
     body.isHeldFast = false;
     body.toldUntilUs = -1;
@@ -369,17 +374,15 @@ void WorldRoster::beginAnew(std::int64_t fromUs, bool keepsBodies) {
       body.announced.clear();
       body.unknown.clear();
       body.hasStream = false;
-      body.knownUntilUs = body.stateUs = body.backUs = -1;
+      body.knownUntilUs = body.stateUs = body.backUs = body.firstUs = -1;
       body.isSilent = false;
     } else {
       // What the world was told beyond that is forgotten with it.
       const std::int64_t toUs = body.knots.empty() ? body.knownUntilUs : body.knots.front().utimeUs;
       if (toUs > fromUs) body.addUnknown(kEveryLink, UndecidedReason::Gap, fromUs, toUs);
     }
-    if (!isCarried || !body.state.isPresent) continue;
-    LiveChange again = body.state;
-    if (again.carrier == kNoBody) continue;
-    again.sinceUs = fromUs + 1;
+    if (!isCarried || !again.hasCarrier() || !body.isUnchangedUntil(againUs)) continue;
+    body.addUnknown(kEveryLink, UndecidedReason::Gap, fromUs, againUs);
     body.changes.push_front(again);
   }
 }

@@ -388,6 +388,176 @@ TEST_F(TwoSenders, AChangeWhoseCarrierComesTooLateNeverTakesEffect) {
   EXPECT_GE(parts.back().toUs, tick(5));
 }
 
+/// Whether all of that time was listed as unknown of a body, answer by answer.
+bool isUnknownThroughout(const ToldWorld& told, BodyNumber body, std::int64_t fromUs,
+                         std::int64_t toUs) {
+  for (const UnknownPart& part : unknownOf(told, body)) {
+    if (part.fromUs <= fromUs) fromUs = std::max(fromUs, part.toUs);
+  }
+  return fromUs >= toUs;
+}
+
+BodyMessage gone(BodyNumber body, std::int64_t session, std::int64_t sinceUs) {
+  BodyMessage message = ballMessage(body, 50, session);
+  message.isPresent = false;
+  message.sinceUs = sinceUs;
+  return message;
+}
+
+TEST_F(TwoSenders, WhatAGoneBodyCarriedIsUnknownUntilThatIsBack) {
+  for (std::int64_t n = 0; n <= 3; ++n) {
+    move(1, n, 0.0);
+    move(2, n, 9.0);
+    if (n == 0) {
+      ASSERT_EQ(solver_.take(heldBy(1, 3, 0, tick(1)), tick(0) + 200), Reject::None);
+    }
+  }
+  EXPECT_TRUE(unknownOf(told_, 3).empty());
+  ASSERT_EQ(solver_.take(gone(1, 1, tick(4)), tick(3) + 200), Reject::None);
+  for (std::int64_t n = 4; n <= 10; ++n) move(2, n, 9.0);
+  ASSERT_FALSE(solver_.isThere(1));
+  ASSERT_FALSE(unknownOf(told_, 3).empty());
+  EXPECT_EQ(unknownOf(told_, 3).front().fromUs, tick(4));
+  EXPECT_TRUE(isUnknownThroughout(told_, 3, tick(4), tick(10)));
+  // Another of its number comes, at whose side two is: the ball hangs on it again.
+  BodyMessage back = ballMessage(1, 0, 7);
+  back.sinceUs = tick(11);
+  back.pose.translation = {8.4, 0.0, 0.0};
+  ASSERT_EQ(solver_.take(back, tick(10) + 200), Reject::None);
+  for (std::int64_t n = 11; n <= 14; ++n) {
+    move(1, n, 8.4);
+    move(2, n, 9.0);
+  }
+  EXPECT_EQ(unknownOf(told_, 3).back().toUs, tick(11));
+  const std::vector<ToldEvent> events = told_.events();
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().event.kind, EventKind::StartsInside);
+  EXPECT_EQ(events.back().event.a.body + events.back().event.b.body, 5);
+  EXPECT_EQ(solver_.counts().failures, 0U);
+}
+
+TEST_F(TwoSenders, WhatAGoneBodyCarriedIsKnownWhereAnotherCarriesIt) {
+  for (std::int64_t n = 0; n <= 3; ++n) {
+    move(1, n, 0.0);
+    move(2, n, 9.0);
+    if (n == 0) {
+      ASSERT_EQ(solver_.take(heldBy(1, 3, 0, tick(1)), tick(0) + 200), Reject::None);
+    }
+  }
+  ASSERT_EQ(solver_.take(gone(1, 1, tick(4)), tick(3) + 200), Reject::None);
+  ASSERT_EQ(solver_.take(heldBy(2, 3, 1, tick(7)), tick(3) + 200), Reject::None);
+  for (std::int64_t n = 4; n <= 10; ++n) move(2, n, 9.0);
+  ASSERT_FALSE(unknownOf(told_, 3).empty());
+  EXPECT_EQ(unknownOf(told_, 3).front().fromUs, tick(4));
+  EXPECT_TRUE(isUnknownThroughout(told_, 3, tick(4), tick(7)));
+  EXPECT_EQ(unknownOf(told_, 3).back().toUs, tick(7));
+}
+
+// The one that was to take it is gone by then: it is neither where it was nor there.
+TEST_F(TwoSenders, AChangeToACarrierThatIsGoneLeavesTheBodyUnknown) {
+  for (std::int64_t n = 0; n <= 3; ++n) {
+    move(1, n, 0.0);
+    move(2, n, 9.0);
+    if (n == 0) {
+      ASSERT_EQ(solver_.take(heldBy(1, 3, 0, tick(1)), tick(0) + 200), Reject::None);
+    }
+  }
+  ASSERT_EQ(solver_.take(heldBy(2, 3, 1, tick(8)), tick(3) + 200), Reject::None);
+  ASSERT_EQ(solver_.take(gone(2, 2, tick(6)), tick(3) + 300), Reject::None);
+  for (std::int64_t n = 4; n <= 14; ++n) move(1, n, 0.0);
+  ASSERT_FALSE(solver_.isThere(2));
+  ASSERT_FALSE(unknownOf(told_, 3).empty());
+  EXPECT_EQ(unknownOf(told_, 3).front().fromUs, tick(8));
+  EXPECT_TRUE(isUnknownThroughout(told_, 3, tick(8), tick(14)));
+}
+
+// Its poses are known beyond the instant at which it goes.
+TEST_F(TwoSenders, WhoGoesIsThereUntilThen) {
+  for (std::int64_t n = 0; n <= 6; ++n) {
+    move(1, n, 0.0);
+    if (n <= 2) move(2, n, 5.0);
+    if (n == 2) move(2, 20, -50.0);  // at 55 m in 0.18 s, it meets one 16 ms later
+  }
+  ASSERT_EQ(solver_.take(gone(2, 2, tick(8)), tick(6) + 200), Reject::None);
+  for (std::int64_t n = 7; n <= 10; ++n) move(1, n, 0.0);
+  bool isGone = false;
+  for (const EventsMessage& answer : told_.answers) {
+    for (const ToldEvent& event : answer.events) {
+      EXPECT_GE(event.event.time.us, answer.fromUs);
+      EXPECT_LE(event.event.time.us, answer.toUs);
+      EXPECT_FALSE(isGone) << "nothing is told of who is gone";
+      isGone = event.cause == ToldCause::BodyGone;
+    }
+  }
+  EXPECT_TRUE(isGone);
+}
+
+// A new timeline begins while the ball is with one, and is announced to be with two later.
+TEST(WorldSolver, ANewTimelineKnowsWhoCarriesWhatNotWhoWill) {
+  constexpr BodyNumber kFirst = 10, kMany = 1000;
+  WorldSolver solver = solverOf();
+  ToldWorld told;
+  for (const BodyNumber body : {1, 2, 4}) {
+    ASSERT_EQ(solver.take(ballMessage(body), kStart), Reject::None);
+  }
+  std::int64_t last = 0;
+  for (std::int64_t n = 0; n < last + 4 && n < 84; ++n) {
+    std::vector<BodyPose> poses = {ballAt(1, Vector3d::Zero()), ballAt(2, Vector3d(9.0, 0.0, 0.0)),
+                                   ballAt(4, Vector3d(0.5, 0.15, 0.0))};
+    const bool isOver = solver.counts().timelines == 2;
+    if (!isOver) last = n;
+    for (BodyNumber body = kFirst; !isOver && n % 4 == 0 && body < kFirst + kMany; ++body) {
+      BodyMessage message = ballMessage(body, n);
+      message.isPresent = n % 8 == 0;
+      message.sinceUs = tick(n);
+      message.pose.translation = {0.0, 0.0, static_cast<double>(body)};
+      ASSERT_EQ(solver.take(message, tick(n)), Reject::None) << body;
+      if (message.isPresent) poses.push_back(ballAt(body, message.pose.translation));
+    }
+    ASSERT_EQ(say(solver, rigidPoses(n, tick(n), std::move(poses))), Reject::None);
+    if (n == 0) {
+      ASSERT_EQ(solver.take(heldBy(1, 3, 0, tick(1)), tick(0) + 200), Reject::None);
+    }
+    if (n == 2) {
+      ASSERT_EQ(solver.take(heldBy(2, 3, 1, tick(95)), tick(2) + 200), Reject::None);
+    }
+    told.hear(solver);
+  }
+  ASSERT_EQ(solver.counts().timelines, 2U);
+  std::size_t touches = 0;
+  for (const EventsMessage& answer : told.answers) {
+    for (const ToldEvent& event : answer.events) {
+      const auto [one, other] = std::minmax(event.event.a.body, event.event.b.body);
+      touches += answer.timeline == 2 && one == 3 && other == 4 &&
+                 event.event.kind == EventKind::StartsInside;
+    }
+  }
+  EXPECT_EQ(touches, 1U) << "it is still beside one, where it touches four";
+}
+
+TEST(WorldSolver, AClockThatIsSetBackBeginsAnewWithTheBodiesThatAreKnown) {
+  WorldSolver solver = solverOf();
+  ToldWorld told;
+  BodyMessage state = ballMessage(1);
+  state.sinceUs = tick(0);
+  ASSERT_EQ(solver.take(state, tick(0)), Reject::None);
+  for (std::int64_t n = 0; n <= 3; ++n) {
+    ASSERT_EQ(say(solver, rigidPoses(n, tick(n), {ballAt(1, Vector3d::Zero())})), Reject::None);
+    told.hear(solver);
+  }
+  constexpr std::int64_t kBack = 10'000;  // ticks: 100 s
+  state.sequence = 1;
+  state.sinceUs = tick(4 - kBack);
+  ASSERT_EQ(solver.take(state, tick(4 - kBack)), Reject::None);
+  told.hear(solver);
+  for (std::int64_t n = 5; n <= 9; ++n) {
+    const RigidPoseMessage poses = rigidPoses(n, tick(n - kBack), {ballAt(1, Vector3d::Zero())});
+    ASSERT_EQ(say(solver, poses), Reject::None) << n;
+    told.hear(solver);
+  }
+  EXPECT_EQ(solver.counts().answeredUntilUs, tick(9 - kBack));
+}
+
 TEST(WorldSolver, AFirstPoseOfTheStatesInstantLeavesNothingUnknown) {
   for (const bool isPoseThere : {true, false}) {
     WorldSolver solver = solverOf();
