@@ -140,8 +140,12 @@ bool BothTriggers::isGuessed(BodyId body, Real us) const {
       return true;
     }
   }
-  for (const OracleEpisode& episode : both.oracle.bodies[slotOf(body)].episodes) {
-    if (episode.carrier >= 0 && isGuessed(episode.carrier, us)) return true;
+  const auto& episodes = both.oracle.bodies[slotOf(body)].episodes;
+  for (std::size_t i = 0; i < episodes.size(); ++i) {
+    const bool isNow =
+        us >= static_cast<Real>(episodes[i].beginUs - fromUs_) &&
+        (i + 1 == episodes.size() || us < static_cast<Real>(episodes[i + 1].beginUs - fromUs_));
+    if (isNow && episodes[i].carrier >= 0) return isGuessed(episodes[i].carrier, us);
   }
   return false;
 }
