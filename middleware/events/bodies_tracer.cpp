@@ -52,6 +52,13 @@ struct BodiesTracer::Asked {
   [[nodiscard]] std::vector<ListedPair>::const_iterator listed() const {
     return window.listed.begin() + static_cast<std::ptrdiff_t>(bodies.first);
   }
+  /// In the window before.
+  [[nodiscard]] bool wasAsked() const {
+    const auto groupOf = [&](BodyId id) { return world.body(id).options.group; };
+    const auto [a, b] = followed().bodies;
+    if (b == kStillScene) return window.askedBefore.hasStill(groupOf(a));
+    return a == b || window.askedBefore.has(groupOf(a), groupOf(b));
+  }
   [[nodiscard]] PairKey keyOf(const FollowedSides& side) const {
     const BodyPair& both = followed().bodies;
     return {both.a, side.links.a, both.b, side.links.b, side.object};
@@ -108,7 +115,7 @@ Result<Done> BodiesTracer::traceSpans(const Asked& asked, SpanSides& span) {
 bool BodiesTracer::isFresh(const Asked& asked, const SystemSpans& spans) {
   const TraceWindow& window = asked.window;
   const bool isBegin = spans.beginUs() == window.fromUs;
-  if (isBegin && window.isFirst) return true;
+  if (isBegin && (window.isFirst || !asked.wasAsked())) return true;
   const BodyPair& both = asked.followed().bodies;
   const BodyPair asGivenUp{both.a, both.b == both.a ? kStillScene : both.b};
   const std::vector<BodyPair>& returned = window.returnedPairs;
@@ -131,7 +138,15 @@ bool BodiesTracer::isChanged(const SystemSpans& spans) {
 /// before the window is so until it is listed.
 void BodiesTracer::enterMotion(const Asked& asked, const SystemSpans& spans) {
   FollowedBodies& followed = asked.followed();
-  if (followed.beginUs == spans.beginUs() && followed.endUs == spans.endUs()) return;
+  const auto isOf = [](const SystemMember& member, const std::pair<BodyId, std::int64_t>& known) {
+    return member.body == known.first && member.episode->beginUs == known.second;
+  };
+  const auto& now = spans.members();
+  const auto& known = followed.members;
+  if (followed.beginUs == spans.beginUs() && followed.endUs == spans.endUs() &&
+      std::equal(now.begin(), now.end(), known.begin(), known.end(), isOf)) {
+    return;
+  }
   if (part_.beginUs == asked.window.fromUs) {
     auto& sides = followed.sides;
     sides.erase(std::remove_if(sides.begin(), sides.end(),
@@ -141,6 +156,10 @@ void BodiesTracer::enterMotion(const Asked& asked, const SystemSpans& spans) {
   followed.forgetMotion();
   followed.beginUs = spans.beginUs();
   followed.endUs = spans.endUs();
+  followed.members.clear();
+  for (const SystemMember& member : now) {
+    followed.members.emplace_back(member.body, member.episode->beginUs);
+  }
 }
 
 /// False: doubles do not resolve where the bodies are, in the rest of the window.

@@ -19,6 +19,7 @@ namespace foretouch::internal {
 struct TraceWindow {
   std::int64_t fromUs = 0, toUs = 0;
   bool isFirst = false;            ///< Nothing is known of what was before.
+  GroupsAsked askedBefore;         ///< Of others nothing is known of what was before.
   std::vector<ListedPair> listed;  ///< By bodies, then by links.
   std::vector<BodyId> returned;    ///< Bodies that were unknown before: by number.
   /// Pairs given up before, and no longer now: in order. kStillScene stands for own links, too.

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "middleware/events/interval_tracer.h"
@@ -41,6 +42,8 @@ struct FollowedSides {
 struct FollowedBodies {
   BodyPair bodies;
   std::int64_t beginUs = 0, endUs = 0;  ///< The motion's; none is known if they are equal.
+  /// Its members, and since when each is carried as it is: a change may be told of later.
+  std::vector<std::pair<BodyId, std::int64_t>> members;
   std::vector<FollowedSides> sides;
   std::vector<StepPart> parts;
   /// Links whose near objects, for the rest of the motion, are among the sides.

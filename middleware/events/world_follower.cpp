@@ -93,9 +93,10 @@ struct WorldFollower::Impl {
   BodyMasses masses;
   std::optional<internal::WorldMemory> scratch{std::in_place};
   WorldContacts contacts;
-  OpenParts open, openBefore;       // the latter: as it was before the call
-  internal::FollowedList followed;  // all that is open, and more about it
-  bool isFollowedLost = false;      // a call has failed: only what is open is known
+  OpenParts open, openBefore;                // the latter: as it was before the call
+  internal::GroupsAsked asked, askedBefore;  // in the last window; as openBefore
+  internal::FollowedList followed;           // all that is open, and more about it
+  bool isFollowedLost = false;               // a call has failed: only what is open is known
   internal::FollowedLinks known;
   TraceWindow window;
   std::vector<TracedBodies> tasks;
@@ -142,6 +143,7 @@ struct WorldFollower::Impl {
       ++answer.counters.windows;
       FORETOUCH_CHECK(traceWindow(of.parts(), toUs));
       takeEvents(answer);
+      asked = of.parts().groups;
       untilUs = toUs;
     }
     open.endTime(endUs, answer.parts);
@@ -159,6 +161,7 @@ struct WorldFollower::Impl {
     try {
       openBefore = open;
       unknownBefore = unknown;
+      askedBefore = asked;
       isSaved = true;
       FORETOUCH_CHECK(followTo(of, endUs, answer));
       answer.silent = contacts.silent;
@@ -176,6 +179,7 @@ struct WorldFollower::Impl {
     if (!isSaved) return;
     std::swap(open, openBefore);
     std::swap(unknown, unknownBefore);
+    asked = askedBefore;
     isFollowedLost = true;
   }
 
@@ -183,6 +187,7 @@ struct WorldFollower::Impl {
     window.fromUs = untilUs;
     window.toUs = toUs;
     window.isFirst = untilUs == startUs;
+    window.askedBefore = asked;
     own.clear();
     listPairs();
     followed.plan(window.fromUs, window.listed, tasks);

@@ -130,7 +130,8 @@ std::optional<std::int64_t> PairAsker::freeSinceUs(BodyId id) const {
   return episode->beginUs;
 }
 
-/// Drops the pairs that the follower knows throughout, unless they are not asked in between.
+/// Drops the pairs that the follower knows throughout, unless they are not asked in between. That
+/// one was let go of where their motion begins may have been told of since.
 void PairAsker::leaveFollowed(BodyId a, BodyId b, std::vector<PlanePair>& open) const {
   if (followed_ == nullptr) return;
   const auto ofA = freeSinceUs(a), ofB = freeSinceUs(b);
@@ -144,7 +145,7 @@ void PairAsker::leaveFollowed(BodyId a, BodyId b, std::vector<PlanePair>& open) 
                                       KnownLinks{a, b, 0, 0, 0}, comesBefore);
   const auto isKnown = [&](const PlanePair& pair) {
     return std::any_of(known.first, known.second, [&](const KnownLinks& links) {
-      return begunUs <= links.sinceUs && links.linkOfA == linkOfA[slotOf(pair.i)] &&
+      return begunUs < links.sinceUs && links.linkOfA == linkOfA[slotOf(pair.i)] &&
              links.linkOfB == linkOfB[slotOf(pair.j)];
     });
   };

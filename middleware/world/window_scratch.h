@@ -49,7 +49,7 @@ struct ContactPlace {
 struct KnownLinks {
   BodyId a = 0, b = 0;
   LinkId linkOfA = 0, linkOfB = 0;
-  /// Motions that begin later are not known: those of a body that has changed its carrier.
+  /// Motions that begin there or later are not known: those of a body that has changed its carrier.
   std::int64_t sinceUs = 0;
 };
 

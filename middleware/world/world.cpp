@@ -210,8 +210,8 @@ Result<World> World::build(std::optional<Scene> still, const WorldOptions& optio
   parts->identity = newIdentity();
   parts->still = std::move(still);
   parts->options = options;
-  parts->asked.fill(~std::uint32_t{0});
-  parts->askedStill = ~std::uint32_t{0};
+  parts->groups.others.fill(~std::uint32_t{0});
+  parts->groups.still = ~std::uint32_t{0};
   return World(std::move(parts));
 }
 
@@ -324,7 +324,7 @@ Result<Done> World::ask(BodyGroup a, BodyGroup b, bool isAsked) {
   if (!isGroup(b)) return groupError(b);
   const auto set = [&](BodyGroup row, BodyGroup column) {
     const std::uint32_t bit = 1U << static_cast<unsigned>(column);
-    std::uint32_t& bits = parts_->asked[slotOf(row)];
+    std::uint32_t& bits = parts_->groups.others[slotOf(row)];
     bits = isAsked ? bits | bit : bits & ~bit;
   };
   set(a, b);
@@ -335,7 +335,8 @@ Result<Done> World::ask(BodyGroup a, BodyGroup b, bool isAsked) {
 Result<Done> World::askStill(BodyGroup group, bool isAsked) {
   if (!isGroup(group)) return groupError(group);
   const std::uint32_t bit = 1U << static_cast<unsigned>(group);
-  parts_->askedStill = isAsked ? parts_->askedStill | bit : parts_->askedStill & ~bit;
+  std::uint32_t& bits = parts_->groups.still;
+  bits = isAsked ? bits | bit : bits & ~bit;
   return Done{};
 }
 

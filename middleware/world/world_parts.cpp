@@ -149,13 +149,12 @@ std::int64_t WorldParts::chainEndUs(const std::vector<BodyId>& chain, std::int64
 
 bool WorldParts::isAsked(BodyId a, BodyId b) const {
   if (!options.askMeshes && !kindOf(a).avatar && !kindOf(b).avatar) return false;
-  const auto row = asked[slotOf(body(a).options.group)];
-  return (row >> static_cast<unsigned>(body(b).options.group) & 1U) != 0;
+  return groups.has(body(a).options.group, body(b).options.group);
 }
 
 bool WorldParts::isStillAsked(BodyId id) const {
   return still && (options.askMeshes || kindOf(id).avatar) &&
-         (askedStill >> static_cast<unsigned>(body(id).options.group) & 1U) != 0;
+         groups.hasStill(body(id).options.group);
 }
 
 }  // namespace foretouch::internal

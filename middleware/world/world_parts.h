@@ -76,6 +76,18 @@ struct WorldBody {
   [[nodiscard]] std::int64_t nextEpisodeUs(std::int64_t utimeUs) const;
 };
 
+/// Which groups are asked: World::ask(), World::askStill().
+struct GroupsAsked {
+  std::array<std::uint32_t, kNumBodyGroups> others{};  // bit b of row a
+  std::uint32_t still = 0;
+  [[nodiscard]] bool has(BodyGroup a, BodyGroup b) const {
+    return (others[slotOf(a)] >> static_cast<unsigned>(b) & 1U) != 0;
+  }
+  [[nodiscard]] bool hasStill(BodyGroup group) const {
+    return (still >> static_cast<unsigned>(group) & 1U) != 0;
+  }
+};
+
 struct WorldParts {
   std::uint64_t identity = 0;  // different for every world of the process
   std::uint64_t changes = 0;   // so far: what is kept of a world holds until the next one
@@ -85,8 +97,7 @@ struct WorldParts {
   std::size_t mostLss = 0;       // of any kind
   std::vector<PairRules> rules;  // for own links, no two alike
   std::vector<WorldBody> bodies;
-  std::array<std::uint32_t, kNumBodyGroups> asked{};  // bit b of row a
-  std::uint32_t askedStill = 0;
+  GroupsAsked groups;
   std::int64_t forgottenUs = -kMostUtimeUs - 1;
   std::int64_t thinnedUs = -kMostUtimeUs - 1;
   double thinnedBy = 0.0;  // no point has been moved farther by thinning (m)

@@ -287,6 +287,56 @@ TEST(FollowedMotions, SayNothingOfThoseThatBeginLater) {
   EXPECT_EQ(follow(world, 40 * kMs).kinds, "enter leave enter leave ");
 }
 
+/// Follows until 10 ms and until 40 ms; in between somebody says what was at 0.
+template <typename Say>
+std::string followSaying(World& world, const Say& say) {
+  WorldFollower follower = WorldFollower::start(0).value();
+  std::string kinds;
+  for (const std::int64_t us : {10 * kMs, 40 * kMs}) {
+    WorldEvents answer;
+    const auto done = follower.follow(world, us, answer);
+    EXPECT_TRUE(done.ok()) << describe(done.error());
+    for (const WorldEvent& event : answer.events) kinds += std::string(toString(event.kind)) + " ";
+    if (us == 10 * kMs) say();
+  }
+  return kinds;
+}
+
+// A change that is said late, for the very instant at which the motion began: from the pose that is
+// known on, everything about that motion is another one's.
+TEST(FollowedMotions, SayNothingOfWhomAnotherCarriedSinceTheirBegin) {
+  World world = World::build(std::nullopt).value();
+  const BodyId flying = world.add(ball(0.01)).value(), carrier = world.add(ball(0.01)).value();
+  const BodyId post = world.add(ball(0.01)).value();
+  for (const std::int64_t us : {-20 * kMs, std::int64_t{0}, 40 * kMs}) {
+    ASSERT_TRUE(world.push(post, us, at(0.0)).ok());
+    ASSERT_TRUE(world.push(flying, us, at(us > 0 ? 1.0 : 0.015)).ok());  // it leaves at once
+    ASSERT_TRUE(world.push(carrier, us, at(us > 0 ? -1.0 : 1.0, 1)).ok());
+  }
+  stand(world, world.add(ball(0.01)).value(), at(50), 40 * kMs, 10 * kMs);
+  const std::string kinds = followSaying(world, [&] {
+    ASSERT_TRUE(world.attach(flying, {carrier, 0}, 0, at(0, -1)).ok());
+  });
+  EXPECT_EQ(kinds, "starts_inside leave enter leave ");  // at 20 ms
+}
+
+TEST(FollowedMotions, SayNothingOfWhoWasLetGoOfAtTheirBegin) {
+  World world = World::build(std::nullopt).value();
+  const BodyId carrier = world.add(ball(0.01)).value(), carried = world.add(ball(0.01)).value();
+  const BodyId post = world.add(ball(0.01)).value();
+  for (const std::int64_t us : {-20 * kMs, std::int64_t{0}, 40 * kMs}) {
+    ASSERT_TRUE(world.push(post, us, at(0.0)).ok());
+    ASSERT_TRUE(world.push(carrier, us, at(us > 0 ? 1.0 : 0.015, 1)).ok());
+  }
+  ASSERT_TRUE(world.attach(carried, {carrier, 0}, -20 * kMs, at(0, -1)).ok());
+  stand(world, world.add(ball(0.01)).value(), at(50), 40 * kMs, 10 * kMs);
+  const std::string kinds = followSaying(world, [&] {
+    ASSERT_TRUE(world.detach(carried, 0, at(1.0)).ok());
+    ASSERT_TRUE(world.push(carried, 40 * kMs, at(-1.0)).ok());
+  });
+  EXPECT_EQ(kinds, "starts_inside leave enter leave ");
+}
+
 // A limb that lies over hundreds of triangles, 2 mm above them, while its heel is on the floor: all
 // are as near throughout, and to cut the time would be to look at each in each part.
 TEST(FollowedMotions, SearchAmongManyTrianglesInFewLooks) {

@@ -63,6 +63,26 @@ std::string kindsOf(const WorldEvents& answer) {
   return kinds;
 }
 
+// Who is looked at again touches since nobody knows when; who was free before enters.
+TEST(WorldFollower, WhatTouchesWhereGroupsAreAskedAgainStartsInside) {
+  World world = worldOf(sheets({0.05}, false));
+  const BodyId one = world.add(ball(0.1)).value(), other = world.add(ball(0.1)).value();
+  for (const int i : {0, 1, 2, 3}) {
+    ASSERT_TRUE(world.push(one, 10'000 * i, at(0.0)).ok());
+    ASSERT_TRUE(world.push(other, 10'000 * i, at(0.0, 0.15)).ok());
+  }
+  WorldFollower follower = followerFrom(0);
+  const auto ask = [&](bool isAsked) {
+    ASSERT_TRUE(world.ask(0, 0, isAsked).ok());
+    ASSERT_TRUE(world.askStill(0, isAsked).ok());
+  };
+  ask(false);
+  EXPECT_EQ(kindsOf(followed(follower, world, 10'000)), "");
+  ask(true);
+  EXPECT_EQ(kindsOf(followed(follower, world, 30'000)),
+            "starts_inside starts_inside starts_inside ");
+}
+
 // Two balls of 10 cm; one flies through the other at 10 m/s: they touch from 80 ms to 120 ms.
 TEST(WorldFollower, TellsWhenWhereAndHowHardTwoMeet) {
   World world = worldOf();
