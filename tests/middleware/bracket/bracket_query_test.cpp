@@ -334,6 +334,26 @@ TEST_F(BallOverPlate, RefusesBoundsThatAreNone) {
   EXPECT_FALSE(query_.lookAhead(step, -1.0, {LinkBound{}}, scratch_, brackets_).ok());
 }
 
+TEST(BracketQuery, RefusesWhatIsNotOfItsAvatar) {
+  const auto ballsOf = [](int count) {
+    RawSkeleton raw;
+    std::vector<std::vector<Lss>> lss;
+    for (int i = 0; i < count; ++i) {
+      raw.joints.push_back(
+          {"b" + std::to_string(i), kNoParent, Vector3d(i, 0, 0), Quaternion::Identity()});
+      lss.push_back({{Vector3d::Zero(), Vector3d::Zero(), kRadius}});
+    }
+    return Avatar::build(Skeleton::build(raw).value(), lss).value();
+  };
+  const Avatar one = ballsOf(2), other = ballsOf(3);
+  BracketOptions options;
+  options.self = PairRules::derive(other).value();
+  EXPECT_EQ(BracketQuery::build(one, plate(), options).error().file, "self");
+  options = {};
+  options.surface = AvatarSurface::build(other, {{}, {}, {}}).value();
+  EXPECT_EQ(BracketQuery::build(one, plate(), options).error().file, "surface");
+}
+
 TEST(OwnLinks, BothGrowthsAdd) {
   RawSkeleton raw;
   raw.joints = {{"a", kNoParent, Vector3d::Zero(), Quaternion::Identity()},

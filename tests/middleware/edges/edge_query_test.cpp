@@ -293,6 +293,40 @@ TEST(EdgeQuery, TellsWhatIsWrongWithQ) {
             Verdict::StartsInContact);
 }
 
+// A joint that a gear turns two thousand times: nothing is claimed of it.
+TEST(EdgeQuery, ClaimsNothingOfAnEdgeThatIsTooLong) {
+  std::vector<RobotJoint> joints = arm().joints();
+  joints[2].mimicOf = 1;
+  joints[2].mimicFactor = 125.0;
+  joints[2].lower = -RobotJoint::kUnlimited;
+  joints[2].upper = RobotJoint::kUnlimited;
+  const Robot robot = Robot::build(arm().avatar(), joints).value();
+  const std::size_t n = robot.coordinates().size();
+  const auto edges = EdgeQuery::build(robot, wires({{50.0, 0.0}}).scene).value();
+  Scratch scratch;
+  const std::vector<double> home(n, 0.0), near(n, 90.0), far(n, 100.0);
+  EXPECT_EQ(edges.answer(home, near, scratch).value().verdict, Verdict::Clear);
+  const auto answer = edges.answer(home, far, scratch).value();
+  EXPECT_EQ(answer.verdict, Verdict::Undecided);
+  EXPECT_EQ(answer.reason, UndecidedReason::Resolution);
+  EXPECT_EQ(answer.freeUntil, 0.0);
+  EXPECT_EQ(edges.clearance(home.data(), far.data(), n, scratch).error().code,
+            ErrorCode::LimitExceeded);
+  std::vector<double> all;
+  for (const auto* q : {&home, &near, &home, &far}) all.insert(all.end(), q->begin(), q->end());
+  const auto path = robot.pathAlong(all.data(), 4);
+  ASSERT_FALSE(path.ok());
+  EXPECT_EQ(path.error().index, 2) << "the third edge";
+}
+
+TEST(EdgeQuery, RefusesRulesOfAnotherAvatar) {
+  EdgeOptions options;
+  options.self = PairRules::derive(arm().avatar()).value();
+  const auto edges = EdgeQuery::build(arm(), wires({{50.0, 0.0}}).scene, options);
+  ASSERT_FALSE(edges.ok());
+  EXPECT_EQ(edges.error().file, "self");
+}
+
 TEST(Robot, RefusesLimitsTheWrongWayRound) {
   const Robot robot = arm();
   std::vector<RobotJoint> joints = robot.joints();

@@ -651,6 +651,73 @@ TEST(WorldFollower, RefusesWhatItCannotFollow) {
   EXPECT_EQ(unknown.error().index, 7);
 }
 
+/// Two arms that hang side by side on a trunk, each of them a rod.
+Avatar twoArms() {
+  RawSkeleton raw;
+  raw.joints = {{"trunk", kNoParent, Vector3d::Zero(), Quaternion::Identity()},
+                {"left", 0, Vector3d(-0.3, 0, 0), Quaternion::Identity()},
+                {"right", 0, Vector3d(0.3, 0, 0), Quaternion::Identity()}};
+  const Lss arm{Vector3d::Zero(), Vector3d(0, -0.6, 0), 0.04};
+  return Avatar::build(Skeleton::build(raw).value(),
+                       {{{Vector3d(0, 0.2, 0), Vector3d(0, 0.5, 0), 0.1}}, {arm}, {arm}})
+      .value();
+}
+
+// Own links meet by the mass of one body, whose trunk gives way to both.
+TEST(WorldFollower, WeighsOwnLinksThatMeet) {
+  World world = worldOf();
+  const Avatar avatar = twoArms();
+  BodyOptions options;
+  options.self = PairRules::asking(avatar, {{1, 2}}).value();
+  const BodyId body = world.add(avatar, options).value();
+  Pose pose = restPose(avatar.skeleton());
+  ASSERT_TRUE(world.push(body, 0, pose).ok());
+  const auto turned = [](double angle) {
+    return Quaternion(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
+  };
+  pose.rotations[1] = turned(0.8);
+  pose.rotations[2] = turned(-0.8);
+  ASSERT_TRUE(world.push(body, 100'000, pose).ok());
+  WorldFollower follower = followerFrom(0);
+  const std::vector<Mass> masses = massesOfLinks(avatar, 70.0).value();
+  ASSERT_TRUE(follower.weigh(body, AvatarMass::build(avatar.skeleton(), masses).value()).ok());
+  const WorldEvents answer = followed(follower, world, 100'000);
+  ASSERT_EQ(kindsOf(answer), "enter ");
+  const WorldEvent& enter = answer.events[0];
+  // Where the arms are then, by hand.
+  const double angle = 0.8 * microsecondsAfter(0, enter.time) / 100'000.0;
+  AvatarMass mass = AvatarMass::build(avatar.skeleton(), masses).value();
+  std::vector<LinkState> states(3);
+  for (const int side : {1, 2}) {
+    states[slotOf(side)].p_WL = Vector3d(side == 1 ? -0.3 : 0.3, 0, 0);
+    states[slotOf(side)].R_WL = turned(side == 1 ? angle : -angle).toRotationMatrix();
+  }
+  mass.place(states);
+  const Vector3d n = enter.nhat_BA_W;
+  const double inverse = n.dot(mass.inverseMassBetween(1, enter.a.p_W, 2, enter.b.p_W) * n);
+  EXPECT_NEAR(enter.effectiveMass, 1.0 / inverse, 1e-6 / inverse);
+  EXPECT_LT(enter.effectiveMass, 35.0);
+}
+
+TEST(WorldFollower, RefusesTheMassOfAnotherAvatar) {
+  World world = worldOf();
+  const Avatar avatar = twoArms();
+  const BodyId one = world.add(avatar).value(), rigid = world.add(ball(0.1)).value();
+  ASSERT_TRUE(world.push(one, 0, restPose(avatar.skeleton())).ok());
+  ASSERT_TRUE(world.push(one, 1'000, restPose(avatar.skeleton())).ok());
+  for (const std::int64_t us : {0, 1'000}) ASSERT_TRUE(world.push(rigid, us, at(5.0)).ok());
+  const std::vector<Mass> masses = massesOfLinks(avatar, 70.0).value();
+  WorldFollower follower = followerFrom(0);
+  EXPECT_FALSE(follower.weigh(-1, AvatarMass::build(avatar.skeleton(), masses).value()).ok());
+  ASSERT_TRUE(follower.weigh(rigid, AvatarMass::build(avatar.skeleton(), masses).value()).ok());
+  WorldEvents answer;
+  const auto done = follower.follow(world, 1'000, answer);
+  ASSERT_FALSE(done.ok());
+  EXPECT_EQ(done.error().code, ErrorCode::Mismatch);
+  EXPECT_EQ(done.error().index, rigid);
+  EXPECT_EQ(follower.followedUntilUs(), 0);
+}
+
 TEST(WorldFollower, RefusesMoreCutsThanItCouldEverFollow) {
   World world = worldOf();
   const BodyId old = world.add(ball(0.1), holdingStill()).value();

@@ -483,6 +483,37 @@ TEST_P(NearFeaturesTest, OfTrianglesWithoutAreaAndOfBareLinks) {
   }
 }
 
+// A link of many balls, each with a corner of its own beside it.
+TEST(NearQueries, KeepTheNearestWhereALinkHasTooMany) {
+  RawScene raw;
+  raw.objectNames = {"spikes"};
+  RawSkeleton skeleton;
+  skeleton.joints = {{"row", kNoParent, Vector3d::Zero(), Quaternion::Identity()}};
+  std::vector<Lss> balls;
+  constexpr int kBalls = 400;
+  for (int i = 0; i < kBalls; ++i) {
+    const Vector3d middle(3.0 * i, 0.0, 0.0);
+    const Vector3d out(0.0, std::cos(2.4 * i), std::sin(2.4 * i)), side(0.001, 0.0, 0.0);
+    const double far = 0.3 + 1e-4 * i;
+    balls.push_back({middle, middle, 0.1});
+    raw.triangles.push_back(
+        {{middle + far * out, middle + 2.0 * far * out + side, middle + 2.0 * far * out - side}});
+    raw.objectOf.push_back(0);
+  }
+  const Scene scene = Scene::build(std::move(raw)).value();
+  const Avatar row = Avatar::build(Skeleton::build(skeleton).value(), {balls}).value();
+  const NearQuery query = NearQuery::build(row, scene).value();
+  const auto all = nearOf(query, {LinkState()}, 1.0, NearDetail::All);
+  EXPECT_FALSE(all.links[0].hadMore);
+  EXPECT_EQ(all.features.size(), 1u * kBalls);
+  const auto near = nearOf(query, {LinkState()}, 1.0);
+  ASSERT_EQ(near.features.size(), kMostNearPerLink);
+  EXPECT_TRUE(near.links[0].hadMore);
+  for (const NearFeature& feature : near.features) {
+    EXPECT_LT(feature.gap, 0.2 + 1e-4 * static_cast<double>(kMostNearPerLink));
+  }
+}
+
 TEST(NearQueries, RefuseIgnoredPairsOfNobody) {
   const Scene scene = Scene::build(board(1, 1.0)).value();
   const Avatar avatar = single({{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, 0.04});

@@ -225,6 +225,36 @@ TEST(SolidWorld, AHeldToolStopsWhereItTouches) {
   EXPECT_GT(reached[1], 0.05);
 }
 
+// A stick of two pieces, the second carried by the first: as far as the one above.
+TEST(SolidWorld, WhatAToolHoldsIsHeld) {
+  RawScene room = floorOnly();
+  addSheet(room, {-3, -0.1, -1.1}, {6, 0, 0}, {0, 3, 0});
+  TogetherRunner run(room);
+  const BodyId person = run.addSolid(figure());
+  const BodyId handle = run.addMover(ofLss({{0, 0, 0}, {0.2, 0, 0}, 0.015}));
+  const BodyId blade = run.addMover(ofLss({{0, 0, 0}, {0.3, 0, 0}, 0.015}));
+  const auto hand = static_cast<LinkId>(*figure().skeleton().find("LeftHand"));
+  const auto reaching = [](double yaw) {
+    Pose pose = restPose(figure().skeleton());
+    pose.rotations[static_cast<std::size_t>(*figure().skeleton().find("LeftArm"))] =
+        about(Vector3d::UnitY(), yaw);
+    return pose;
+  };
+  run.moveTo(handle, RigidPose{Quaternion::Identity(), {2, 3, 2}});
+  run.moveTo(blade, RigidPose{Quaternion::Identity(), {-2, 3, 2}});
+  run.follow(person, reaching(0.0));
+  run.tick();
+  run.take(handle, person, hand, {Quaternion::Identity(), {0.1, 0, 0}});
+  run.take(blade, handle, 0, {Quaternion::Identity(), {0.2, 0, 0}});
+  for (int i = 0; i < 90; ++i) {
+    run.follow(person, reaching(std::min(kPi / 2, 0.03 * i)));
+    run.tick();
+  }
+  EXPECT_EQ(run.violations(), 0u);
+  EXPECT_EQ(run.of(person).tools, (std::vector<BodyId>{handle, blade}));
+  EXPECT_GT(run.of(person).tick.deviation, 0.05);
+}
+
 TEST(SolidWorld, WhatIsTakenWhereItTouchesIsLooseUntilItIsApart) {
   RawScene room = floorOnly();
   addBox(room, {0.55, 0.0, -0.3}, {1.2, 1.25, 0.3});  // a table below the left hand
@@ -406,6 +436,30 @@ TEST(SolidWorld, RefusesAPoseThatSomebodyElsePushed) {
   ASSERT_TRUE(world.tick(1000, {{person, &target}}, ticks).ok());
   ASSERT_TRUE(world.world().push(person, 1500, target).ok());
   EXPECT_NE(messageOf(world.tick(2000, {}, ticks)).find("ticks alone"), std::string::npos);
+}
+
+TEST(SolidWorld, RefusesWhoIsCarriedAndHandsThatChangeOnTheWay) {
+  SolidWorld world = SolidWorld::build(Scene::build(floorOnly()).value(), 0).value();
+  const BodyId person = world.add(figure()).value();
+  const BodyId ball = world.world().add(ofLss({{0, 0, 0}, {0, 0, 0}, 0.1})).value();
+  const Pose target = standing({0, 0, 0});
+  const RigidPose far{Quaternion::Identity(), {3, 1, 0}};
+  for (const std::int64_t us : {0, 9000}) ASSERT_TRUE(world.world().push(ball, us, far).ok());
+  std::vector<SolidBodyTick> ticks;
+  ASSERT_EQ(messageOf(world.tick(1000, {{person, &target}}, ticks)), "ok");
+  ASSERT_TRUE(world.world().attach(ball, {person, 3, false}, 1500, far).ok());
+  EXPECT_NE(messageOf(world.tick(2000, {}, ticks)).find("body 1 changes hands at 1500 us"),
+            std::string::npos);
+  EXPECT_EQ(world.utimeUs(), 1000);
+  EXPECT_EQ(&world.world(), &static_cast<const SolidWorld&>(world).world());
+  SolidWorld other = SolidWorld::build(Scene::build(floorOnly()).value(), 0).value();
+  const BodyId lift = other.world().add(ofLss({{0, 0, 0}, {0, 0, 0}, 0.1})).value();
+  const BodyId rider = other.add(figure()).value();
+  for (const std::int64_t us : {0, 9000}) ASSERT_TRUE(other.world().push(lift, us, far).ok());
+  ASSERT_EQ(messageOf(other.tick(1000, {{rider, &target}}, ticks)), "ok");
+  ASSERT_TRUE(other.world().attach(rider, {lift, 0, true}, 1000, target).ok());
+  EXPECT_NE(messageOf(other.tick(2000, {}, ticks)).find("is a solid avatar and carried"),
+            std::string::npos);
 }
 
 TEST(SolidWorld, WhoBeginsWhereOthersAreIsPlacedBesideThem) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "middleware/scene/box_triangles.h"
+#include "middleware/triggers/presence.h"
 #include "tests/middleware/balls.h"
 #include "tests/middleware/triggers/both_triggers.h"
 #include "tests/middleware/world/random_worlds.h"
@@ -599,6 +600,50 @@ TEST(Triggers, WhatASilentBodyCarriesIsUnresolved) {
   EXPECT_EQ(both.events[1].time.us, 30'000);
   ASSERT_EQ(both.triggers.occupants().size(), 1u);
   EXPECT_TRUE(both.triggers.occupants()[0].isUnresolved);
+}
+
+// A trigger that is silent says so of everyone, and that it is over.
+TEST(Triggers, ASilentTriggerIsUnresolvedForAll) {
+  BothTriggers both(kTolerance, 0);
+  const BodyId one = both.both.add(test::ball(0.1)), other = both.both.add(test::ball(0.1));
+  TriggerOptions undecided;
+  undecided.whenSilent = WhenSilent::Undecided;
+  const TriggerId globe = both.add(test::plainSphere(0.5), undecided);
+  for (int i = 0; i <= 10; ++i) {
+    both.both.push(one, 10'000 * i, at(9.0));
+    both.both.push(other, 10'000 * i, at(-9.0));
+  }
+  for (const std::int64_t us : {0, 10'000}) both.both.push(both.body(globe), us, at(0));
+  both.follow(20'000);
+  ASSERT_EQ(said(both.events), "unresolved_from 0, unresolved_from 0");
+  both.both.push(both.body(globe), 30'000, at(0));
+  both.follow(30'000);
+  ASSERT_EQ(said(both.events),
+            "unresolved_from 0, unresolved_from 0, unresolved_to 0, unresolved_to 0");
+  EXPECT_EQ(both.events[2].time.us, 20'000);
+  EXPECT_EQ(both.events[2].since.us, 10'000);
+  EXPECT_TRUE(both.triggers.occupants().empty());
+  const auto late = both.triggers.watch(both.both.world, globe, {one, 0});
+  ASSERT_FALSE(late.ok()) << "its events were told";
+  EXPECT_EQ(late.error().index, globe);
+}
+
+TEST(PresenceSpans, WhatIsInsideComesBeforeWhatIsUnresolved) {
+  using internal::Presence;
+  using internal::PresenceSpan;
+  const auto span = [](std::int64_t from, std::int64_t to, Presence presence, LinkId link) {
+    return PresenceSpan{{from, 0.0}, {to, 0.0}, presence, link};
+  };
+  std::vector<PresenceSpan> memory,
+      spans = {span(0, 90, Presence::Unresolved, 0), span(40, 50, Presence::Inside, 1),
+               span(20, 30, Presence::Inside, 2)};
+  internal::unite(spans, memory);
+  std::string all;
+  for (const PresenceSpan& each : spans) {
+    all += std::to_string(each.from.us) + (each.presence == Presence::Inside ? " in " : " ? ") +
+           std::to_string(each.to.us) + ", ";
+  }
+  EXPECT_EQ(all, "0 ? 20, 20 in 30, 30 ? 40, 40 in 50, 50 ? 90, ");
 }
 
 // A whole stretch of silence, in which the carrier has come in.
