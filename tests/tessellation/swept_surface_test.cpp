@@ -372,6 +372,24 @@ TEST(SweptSurface, RefusesWhatItCannotCertify) {
   EXPECT_FALSE(surfaceOf(c, options).ok());
 }
 
+TEST(SweptSurface, SaysWhatAnErrorIsTooSmallFor) {
+  const auto refusal = [](const Lss& lss, double error, CoordinateBits bits) {
+    SweptSurfaceOptions options;
+    options.error = error;
+    options.bits = bits;
+    const auto built = surfaceOf(turningCase(0.0, lss, {}), options);
+    return built.ok() ? std::string("accepted") : built.error().message;
+  };
+  const auto ball = [](double x, double radius) { return Lss{{x, 0, 0}, {x, 0, 0}, radius}; };
+  const auto has = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text << "; expected " << part;
+  };
+  has(refusal(ball(0, 1e4), 1e-9, CoordinateBits::Double), "a radius this large");
+  has(refusal(ball(9e5, 0.1), 1e-3, CoordinateBits::Single), "single-precision coordinates");
+  has(refusal(ball(9e6, 1e-5), 1e-8, CoordinateBits::Double), "poses this far from the origin");
+  EXPECT_EQ(refusal(ball(0, 0.1), 1e-3, CoordinateBits::Single), "accepted");
+}
+
 TEST(SweptSurface, TimesRunThroughTheSpans) {
   const SweepCase c = sweepCase(11);
   const auto surface = surfaceOf(c, {});

@@ -285,6 +285,34 @@ TEST(Ask, RefusesByName) {
   EXPECT_NE(fly(Vector3d::UnitX(), 500).find("to_us"), std::string::npos);
 }
 
+// A body that comes in a flight's time and is silent before its end: both are told, each once.
+TEST(Ask, AFlightTellsEachReasonWhyABodyIsUnknown) {
+  World world = World::build(std::nullopt).value();
+  BodyOptions undecided;
+  undecided.whenSilent = WhenSilent::Undecided;
+  const BodyId carrier = world.add(rod(), undecided).value(), clock = world.add(rod()).value();
+  const BodyId carried = world.add(rod()).value();
+  const auto far = [](double y) { return RigidPose{Quaternion::Identity(), Vector3d(0, y, 90)}; };
+  for (int i = 0; i <= 5; ++i) ASSERT_TRUE(world.push(clock, 10'000 * i, far(0)).ok());
+  for (const int i : {1, 2}) ASSERT_TRUE(world.push(carrier, 10'000 * i, far(5)).ok());
+  ASSERT_TRUE(world.attach(carried, {carrier, 0, false}, 10'000, far(0)).ok());
+  ASSERT_TRUE(world.push(carrier, 30'000, far(5)).ok());
+  FlightQuestion flight;
+  flight.shape = {Vector3d(0, 500, 0), Vector3d(0, 500, 0), 0.1};
+  flight.way = Vector3d(1, 0, 0);
+  flight.toUs = 50'000;
+  Scratch scratch;
+  FlightAnswer flown;
+  ASSERT_TRUE(askFlight(world, flight, scratch, flown).ok());
+  std::string all;
+  for (const UnknownBody& body : flown.unknown) {
+    all += std::to_string(body.body) + (body.why == AskUnknown::NotThere ? " absent, "
+                                        : body.why == AskUnknown::Silent ? " silent, "
+                                                                         : " other, ");
+  }
+  EXPECT_EQ(all, "0 absent, 0 silent, 2 absent, 2 silent, ");
+}
+
 // A flight keeps a body's boxes piece after piece, and has more pieces than are kept.
 TEST(Ask, AFlightThroughManyPosesLeavesTheNextQuestionItsHit) {
   World world = World::build(std::nullopt).value();

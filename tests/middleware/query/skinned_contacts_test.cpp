@@ -180,6 +180,8 @@ TEST(SkinnedSurface, RefusesWhatIsNoSkinOfTheAvatar) {
             "skin vertex 2: expected weights that sum to one");
   EXPECT_EQ(refused([](Skin& s, Counts&) { s.triangles[0][2] = 3; }),
             "skin triangle 0: expected vertices of the skin");
+  EXPECT_EQ(refused([](Skin& s, Counts&) { s.vertices[0][0].p_L.x() = 1.1e7; }),
+            "skin vertex 0: expected coordinates within 1e7 m");
   EXPECT_NE(refused([](Skin&, Counts& c) { c = {1, 1}; }).find("link's number"), std::string::npos);
   EXPECT_NE(refused([](Skin& s, Counts&) { s.triangles.clear(); }).find("expected 1 to"),
             std::string::npos);

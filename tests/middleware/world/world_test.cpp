@@ -360,6 +360,55 @@ TEST(World, RefusesSurfacesOfOthers) {
   EXPECT_EQ(smaller.error().file, "self");
 }
 
+// What a mesh carries: a body that is held fast is not asked about it; of one that moves there, the
+// links beyond its root are.
+TEST(World, AMeshIsNotAskedAboutWhoStandsOnIt) {
+  RawSkeleton raw;
+  raw.joints = {{"foot", kNoParent, Vector3d::Zero(), Quaternion::Identity()},
+                {"hand", 0, Vector3d(0, 0.5, 0), Quaternion::Identity()}};
+  const Lss ball{Vector3d::Zero(), Vector3d::Zero(), 0.1};
+  const Avatar avatar = Avatar::build(Skeleton::build(raw).value(), {{ball}, {ball}}).value();
+  for (const bool moves : {false, true}) {
+    World world = emptyWorld();
+    const BodyId lift = world.add(wall()).value(), rider = world.add(avatar).value();
+    for (const int us : {0, 100}) ASSERT_TRUE(world.push(lift, us, at(0.01 * us)).ok());
+    const Pose inside = restPose(avatar.skeleton());
+    ASSERT_TRUE(world.attach(rider, {lift, 0, moves}, 0, inside).ok());
+    if (moves) {
+      ASSERT_TRUE(world.push(rider, 100, inside).ok());
+    }
+    const WorldContacts answer = answerOf(world, 0, 100);
+    ASSERT_EQ(answer.contacts.size(), moves ? 1u : 0u);
+    if (moves) {
+      EXPECT_EQ(answer.contacts[0].verdict, Verdict::StartsInContact);
+      const ContactSide& side =
+          answer.contacts[0].a.body == rider ? answer.contacts[0].a : answer.contacts[0].b;
+      EXPECT_EQ(side.link, 1);
+    }
+  }
+}
+
+TEST(World, KeepsAlikeRulesOnce) {
+  World world = emptyWorld();
+  RawSkeleton raw;
+  for (const char* name : {"a", "b", "c"}) {
+    raw.joints.push_back({name, kNoParent, Vector3d::Zero(), Quaternion::Identity()});
+  }
+  const Lss ball{Vector3d::Zero(), Vector3d::Zero(), 0.1};
+  const Avatar avatar =
+      Avatar::build(Skeleton::build(raw).value(), {{ball}, {ball}, {ball}}).value();
+  const auto add = [&](std::vector<LeftOutPair> leftOut) {
+    BodyOptions options;
+    options.self = PairRules::leavingOut(avatar, std::move(leftOut), {}).value();
+    EXPECT_TRUE(world.add(avatar, options).ok());
+    return world.parts().rules.size();
+  };
+  EXPECT_EQ(add({{0, 1, PairReason::User}}), 1u);
+  EXPECT_EQ(add({{0, 1, PairReason::User}}), 1u);
+  EXPECT_EQ(add({{0, 2, PairReason::User}}), 2u);
+  EXPECT_EQ(add({{0, 1, PairReason::User}, {1, 2, PairReason::User}}), 3u);
+}
+
 // Two walls that cross, and a still one: nothing is said of them unless the world asks meshes.
 TEST(World, AsksMeshesWhereItIsTold) {
   for (const bool asksMeshes : {false, true}) {
