@@ -6,6 +6,7 @@
 
 #include "articulated/try.h"
 #include "lss/index.h"
+#include "lss/rounding.h"
 #include "middleware/solid_world/solid_body.h"
 #include "middleware/world/world_parts.h"
 
@@ -275,8 +276,9 @@ class SolidWorld::Parts {
         const internal::SolidBody& other = *solidOf(moved.body);
         if (moved.body == tick.body || moved.tick.numWay == 0 || !one.isPlaced()) continue;
         if (!parts().isAsked(one.id(), other.id()) || !other.isPlaced()) continue;
-        if (one.trace().box().exteriorDistance(other.trace().box()) > other.proven()) continue;
-        tick.tick.clearance = std::min(tick.tick.clearance, other.proven());
+        const double ofBoxes = one.trace().box().exteriorDistance(other.trace().box());
+        const double apart = std::max(other.proven(), ofBoxes / internal::kInflation);
+        tick.tick.clearance = std::min(tick.tick.clearance, apart);
       }
     }
   }
