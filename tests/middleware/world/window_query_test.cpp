@@ -186,11 +186,13 @@ TEST(WindowQuery, LeavesOutWhomTheFollowerKnows) {
         asker.answer.contacts.begin(), asker.answer.contacts.end(),
         [](const auto& contact) { return contact.a.body == 0 && contact.b.body == 1; });
   };
-  FollowedLinks both, others;
-  both.pairs = {{0, 1, 0, 0}};
+  FollowedLinks both, fromTheFirst, others;
+  both.pairs = {{0, 1, 0, 0, kMs}};
+  fromTheFirst.pairs = {{0, 1, 0, 0, 0}};  // where the two appear: it may have been told since
   others.pairs = {{0, 1, 0, 1}, {0, 2, 0, 0}, {1, 2, 0, 0}};
   EXPECT_TRUE(isTold(4 * kMs, 6 * kMs, nullptr));
   EXPECT_TRUE(isTold(4 * kMs, 6 * kMs, &others));
+  EXPECT_TRUE(isTold(4 * kMs, 6 * kMs, &fromTheFirst));
   EXPECT_FALSE(isTold(4 * kMs, 6 * kMs, &both));
   const BodyId hand = world.add(ball(0.1)).value();
   ASSERT_TRUE(world.push(hand, 0, at(9.0)).ok());
